@@ -10,6 +10,7 @@ mod files;
 mod hardness;
 mod importer;
 mod law_list;
+mod master;
 mod materials;
 mod merge;
 mod messages;

@@ -2,9 +2,8 @@
 
 mod apart;
 mod bounded_output;
-mod master;
+mod impact;
 mod oblique;
-mod row;
 mod trial;
 
 use crate::files::FileError;
@@ -14,7 +13,7 @@ use brinell_exporter::layout::{harmless, json_line, paragraph, shown, without_mi
 use brinell_exporter::mistake::SceneError;
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::scene::Scene;
-use master::STEPS_PER_CONTACT;
+use impact::STEPS_PER_CONTACT;
 use serde::Serialize;
 use std::fmt::Formatter;
 use std::io;
@@ -123,6 +122,25 @@ pub struct ImpactNumbers {
     pub speed: f64,
 }
 
+/// One quantity, predicted and from the co-simulation. Those of an oblique impact are predicted by the springs of the
+/// library.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    pub quantity: &'static str,
+    pub unit: &'static str,
+    pub predicted: f64,
+    pub simulated: f64,
+    /// Difference relative to the predicted value or to `scale`.
+    pub difference: f64,
+}
+
+impl Row {
+    /// A row whose difference is relative to `scale`.
+    fn new(quantity: &'static str, unit: &'static str, predicted: f64, simulated: f64, scale: f64) -> Row {
+        Row { quantity, unit, predicted, simulated, difference: (simulated - predicted) / scale }
+    }
+}
+
 /// Loads the FMU at `path` and runs the impact of its scene.
 ///
 /// # Errors
@@ -139,7 +157,7 @@ fn check(path: &Path) -> Result<Outcome, CheckError> {
 fn try_out(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, ImportError> {
     let description = &archive.description;
     let unit = archive.load()?;
-    let trial = |group| Trial::run(&mut unit.instantiate()?, description, scene, group);
+    let trial = |group| Trial::run(archive, &unit, scene, group);
     let trials = (0..scene.contacts.len()).map(trial).collect::<Result<Vec<_>, ImportError>>()?;
     let (plain, contacts): (Vec<_>, Vec<_>) = trials.into_iter().partition(|trial| trial.contact.is_none());
     let wrong_starts = wrong_starts(&mut unit.instantiate()?, description)?;

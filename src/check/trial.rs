@@ -1,9 +1,9 @@
 //! The impact of a scene on one contact of its FMU, compared with the prediction.
 
-use super::master::{Master, STEPS_PER_CONTACT, Simulated};
-use super::oblique;
-use super::row::Row;
-use crate::importer::{Description, ImportError, Instance};
+use super::impact::{STEPS_PER_CONTACT, Simulated, simulate, way_of};
+use super::{Row, oblique};
+use crate::importer::{Archive, Description, ImportError, Unit};
+use crate::master::Contact;
 use brinell_contact::impact::Prediction;
 use brinell_exporter::layout::table;
 use brinell_exporter::numbers::{percent, quantity};
@@ -31,44 +31,29 @@ pub struct Trial {
 
 impl Trial {
     /// The impact on the first contact of `group`; all others are at rest.
-    pub fn run(
-        instance: &mut Instance,
-        description: &Description,
-        scene: &Scene,
-        group: usize,
-    ) -> Result<Trial, ImportError> {
+    pub fn run(archive: &Archive, unit: &Unit, scene: &Scene, group: usize) -> Result<Trial, ImportError> {
         let given = &scene.contacts[group];
         let prefix = given.prefix(0);
         let prediction = &scene.predictions[group];
         let step = prediction.contact_time() / f64::from(STEPS_PER_CONTACT);
-        let contact = given.name.is_some().then(|| prefix.trim_end_matches('.').to_string());
+        let name = given.name.is_some().then(|| prefix.trim_end_matches('.').to_string());
         let mut trial =
-            Trial { contact, count: given.count, skipped: None, step, rows: Vec::new(), disturbed: Vec::new() };
-        let gap = begin(instance, description, scene, group)?;
+            Trial { contact: name, count: given.count, skipped: None, step, rows: Vec::new(), disturbed: Vec::new() };
+        // the impact begins at first contact; a gap that is a constant of the FMU has to be crossed
+        let (settable, given_gap) = gap(scene, group);
+        let gap = if settable.is_some() { 0.0 } else { given_gap };
+        let start: Vec<_> = settable.iter().map(|name| (name.as_str(), gap)).collect();
+        let mut contact = Contact::new(archive, unit, &prefix, &[])?;
+        contact.start(&start)?;
         if gap < 0.0 {
             trial.skipped = Some("the scene starts pressed in, and initial_gap is a constant of it".into());
             return Ok(trial);
         }
-        let rate = description.real(&format!("{prefix}indentation_rate"))?;
-        let force = description.real(&format!("{prefix}force"))?;
-        let at_rest = others_at_rest(scene, group, description)?;
-        let before = forces(instance, &at_rest)?;
-        let follows = scene.follows_rate();
-        let mean_force = format!("{prefix}mean_force");
-        let mean_force = if scene.coupling.is_some() { Some(description.real(&mean_force)?) } else { None };
-        let parallel = scene.coupling.is_some_and(|coupling| coupling.parallel);
-        let mut master = Master {
-            instance: &mut *instance,
-            rate,
-            force,
-            time: 0.0,
-            follows: follows && scene.coupling.is_none(),
-            mean_force,
-            parallel,
-        };
-        let simulated = master.impact(&scene.impact_of(group), gap, step)?;
+        let at_rest = others_at_rest(scene, group, &archive.description)?;
+        let before = forces(&mut contact, &at_rest)?;
+        let simulated = simulate(&mut contact, way_of(scene), &scene.impact_of(group), gap, step)?;
         trial.rows = compare(prediction, &simulated);
-        if follows {
+        if scene.follows_rate() {
             // no dent remains, and the end of the force has no meaning
             trial.rows.retain(|row| row.quantity != "dent");
         }
@@ -76,31 +61,16 @@ impl Trial {
             // the bodies move farther than the indentation, by the distance that the plate gives way
             trial.rows.retain(|row| !["largest indentation", "dent", "contact time"].contains(&row.quantity));
         }
-        let after = forces(instance, &at_rest)?;
+        let after = forces(&mut contact, &at_rest)?;
         let changed = at_rest.into_iter().zip(before.iter().zip(&after)).filter(|(_, (before, after))| before != after);
         trial.disturbed = changed.map(|((name, _), _)| name).collect();
-        instance.call("fmi2Terminate")?;
+        contact.instance.call("fmi2Terminate")?;
         if scene.has_friction() {
-            instance.call("fmi2Reset")?;
-            let gap = begin(instance, description, scene, group)?;
-            trial.rows.extend(oblique::compare(instance, description, scene, group, (gap, step))?);
+            contact.start(&start)?;
+            trial.rows.extend(oblique::compare(&mut contact, scene, group, (gap, step))?);
         }
         Ok(trial)
     }
-}
-
-/// Initializes the FMU for an impact on the first contact of `group`, and returns its gap [m]. The impact begins at first
-/// contact; a gap that is a constant of the FMU has to be crossed.
-fn begin(instance: &mut Instance, description: &Description, scene: &Scene, group: usize) -> Result<f64, ImportError> {
-    instance.setup_experiment(0.0)?;
-    instance.call("fmi2EnterInitializationMode")?;
-    let (gap_variable, mut gap) = gap(scene, group);
-    if let Some(name) = gap_variable {
-        instance.set_real(description.real(&name)?, 0.0)?;
-        gap = 0.0;
-    }
-    instance.call("fmi2ExitInitializationMode")?;
-    Ok(gap)
 }
 
 /// Name of the initial gap of the contacts of `group`, if it can be set, and its value [m].
@@ -128,8 +98,8 @@ fn others_at_rest(scene: &Scene, group: usize, description: &Description) -> Res
 }
 
 /// The forces of these contacts, as bits.
-fn forces(instance: &mut Instance, contacts: &[(String, u32)]) -> Result<Vec<u64>, ImportError> {
-    contacts.iter().map(|(_, reference)| Ok(instance.real(*reference)?.to_bits())).collect()
+fn forces(contact: &mut Contact, contacts: &[(String, u32)]) -> Result<Vec<u64>, ImportError> {
+    contacts.iter().map(|(_, reference)| Ok(contact.instance.real(*reference)?.to_bits())).collect()
 }
 
 fn compare(predicted: &Prediction, simulated: &Simulated) -> Vec<Row> {

@@ -1,16 +1,12 @@
 //! The card at the top of a report: the scene, the outcome of its impact, and two pictures of it.
 
-use super::contact::Contact;
-use super::ways::{Body, LEAP_FROG};
-use super::{Figure, ReportError};
+use super::Figure;
 use brinell_contact::impact::Prediction;
 use brinell_exporter::numbers::{percent, quantity, significant};
 use brinell_exporter::plot::{Picture, Series, View};
+use brinell_exporter::predict::time_history::moments;
 use brinell_exporter::scene::Scene;
 use brinell_exporter::{bodies, documentation, table};
-
-/// Number of steps in the time history of the force.
-const STEPS: u32 = 400;
 
 /// A name and its value.
 pub type Fact = (&'static str, String);
@@ -56,34 +52,15 @@ pub fn outcome(scene: &Scene, prediction: &Prediction) -> Vec<Fact> {
     outcome
 }
 
-/// Force over indentation, and over time as an importer with small steps computes it.
-///
-/// # Errors
-/// [`ReportError::Import`] if the FMU rejects a step.
-pub fn figures(scene: &Scene, contact: &mut Contact) -> Result<Vec<Figure>, ReportError> {
-    let prediction = &scene.predictions[0];
-    let step = prediction.contact_time() / f64::from(STEPS);
-    contact.start_apart(0.0, step)?;
-    let mut body = Body::flying(scene.impact.mass, scene.impact.speed);
-    let mut points = vec![(0.0, 0.0)];
-    // a force that follows the rate may end after the bodies have separated
-    for index in 1..=2 * STEPS {
-        (LEAP_FROG.advance)(contact, &mut body, step)?;
-        points.push((1e6 * step * f64::from(index), body.force));
-        if body.force <= 0.0 && body.speed <= 0.0 {
-            break;
-        }
-    }
-    let over_time = Picture {
-        x_title: "time [us]".into(),
-        y_title: "force [N]".into(),
-        logarithmic: (false, false),
-        series: vec![Series { label: "force".into(), points, dots: false }],
-    };
-    let over_indentation = documentation::force_over_indentation(scene, prediction);
+/// Force over indentation, and over time.
+pub fn figures(scene: &Scene) -> Vec<Figure> {
+    let over_indentation = documentation::force_over_indentation(scene, &scene.predictions[0]);
+    let moments = moments(&scene.any_model(), &scene.impact).unwrap_or_default();
+    let points = moments.iter().map(|moment| (1e6 * moment.time, moment.force));
+    let over_time = Picture::new(("time [us]", "force [N]"), (false, false), vec![Series::line("force", points)]);
     let view = View::default();
-    Ok(vec![
-        Figure::new("force-over-indentation", "Force over indentation", &over_indentation, &view, false),
-        Figure::new("force-over-time", "Force over time", &over_time, &view, false),
-    ])
+    vec![
+        Figure::new("force-over-indentation", "Force over indentation", &over_indentation, &view),
+        Figure::new("force-over-time", "Force over time", &over_time, &view),
+    ]
 }

@@ -2,7 +2,7 @@
 
 use super::precision::{Line, Point};
 use super::stability::Limit;
-use super::ways::Master;
+use crate::master::Master;
 use brinell_exporter::numbers::{quantity, significant};
 use serde::Serialize;
 
@@ -30,9 +30,9 @@ pub struct Choice {
 /// The choice among the measured ways of the scene's FMU.
 pub fn of(lines: &[Line], limits: &[Limit]) -> Vec<Choice> {
     let row = |line: &Line| {
-        let way = line.way?;
+        let way = line.way;
         let limit = limits.iter().find(|limit| limit.way == way.name);
-        Some(Choice {
+        Choice {
             way: way.name,
             algorithm: way.master,
             master: way.master.name(),
@@ -42,9 +42,9 @@ pub fn of(lines: &[Line], limits: &[Limit]) -> Vec<Choice> {
             one_percent: line.step_for(0.01).cloned(),
             a_tenth_of_a_percent: line.step_for(0.001).cloned(),
             largest_stable_step: limit.map_or("none".into(), Limit::words),
-        })
+        }
     };
-    let mut choices: Vec<Choice> = lines.iter().filter(|line| !line.is_peer).filter_map(row).collect();
+    let mut choices: Vec<Choice> = lines.iter().filter(|line| !line.is_peer).map(row).collect();
     for master in [Master::Serial, Master::Parallel] {
         let time = |choice: &Choice| choice.one_percent.as_ref().map_or(f64::INFINITY, |point| point.run_time);
         let candidates = choices.iter_mut().filter(|choice| choice.algorithm == master && choice.one_percent.is_some());

@@ -3,7 +3,6 @@
 
 mod card;
 mod choice;
-mod contact;
 mod extremes;
 mod laws;
 mod oblique;
@@ -11,13 +10,14 @@ mod peer;
 mod precision;
 mod stability;
 mod units;
-mod ways;
 
 use crate::files::{self, FileError, write_whole};
 use crate::importer::ImportError;
+use crate::master::{Contact, Needs, WAYS};
 use crate::messages::tell;
 use crate::package::ExportError;
 use crate::scene_file;
+use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use brinell_exporter::layout::{json_line, paragraph, shown};
 use brinell_exporter::model::AnyModel;
@@ -30,15 +30,13 @@ use laws::Laws;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, context};
 use peer::Peer;
-use precision::Plan;
 use serde::Serialize;
-use stability::Setting;
+use serde_json::json;
+use stability::Stability;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use units::Units;
-use ways::Needs;
 
 /// An error of making a report.
 #[derive(Debug, thiserror::Error)]
@@ -96,19 +94,45 @@ struct Report {
     scene: String,
     version: &'static str,
     summary: Summary,
-    r#use: Use,
+    /// What a program needs to choose a coupling: the ways, and numbers of the impact.
+    r#use: serde_json::Value,
     precision: Vec<precision::Point>,
     orders: Vec<precision::Order>,
     #[serde(rename = "largest_stiffness_N_per_m")]
     stiffness: f64,
-    limits: Vec<stability::Limit>,
-    stability: Vec<stability::Energy>,
+    #[serde(flatten)]
+    stability: Stability,
     extremes: Vec<extremes::Case>,
-    laws: Vec<laws::Row>,
-    spread: Vec<laws::Spread>,
-    restitution: Vec<laws::Restitution>,
+    #[serde(flatten)]
+    laws: Laws,
+    /// The names of the other FMUs.
+    peers: Vec<String>,
     #[serde(flatten)]
     oblique: Option<oblique::Oblique>,
+}
+
+/// The impact of the runs, and how it is run.
+struct Runs<'a> {
+    /// Name of the scene.
+    name: &'a str,
+    impact: Impact,
+    prediction: Prediction,
+    /// The largest stiffness of the impact: that of the unloading at the largest indentation [N/m].
+    stiffness: f64,
+    /// Largest number of steps per contact.
+    most: u32,
+    /// Number of phases: places within a step where the bodies touch.
+    phases: u32,
+    /// Whether the force follows the rate.
+    follows_rate: bool,
+    progress: &'a Progress,
+}
+
+impl Runs<'_> {
+    /// `sqrt(K/m)` for the largest stiffness `K` [1/s].
+    fn frequency(&self) -> f64 {
+        (self.stiffness / self.impact.mass).sqrt()
+    }
 }
 
 /// The findings in words.
@@ -124,13 +148,6 @@ struct Summary {
     extremes: String,
 }
 
-/// What a program needs to choose a coupling.
-#[derive(Serialize)]
-struct Use {
-    ways: Vec<choice::Choice>,
-    impact: serde_json::Value,
-}
-
 /// A picture of the page; each section has some.
 #[derive(Serialize)]
 struct Figure {
@@ -143,79 +160,57 @@ struct Figure {
 }
 
 impl Figure {
-    fn new(name: &'static str, caption: &str, picture: &Picture, view: &View, folded: bool) -> Figure {
-        Figure { name, caption: caption.into(), svg: picture.seen(560, 350, view), folded }
+    fn new(name: &'static str, caption: &str, picture: &Picture, view: &View) -> Figure {
+        Figure { name, caption: caption.into(), svg: picture.seen(560, 350, view), folded: false }
     }
 }
 
-/// The sections of the page with their figures, and with words that depend on the scene.
-#[derive(Default, Serialize)]
-struct Page {
-    figures: BTreeMap<&'static str, Vec<Figure>>,
-    stiffness: String,
-    laws: String,
-    /// How far finite elements reach.
-    reach: Option<String>,
-    left_out: Vec<String>,
-    /// Finding and impacts.
-    oblique: Option<(String, String)>,
-    has_peers: bool,
-    follows_rate: bool,
-}
+/// The figures of the page by its sections.
+type Figures = BTreeMap<&'static str, Vec<Figure>>;
 
 impl Report {
     /// Measures the first contact of `scene`, and the other FMUs at `peers`.
     ///
     /// # Errors
     /// [`ReportError`] if an FMU can't be built or loaded, or rejects an ordinary impact.
-    fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<(Report, Page), ReportError> {
+    fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<(Report, Figures), ReportError> {
         let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
         let alone = units::first_contact(scene, Needs::Force);
         let (model, impact, prediction) = (alone.any_model(), alone.impact, alone.predictions[0]);
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
         let progress = &Progress::new();
         let follows_rate = scene.is_rate_dependent();
-        let plan =
-            Plan { name: &scene.name, impact: &impact, prediction: &prediction, most, phases, follows_rate, progress };
-        let units = Units::build(scene, progress)?;
-        let mut contacts = units.contacts()?;
-        let mut lines = Vec::new();
-        for way in contacts.ways() {
-            lines.push(plan.measure(contacts.of(way), way, None)?);
+        let stiffness = model.stiffness(prediction.max_indentation);
+        let name = &scene.name;
+        let runs = Runs { name, impact, prediction, stiffness, most, phases, follows_rate, progress };
+        let units = units::build(scene, progress)?;
+        let mut contacts = BTreeMap::new();
+        for (needs, (unit, archive)) in &units {
+            contacts.insert(*needs, Contact::new(archive, unit, "", &[])?);
         }
-        if !follows_rate {
-            lines.push(plan.alone(contacts.plain())?);
+        let (mut lines, mut stability) = (Vec::new(), Stability::default());
+        for way in &WAYS {
+            if let Some(contact) = contacts.get_mut(&way.needs) {
+                lines.push(precision::measure(&runs, contact, way, None)?);
+                stability.measure(&runs, contact, way)?;
+            }
         }
         for peer in &peers {
-            lines.extend(peer.measure(&alone, &plan)?);
+            lines.extend(peer.measure(&alone, &runs)?);
         }
-        let stiffness = model.stiffness(prediction.max_indentation);
-        let setting = Setting { impact: &impact, prediction: &prediction, stiffness, phases };
-        let stability = setting.measure(&mut contacts, progress)?;
-        let extremes = extremes::measure(contacts.plain(), &alone, quick, progress);
+        let plain = contacts.get_mut(&Needs::Force).expect("every report has the FMU with its force alone");
+        let extremes = extremes::measure(plain, &alone, quick, progress);
         // the FMU with friction has no other mass or law
-        let oblique = oblique::measure(scene, contacts.find(Needs::Friction), most, progress)?;
+        let oblique = oblique::measure(scene, contacts.get_mut(&Needs::Friction), most, progress)?;
         progress.say("laws side by side");
         let laws = Laws::of(&alone);
         let figures = BTreeMap::from([
-            ("card", card::figures(&alone, contacts.plain())?),
+            ("card", card::figures(&alone)),
             ("precision", precision::figures(&lines)),
             ("stability", vec![stability.figure()]),
-            ("laws", laws.figures()),
-            ("oblique", oblique.as_ref().map(oblique::Oblique::figures).into_iter().flatten().collect()),
+            ("oblique", oblique.iter().map(oblique::Oblique::figure).collect()),
         ]);
-        let page = Page {
-            figures,
-            stiffness: quantity(stiffness, "N/m"),
-            laws: laws.words(),
-            reach: laws.reach(),
-            left_out: laws.left_out.clone(),
-            oblique: oblique.as_ref().map(|oblique| (oblique.words.clone(), oblique.impacts.clone())),
-            has_peers: !peers.is_empty(),
-            follows_rate,
-        };
         let ways = choice::of(&lines, &stability.limits);
-        let warnings = validity::warnings(&model.pair(), alone.contacts[0].density, &prediction, impact.speed);
         let ratio = prediction.max_contact_radius / model.pair().radius;
         let mut law = laws.verdict();
         if matches!(model, AnyModel::Elastoplastic(_)) {
@@ -225,11 +220,12 @@ impl Report {
                 significant(ratio, 2)
             ));
         }
+        let warnings = validity::warnings(&model.pair(), alone.contacts[0].density, &prediction, impact.speed);
         let mut coupling = choice::sentences(&ways);
         coupling.extend(stability.sentence());
         coupling.extend(oblique.as_ref().and_then(|oblique| oblique.advice.clone()));
         coupling.extend((scene.contact_count() > 1).then(|| NOT_FOR_SEVERAL.to_string()));
-        let impact = serde_json::json!({
+        let impact = json!({
             "largest_force_N": prediction.max_force,
             "largest_indentation_m": prediction.max_indentation,
             "dent_m": prediction.residual_indentation,
@@ -248,19 +244,17 @@ impl Report {
                 coupling,
                 extremes: extremes::words(&extremes),
             },
-            r#use: Use { ways, impact },
-            orders: lines.iter().filter_map(precision::Line::order).collect(),
+            r#use: json!({ "ways": ways, "impact": impact }),
+            orders: lines.iter().map(precision::Line::order).collect(),
             precision: lines.into_iter().flat_map(|line| line.points).collect(),
             stiffness,
-            limits: stability.limits,
-            stability: stability.energies,
+            stability,
             extremes,
-            laws: laws.rows,
-            spread: laws.spread,
-            restitution: laws.restitutions,
+            laws,
+            peers: peers.iter().map(|peer| peer.name.clone()).collect(),
             oblique,
         };
-        Ok((report, page))
+        Ok((report, figures))
     }
 
     /// The outcome and the recommendation, for a terminal.
@@ -275,25 +269,26 @@ impl Report {
     ///
     /// # Errors
     /// [`ReportError`] if the folder can't be written to.
-    fn write_into(&self, folder: &Path, page: &Page) -> Result<PathBuf, ReportError> {
+    fn write_into(&self, folder: &Path, figures: &Figures) -> Result<PathBuf, ReportError> {
         std::fs::create_dir_all(folder).map_err(FileError::at(folder))?;
-        for Figure { name, svg, .. } in page.figures.values().flatten() {
+        for Figure { name, svg, .. } in figures.values().flatten() {
             write_whole(&folder.join(name).with_extension("svg"), svg.as_bytes())?;
         }
         let data = serde_json::to_string_pretty(self).expect("its keys are strings");
         write_whole(&folder.join("report.json"), format!("{data}\n").as_bytes())?;
         let path = folder.join("index.html");
-        write_whole(&path, self.html(page).as_bytes())?;
+        write_whole(&path, self.html(figures).as_bytes())?;
         Ok(path)
     }
 
     /// The page.
-    fn html(&self, page: &Page) -> String {
+    fn html(&self, figures: &Figures) -> String {
         let mut environment = Environment::new();
         environment.add_filter("cell", cell);
         environment.add_filter("seconds", |value: f64| quantity(value, "s"));
+        environment.add_filter("stiffness", |value: f64| quantity(value, "N/m"));
         let template = environment.template_from_named_str("report.html", include_str!("report.html"));
-        let context = context! { report => Serde(self), page => Serde(page) };
+        let context = context! { report => Serde(self), figures => Serde(figures) };
         let filled = template.and_then(|template| template.render(context));
         let filled = filled.expect("the template is part of the program, and every test of a report fills it");
         // the template engine leaves out the last newline
@@ -315,7 +310,7 @@ const NOT_FOR_SEVERAL: &str = "The scene has several contacts: this page measure
      an FMU that knows the mass moves each contact's bodies alone, and is exact only while one of them is closed.";
 
 /// What the report does, line by line, with the time since it began.
-pub struct Progress {
+struct Progress {
     began: Instant,
 }
 
@@ -325,7 +320,7 @@ impl Progress {
     }
 
     /// Shows the current activity.
-    pub fn say(&self, what: &str) {
+    fn say(&self, what: &str) {
         tell(&format!("{:5.1} s  {what} ...", self.began.elapsed().as_secs_f64()));
     }
 }

@@ -1,9 +1,9 @@
 //! Other FMUs with the same variables, measured together with the scene's.
 
-use super::precision::{Line, Plan};
-use super::ways::{Needs, WAYS, Way};
-use super::{ReportError, contact::Contact};
-use crate::importer::{Archive, ImportError, Unit};
+use super::precision::{self, Line};
+use super::{ReportError, Runs};
+use crate::importer::{Archive, Unit};
+use crate::master::{Contact, Needs, WAYS, Way};
 use brinell_exporter::scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ const NEEDED: [&str; 2] = ["indentation_rate", "force"];
 pub struct Peer {
     path: PathBuf,
     /// Its file name without extension.
-    name: String,
+    pub name: String,
     archive: Archive,
     unit: Unit,
     /// Whether it is made for the Jacobi scheme, which steps all FMUs at once.
@@ -52,26 +52,14 @@ impl Peer {
     ///
     /// # Errors
     /// [`ReportError::Peer`] if it rejects a call.
-    pub fn measure(&self, scene: &Scene, plan: &Plan) -> Result<Vec<Line>, ReportError> {
-        let mut contact = self.contact(scene)?;
-        let line = |way| plan.measure(&mut contact, way, Some(&self.name)).map_err(|error| self.fault(&error));
-        self.ways().into_iter().map(line).collect()
-    }
-
-    /// Its contact with these bodies.
-    fn contact(&self, scene: &Scene) -> Result<Contact<'_>, ReportError> {
+    pub fn measure(&self, scene: &Scene, runs: &Runs) -> Result<Vec<Line>, ReportError> {
         let mut parameters: Vec<(&str, f64)> = scene.parameters.iter().map(|known| (known.name, known.value)).collect();
         parameters.push(("effective_mass", scene.impact.mass));
-        let started = Contact::new(&self.archive, &self.unit, &parameters).and_then(|mut contact| {
+        let lines = Contact::new(&self.archive, &self.unit, "", &parameters).and_then(|mut contact| {
             contact.start(&[])?;
-            Ok(contact)
+            self.ways().into_iter().map(|way| precision::measure(runs, &mut contact, way, Some(&self.name))).collect()
         });
-        started.map_err(|error| self.fault(&error))
-    }
-
-    /// An error of this FMU.
-    fn fault(&self, error: &ImportError) -> ReportError {
-        ReportError::Peer { path: self.path.clone(), reason: error.to_string() }
+        lines.map_err(|error| ReportError::Peer { path: self.path.clone(), reason: error.to_string() })
     }
 
     /// The ways to couple that it supports.

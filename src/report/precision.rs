@@ -1,10 +1,8 @@
 //! Error against run time: every way to couple, for different numbers of steps per contact.
 
-use super::contact::Contact;
-use super::ways::{Way, gaps};
-use super::{Figure, Progress};
+use super::{Figure, Runs};
 use crate::importer::ImportError;
-use brinell_contact::impact::{Impact, Prediction};
+use crate::master::{Contact, Way, gaps};
 use brinell_exporter::plot::{Picture, Series, View};
 use serde::Serialize;
 use std::time::Instant;
@@ -46,10 +44,10 @@ pub struct Point {
     pub run_time: f64,
 }
 
-/// One way for increasing numbers of steps per contact.
+/// One way to couple an FMU for increasing numbers of steps per contact.
 pub struct Line {
-    /// `None` for the FMU alone.
-    pub way: Option<&'static Way>,
+    unit: String,
+    pub way: &'static Way,
     pub is_peer: bool,
     pub points: Vec<Point>,
 }
@@ -63,143 +61,57 @@ pub struct Order {
     order: Option<f64>,
 }
 
-/// The common settings of all lines of a report.
-#[derive(Clone, Copy)]
-pub struct Plan<'a> {
-    /// Name of the scene.
-    pub name: &'a str,
-    pub impact: &'a Impact,
-    pub prediction: &'a Prediction,
-    /// Largest number of steps per contact.
-    pub most: u32,
-    /// Number of phases: places within a step where the bodies touch.
-    pub phases: u32,
-    /// Whether the force follows the rate.
-    pub follows_rate: bool,
-    pub progress: &'a Progress,
-}
-
 /// 2, 4, 8 and so on, from `fewest` up to `most`.
 pub fn doubled(fewest: u32, most: u32) -> impl Iterator<Item = u32> {
     std::iter::successors(Some(fewest), |steps| Some(2 * steps)).take_while(move |steps| *steps <= most)
 }
 
-impl Plan<'_> {
-    /// Runs `way` with 2 steps per contact and more; `peer` is the name of another FMU.
-    ///
-    /// # Errors
-    /// [`ImportError`] if the FMU rejects a call.
-    pub fn measure(self, contact: &mut Contact, way: &'static Way, peer: Option<&str>) -> Result<Line, ImportError> {
-        self.progress.say(&format!("error against run time: {}", way.name));
-        let unit = peer.unwrap_or(self.name);
-        let points = doubled(2, self.most).map(|steps| self.point(contact, unit, way, steps));
-        Ok(Line { way: Some(way), is_peer: peer.is_some(), points: points.collect::<Result<_, _>>()? })
-    }
-
-    fn point(self, contact: &mut Contact, unit: &str, way: &Way, steps: u32) -> Result<Point, ImportError> {
-        let Plan { impact, prediction, .. } = self;
-        let step = prediction.contact_time() / f64::from(steps);
-        let mut sums = Sums::default();
-        for gap in gaps(impact.speed, step, self.phases) {
-            contact.start_apart(gap, step)?;
-            let began = Instant::now();
-            let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
-            sums.run_times.push(began.elapsed().as_secs_f64());
-            let dent = contact.output("residual_indentation").unwrap_or(f64::NAN);
-            // the bodies have separated within the last step and fly on
-            let past = dent - contact.output("indentation").unwrap_or(f64::NAN);
-            let contact_time = contact.elapsed() - past / rebound.speed - gap / impact.speed;
-            sums.add([
-                rebound.speed / impact.speed / prediction.restitution - 1.0,
-                rebound.max_force / prediction.max_force - 1.0,
-                dent / prediction.residual_indentation - 1.0,
-                // the end of a force that follows the rate is independent of the surface
-                if self.follows_rate { f64::NAN } else { contact_time / prediction.contact_time() - 1.0 },
-            ]);
-            sums.calls += contact.calls;
-        }
-        Ok(sums.point((unit, way.name), steps, step))
-    }
-
-    /// The contribution of the FMU itself to any error: loading and unloading, each divided into steps of unequal
-    /// length, compared with one step each.
-    ///
-    /// # Errors
-    /// [`ImportError`] if the FMU rejects a call.
-    pub fn alone(self, contact: &mut Contact) -> Result<Line, ImportError> {
-        self.progress.say("error against run time: the unit alone");
-        let whole = self.there_and_back(contact, 2, 0.0)?;
-        let mut points = Vec::new();
-        for steps in doubled(4, self.most) {
-            let mut sums = Sums::default();
-            for phase in 0..self.phases {
-                let uneven = f64::from(phase) / f64::from(self.phases);
-                let began = Instant::now();
-                let split = self.there_and_back(contact, steps, uneven)?;
-                sums.run_times.push(began.elapsed().as_secs_f64());
-                let [restitution, force, dent] = [0, 1, 2].map(|index| split[index] / whole[index] - 1.0);
-                sums.add([restitution, force, dent, f64::NAN]);
-                sums.calls += contact.calls;
-            }
-            let step = self.prediction.contact_time() / f64::from(steps);
-            points.push(sums.point((self.name, "unit alone"), steps, step));
-        }
-        Ok(Line { way: None, is_peer: false, points })
-    }
-
-    /// Restitution, largest force [N] and dent [m] of a contact with a prescribed motion to the largest indentation
-    /// and back, each in half of the `steps`. The steps are alternately longer and shorter by the fraction `uneven`.
-    fn there_and_back(self, contact: &mut Contact, steps: u32, uneven: f64) -> Result<[f64; 3], ImportError> {
-        let (depth, half) = (self.prediction.max_indentation, steps / 2);
-        // about as fast as the impact
-        let step = self.prediction.contact_time() / f64::from(steps);
-        let long = half.div_ceil(2);
-        // a sum of so many numbers would add the rounding of the importer
-        let rate = depth / step / (f64::from(half) + uneven * f64::from(2 * long - half));
-        let length = |index| step * if index % 2 == 0 { 1.0 + uneven } else { 1.0 - uneven };
-        contact.start(&[("initial_gap", 0.0)])?;
-        let mut max_force = 0.0;
-        for sign in [1.0, -1.0] {
-            for index in 0..half {
-                contact.set_rate(sign * rate)?;
-                contact.step(length(index))?;
-                max_force = f64::max(max_force, contact.force()?);
-            }
-        }
-        let (lost, dent) = (contact.output("dissipated_energy")?, contact.output("residual_indentation")?);
-        Ok([(1.0 - lost / self.prediction.energy).sqrt(), max_force, dent])
-    }
+/// Runs `way` with 2 steps per contact and more; `peer` is the name of another FMU.
+///
+/// # Errors
+/// [`ImportError`] if the FMU rejects a call.
+pub fn measure(runs: &Runs, contact: &mut Contact, way: &'static Way, peer: Option<&str>) -> Result<Line, ImportError> {
+    runs.progress.say(&format!("error against run time: {}", way.name));
+    let unit = peer.unwrap_or(runs.name);
+    let points = doubled(2, runs.most).map(|steps| point(runs, contact, unit, way, steps));
+    let points = points.collect::<Result<_, _>>()?;
+    Ok(Line { unit: unit.into(), way, is_peer: peer.is_some(), points })
 }
 
-/// Errors and costs of all phases.
-#[derive(Default)]
-struct Sums {
-    /// Sums of squared errors of restitution, force, dent and contact time.
-    squares: [f64; 4],
-    calls: u64,
-    /// \[s\]
-    run_times: Vec<f64>,
-}
-
-impl Sums {
-    fn add(&mut self, errors: [f64; 4]) {
-        self.squares.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * error);
+fn point(runs: &Runs, contact: &mut Contact, unit: &str, way: &Way, steps: u32) -> Result<Point, ImportError> {
+    let Runs { impact, prediction, .. } = runs;
+    let step = prediction.contact_time() / f64::from(steps);
+    // sums of squared errors of restitution, force, dent and contact time
+    let (mut squares, mut calls, mut run_time) = ([0.0; 4], 0, f64::INFINITY);
+    for gap in gaps(impact.speed, step, runs.phases) {
+        contact.start_apart(gap, step)?;
+        let began = Instant::now();
+        let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
+        run_time = f64::min(run_time, began.elapsed().as_secs_f64());
+        let dent = contact.output("residual_indentation").unwrap_or(f64::NAN);
+        // the bodies have separated within the last step and fly on
+        let past = dent - contact.output("indentation").unwrap_or(f64::NAN);
+        let contact_time = contact.elapsed() - past / rebound.speed - gap / impact.speed;
+        let errors = [
+            rebound.speed / impact.speed / prediction.restitution - 1.0,
+            rebound.max_force / prediction.max_force - 1.0,
+            dent / prediction.residual_indentation - 1.0,
+            // the end of a force that follows the rate is independent of the surface
+            if runs.follows_rate { f64::NAN } else { contact_time / prediction.contact_time() - 1.0 },
+        ];
+        squares.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * error);
+        calls += contact.calls;
     }
-
-    fn point(self, (unit, way): (&str, &'static str), steps: u32, step: f64) -> Point {
-        let count = self.run_times.len() as f64;
-        let [restitution, max_force, dent, contact_time] = self.squares.map(|sum| (sum / count).sqrt());
-        let (unit, calls) = (unit.into(), self.calls as f64 / count);
-        let run_time = self.run_times.into_iter().fold(f64::INFINITY, f64::min);
-        Point { unit, way, steps, step, restitution, max_force, dent, contact_time, calls, run_time }
-    }
+    let count = f64::from(runs.phases);
+    let [restitution, max_force, dent, contact_time] = squares.map(|sum: f64| (sum / count).sqrt());
+    let (unit, way, calls) = (unit.into(), way.name, calls as f64 / count);
+    Ok(Point { unit, way, steps, step, restitution, max_force, dent, contact_time, calls, run_time })
 }
 
 impl Line {
-    /// The slope of log(error) over log(step), by least squares; `None` for the unit alone.
-    pub fn order(&self) -> Option<Order> {
-        let first = self.points.first().filter(|_| self.way.is_some())?;
-        Some(Order { unit: first.unit.clone(), way: first.way, order: slope(&self.points) })
+    /// The slope of log(error) over log(step), by least squares.
+    pub fn order(&self) -> Order {
+        Order { unit: self.unit.clone(), way: self.way.name, order: slope(&self.points) }
     }
 
     /// The largest step from which on the error of restitution stays below `error`.
@@ -241,24 +153,19 @@ pub fn figures(lines: &[Line]) -> Vec<Figure> {
     let drawn = all.into_iter().enumerate().filter_map(|(index, (name, (x_title, x), (y_title, y)))| {
         // an error of zero is below all decades too
         let drawn = |y: f64| if y == 0.0 { f64::MIN_POSITIVE } else { y };
-        let series = lines.iter().filter(|line| line.way.is_some()).map(|line| Series {
-            label: match line.points.first() {
-                Some(point) if line.is_peer => format!("{}: {}", point.unit, point.way),
-                first => first.map_or("", |point| point.way).into(),
-            },
-            points: line.points.iter().map(|point| (x(point), drawn(y(point)))).collect(),
-            dots: false,
+        let series = lines.iter().map(|line| {
+            let Line { unit, way, is_peer, points } = line;
+            let label = if *is_peer { format!("{unit}: {}", way.name) } else { way.name.into() };
+            Series::line(label, points.iter().map(|point| (x(point), drawn(y(point)))))
         });
-        let picture = Picture {
-            x_title: x_title.into(),
-            y_title: y_title.into(),
-            logarithmic: (true, true),
-            series: series.collect(),
-        };
+        let picture = Picture::new((x_title, y_title), (true, true), series.collect());
         let known = picture.series.iter().flat_map(|series| &series.points).any(|point| point.1 > 0.0);
         // the decades that matter, and the error that most users accept
-        let view = View { values: Some(1e-6..2.0), mark: Some(0.01), ..View::default() };
-        known.then(|| Figure::new(name, &format!("{y_title} over {x_title}"), &picture, &view, index > 1))
+        let view = View { values: Some(1e-6..2.0), mark: Some(0.01) };
+        known.then(|| Figure {
+            folded: index > 1,
+            ..Figure::new(name, &format!("{y_title} over {x_title}"), &picture, &view)
+        })
     });
     drawn.collect()
 }

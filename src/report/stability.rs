@@ -1,12 +1,10 @@
 //! Stability: the energy gain of rebounds with large steps, and the largest step that keeps a pressed body at rest.
 //! Steps are `h sqrt(K/m)`, with the largest stiffness `K` of the impact: that of the unloading at the largest indentation.
 
-use super::contact::Contact;
-use super::units::Contacts;
-use super::ways::{Body, Needs, Way, gaps};
-use super::{Figure, Progress};
+use super::{Figure, Runs};
 use crate::importer::ImportError;
-use brinell_contact::impact::{Impact, Prediction};
+use crate::master::{Body, Contact, Needs, Way, gaps};
+use brinell_contact::impact::Impact;
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::plot::{Picture, Series, View};
 use serde::Serialize;
@@ -54,119 +52,75 @@ pub struct Limit {
 }
 
 /// The results.
+#[derive(Default, Serialize)]
 pub struct Stability {
-    /// Predicted rebound energy over the incoming energy.
-    predicted: f64,
     pub limits: Vec<Limit>,
-    pub energies: Vec<Energy>,
+    #[serde(rename = "stability")]
+    energies: Vec<Energy>,
 }
 
-/// The impact of the runs.
-pub struct Setting<'a> {
-    pub impact: &'a Impact,
-    pub prediction: &'a Prediction,
-    /// `K` [N/m].
-    pub stiffness: f64,
-    /// Number of phases: places within a step where the bodies touch.
-    pub phases: u32,
+/// Rebound energies of `way` for the step at this `point` of the range.
+fn energy(runs: &Runs, contact: &mut Contact, way: &Way, point: u32) -> Result<Energy, ImportError> {
+    let Impact { mass, speed } = runs.impact;
+    let relative = RANGE.0 * (RANGE.1 / RANGE.0).powf(f64::from(point) / f64::from(POINTS));
+    let step = relative / runs.frequency();
+    let (mut lowest, mut highest) = (f64::INFINITY, 0.0);
+    for gap in gaps(speed, step, runs.phases) {
+        contact.start(&[("initial_gap", gap)])?;
+        let ratio = (way.impact(contact, mass, speed, step)?.speed / speed).powi(2);
+        lowest = f64::min(lowest, ratio);
+        highest = if ratio.is_nan() { f64::INFINITY } else { f64::max(highest, ratio) };
+    }
+    let verdict = if makes_energy(highest) { "gains energy" } else { "gains none" };
+    Ok(Energy { way: way.name, relative, step_s: step, lowest, highest, verdict })
 }
 
-impl Setting<'_> {
-    /// `sqrt(K/m)` [1/s].
-    fn frequency(&self) -> f64 {
-        (self.stiffness / self.impact.mass).sqrt()
+/// The stable range in words, and its end if it has one, by bisection.
+fn limit(runs: &Runs, contact: &mut Contact, way: &Way) -> Result<(&'static str, Option<f64>), ImportError> {
+    let (mut low, mut high) = RANGE;
+    if !stays(runs, contact, way, low)? {
+        return Ok(("at no step that was tried", None));
     }
+    if stays(runs, contact, way, high)? {
+        return Ok((EVERY, None));
+    }
+    for _ in 0..20 {
+        let middle = (low * high).sqrt();
+        if stays(runs, contact, way, middle)? { low = middle } else { high = middle }
+    }
+    Ok(("up to a step", Some(low)))
+}
 
-    /// Measures all ways.
-    ///
-    /// # Errors
-    /// [`ImportError`] if an FMU rejects a call.
-    pub fn measure(&self, contacts: &mut Contacts, progress: &Progress) -> Result<Stability, ImportError> {
-        let (mut limits, mut energies) = (Vec::new(), Vec::new());
-        for way in contacts.ways() {
-            progress.say(&format!("stability: {}", way.name));
-            let contact = contacts.of(way);
-            let own = (0..=POINTS).map(|point| self.energy(contact, way, point));
-            let own = own.collect::<Result<Vec<Energy>, _>>()?;
-            let (stable, limit) = self.limit(contact, way)?;
-            limits.push(Limit {
-                way: way.name,
-                stable,
-                limit,
-                elastic_theory: Some(way.stable).filter(|limit| limit.is_finite()),
-                largest_stable_step_s: limit.map(|limit| limit / self.frequency()),
-                gains_from: own.iter().find(|energy| makes_energy(energy.highest)).map(|energy| energy.relative),
-            });
-            energies.extend(own);
-        }
-        let predicted = self.prediction.rebound_energy / self.prediction.energy;
-        Ok(Stability { predicted, limits, energies })
+/// Whether a body keeps to a small motion about the deepest indentation, into which a constant load presses it.
+fn stays(runs: &Runs, contact: &mut Contact, way: &Way, relative: f64) -> Result<bool, ImportError> {
+    let (prediction, frequency) = (&runs.prediction, runs.frequency());
+    let step = relative / frequency;
+    let elastic = prediction.max_indentation - prediction.residual_indentation;
+    // an FMU that moves the mass itself goes to that position before any force can change it
+    let moment = if way.needs.knows_mass() { 1e-6 / frequency } else { step };
+    contact.start(&[("initial_gap", 0.0)])?;
+    contact.set_rate(prediction.max_indentation / moment)?;
+    contact.step(moment)?;
+    // a little back: the motion is then elastic and does not yield
+    contact.set_rate(-0.01 * elastic / moment)?;
+    contact.step(moment)?;
+    contact.set_rate(0.0)?;
+    let mut body = Body::pressed(runs.impact.mass, contact.force()?);
+    if way.needs == Needs::LateMass {
+        body.owed = contact.mean_force()?;
     }
-
-    /// Rebound energies of `way` for the step at this `point` of the range.
-    fn energy(&self, contact: &mut Contact, way: &Way, point: u32) -> Result<Energy, ImportError> {
-        let Impact { mass, speed } = *self.impact;
-        let relative = RANGE.0 * (RANGE.1 / RANGE.0).powf(f64::from(point) / f64::from(POINTS));
-        let step = relative / self.frequency();
-        let (mut lowest, mut highest) = (f64::INFINITY, 0.0);
-        for gap in gaps(speed, step, self.phases) {
-            contact.start(&[("initial_gap", gap)])?;
-            let ratio = (way.impact(contact, mass, speed, step)?.speed / speed).powi(2);
-            lowest = f64::min(lowest, ratio);
-            highest = if ratio.is_nan() { f64::INFINITY } else { f64::max(highest, ratio) };
+    let disturbance = 1e-6 * elastic * frequency;
+    body.speed += disturbance;
+    let steps = STEPS.max(2.0 * TIME / (relative * relative).ln_1p()) as u64;
+    for _ in 0..steps {
+        (way.advance)(contact, &mut body, step)?;
+        // with a delayed force, the speed of the body differs from that of the motion
+        let speed = if way.needs == Needs::LateMass { contact.output("closing_speed")? } else { body.speed };
+        if speed.is_nan() || speed.abs() > GROWTH * disturbance {
+            return Ok(false);
         }
-        let verdict = if makes_energy(highest) { "gains energy" } else { "gains none" };
-        Ok(Energy { way: way.name, relative, step_s: step, lowest, highest, verdict })
     }
-
-    /// The stable range in words, and its end if it has one, by bisection.
-    fn limit(&self, contact: &mut Contact, way: &Way) -> Result<(&'static str, Option<f64>), ImportError> {
-        let (mut low, mut high) = RANGE;
-        if !self.stays(contact, way, low)? {
-            return Ok(("at no step that was tried", None));
-        }
-        if self.stays(contact, way, high)? {
-            return Ok((EVERY, None));
-        }
-        for _ in 0..20 {
-            let middle = (low * high).sqrt();
-            if self.stays(contact, way, middle)? { low = middle } else { high = middle }
-        }
-        Ok(("up to a step", Some(low)))
-    }
-
-    /// Whether a body keeps to a small motion about the deepest indentation, into which a constant load presses it.
-    fn stays(&self, contact: &mut Contact, way: &Way, relative: f64) -> Result<bool, ImportError> {
-        let Setting { impact, prediction, .. } = self;
-        let frequency = self.frequency();
-        let step = relative / frequency;
-        let elastic = prediction.max_indentation - prediction.residual_indentation;
-        // an FMU that moves the mass itself goes to that position before any force can change it
-        let moment = if way.needs.knows_mass() { 1e-6 / frequency } else { step };
-        contact.start(&[("initial_gap", 0.0)])?;
-        contact.set_rate(prediction.max_indentation / moment)?;
-        contact.step(moment)?;
-        // a little back: the motion is then elastic and does not yield
-        contact.set_rate(-0.01 * elastic / moment)?;
-        contact.step(moment)?;
-        contact.set_rate(0.0)?;
-        let mut body = Body::pressed(impact.mass, contact.force()?);
-        if way.needs == Needs::LateMass {
-            body.owed = contact.mean_force()?;
-        }
-        let disturbance = 1e-6 * elastic * frequency;
-        body.speed += disturbance;
-        let steps = STEPS.max(2.0 * TIME / (relative * relative).ln_1p()) as u64;
-        for _ in 0..steps {
-            (way.advance)(contact, &mut body, step)?;
-            // with a delayed force, the speed of the body differs from that of the motion
-            let speed = if way.needs == Needs::LateMass { contact.output("closing_speed")? } else { body.speed };
-            if speed.is_nan() || speed.abs() > GROWTH * disturbance {
-                return Ok(false);
-            }
-        }
-        Ok(true)
-    }
+    Ok(true)
 }
 
 /// The range of a way that is stable throughout.
@@ -187,14 +141,6 @@ fn makes_energy(ratio: f64) -> bool {
     ratio > 1.0 + ROUNDING
 }
 
-impl Energy {
-    /// The one that gains energy, otherwise the one farther from `predicted`.
-    fn worst(&self, predicted: f64) -> f64 {
-        let below = predicted - self.lowest > self.highest - predicted;
-        if below && !makes_energy(self.highest) { self.lowest } else { self.highest }
-    }
-}
-
 impl Limit {
     /// The largest stable step, in words.
     pub fn words(&self) -> String {
@@ -207,6 +153,27 @@ impl Limit {
 }
 
 impl Stability {
+    /// Measures a `way`.
+    ///
+    /// # Errors
+    /// [`ImportError`] if the FMU rejects a call.
+    pub fn measure(&mut self, runs: &Runs, contact: &mut Contact, way: &Way) -> Result<(), ImportError> {
+        runs.progress.say(&format!("stability: {}", way.name));
+        let own = (0..=POINTS).map(|point| energy(runs, contact, way, point));
+        let own = own.collect::<Result<Vec<Energy>, _>>()?;
+        let (stable, limit) = limit(runs, contact, way)?;
+        self.limits.push(Limit {
+            way: way.name,
+            stable,
+            limit,
+            elastic_theory: Some(way.stable).filter(|limit| limit.is_finite()),
+            largest_stable_step_s: limit.map(|limit| limit / runs.frequency()),
+            gains_from: own.iter().find(|energy| makes_energy(energy.highest)).map(|energy| energy.relative),
+        });
+        self.energies.extend(own);
+        Ok(())
+    }
+
     /// The steps from which rebounds gain a relevant energy.
     pub fn sentence(&self) -> Option<String> {
         let first = |limit: &Limit| {
@@ -221,21 +188,16 @@ impl Stability {
         })
     }
 
-    /// Rebound energies over steps: of each step the worst phase.
+    /// Rebound energies over steps: of each step the highest of the phases.
     pub fn figure(&self) -> Figure {
         let line = |limit: &Limit| {
             let own = self.energies.iter().filter(|energy| energy.way == limit.way);
-            let points = own.map(|energy| (energy.relative, energy.worst(self.predicted))).collect();
-            Series { label: limit.way.into(), points, dots: false }
+            Series::line(limit.way, own.map(|energy| (energy.relative, energy.highest)))
         };
-        let picture = Picture {
-            x_title: "h sqrt(K/m)".into(),
-            y_title: "rebound over incoming energy".into(),
-            logarithmic: (true, true),
-            series: self.limits.iter().map(line).collect(),
-        };
+        let lines = self.limits.iter().map(line).collect();
+        let picture = Picture::new(("h sqrt(K/m)", "rebound over incoming energy"), (true, true), lines);
         // a rebound above the mark has gained energy
         let view = View { mark: Some(1.0), ..View::default() };
-        Figure::new("stability", "Rebound energy over the incoming energy, for each step", &picture, &view, false)
+        Figure::new("stability", "Rebound energy over the incoming energy, for each step", &picture, &view)
     }
 }

@@ -1,102 +1,57 @@
-//! The FMUs of a report: the scene's first contact, once for each kind of coupling, each with only the features that its ways need.
+//! The FMUs of a report: the scene's first contact, once for each kind of coupling, with only the features that its ways need.
 
-use super::contact::Contact;
-use super::ways::{Needs, WAYS, Way};
 use super::{Progress, ReportError};
 use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};
+use crate::master::Needs;
 use crate::{package, parallel};
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform;
 use brinell_exporter::scene::{Body, Both, Coupling, Group, Parameter, Scene};
 use brinell_exporter::table::VARIABLES;
+use std::collections::BTreeMap;
 
 /// Outputs that a report reads, whatever the scene and the coupling.
 const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_energy"];
 
-/// The loaded FMUs. The unpacked files of an FMU must exist as long as it.
-pub struct Units(Vec<(Needs, Unit, Archive)>);
-
 /// The FMUs for `scene`. An FMU whose force follows the rate has no input derivatives and can't know the mass. One with
 /// friction can't know the mass either.
-fn kinds(scene: &Scene) -> Vec<(Needs, &'static str)> {
+fn kinds(scene: &Scene) -> Vec<Needs> {
     let (damped, friction) = (scene.is_rate_dependent(), scene.has_friction());
-    let mut all = vec![(Needs::Force, "the FMU"), (Needs::PredictedForce, "the FMU with predicted_force")];
-    if !damped {
-        all.push((Needs::MeanForce, "the FMU with mean_force"));
-    }
-    if !damped && !friction {
-        all.push((Needs::Mass, "the FMU that knows the mass"));
-        all.push((Needs::LateMass, "the FMU that knows the mass, for a parallel master"));
-    }
-    if !damped && friction {
-        all.push((Needs::Friction, "the FMU with friction"));
-    }
+    let mut all =
+        vec![Needs::Force, Needs::PredictedForce, Needs::MeanForce, Needs::Mass, Needs::LateMass, Needs::Friction];
+    all.retain(|needs| match needs {
+        Needs::Force | Needs::PredictedForce => true,
+        Needs::MeanForce => !damped,
+        Needs::Mass | Needs::LateMass => !damped && !friction,
+        Needs::Friction => !damped && friction,
+    });
     all
 }
 
-impl Units {
-    /// Builds and loads the FMUs of `scene`.
-    ///
-    /// # Errors
-    /// [`ReportError`] if an FMU can't be built or loaded.
-    pub fn build(scene: &Scene, progress: &Progress) -> Result<Units, ReportError> {
-        let folder = private_folder("brinell-report-", &std::env::temp_dir())?;
-        let here = [platform::here().map_err(ImportError::from)?];
-        let kinds = kinds(scene);
-        let path = |name: &str| folder.path().join(format!("{name}.fmu"));
-        let build = |(needs, name): &(Needs, &str)| {
-            progress.say(&format!("building {name}"));
-            package::export(&Plan::of(&first_contact(scene, *needs)), package::LibraryWay::Any, &here, &path(name))
-        };
-        // the first one also makes what they share
-        let (first, others) = kinds.split_at(1);
-        for kinds in [first, others] {
-            parallel::each(kinds, build)?;
-        }
-        let load = |(needs, name): (Needs, &str)| {
-            let archive = Archive::open(&path(name))?;
-            Ok((needs, archive.load()?, archive))
-        };
-        Ok(Units(kinds.into_iter().map(load).collect::<Result<_, ReportError>>()?))
+/// Builds and loads the FMUs of `scene`. The unpacked files of an FMU must exist as long as it.
+///
+/// # Errors
+/// [`ReportError`] if an FMU can't be built or loaded.
+pub fn build(scene: &Scene, progress: &Progress) -> Result<BTreeMap<Needs, (Unit, Archive)>, ReportError> {
+    let folder = private_folder("brinell-report-", &std::env::temp_dir())?;
+    let here = [platform::here().map_err(ImportError::from)?];
+    let kinds = kinds(scene);
+    let path = |needs: Needs| folder.path().join(format!("{needs:?}.fmu"));
+    let build = |needs: &Needs| {
+        progress.say(&format!("building an FMU ({needs:?})"));
+        package::export(&Plan::of(&first_contact(scene, *needs)), package::LibraryWay::Any, &here, &path(*needs))
+    };
+    // the first one also makes what they share
+    let (first, others) = kinds.split_at(1);
+    for kinds in [first, others] {
+        parallel::each(kinds, build)?;
     }
-
-    /// A contact of each FMU.
-    ///
-    /// # Errors
-    /// [`ImportError`] if an FMU can't be instantiated.
-    pub fn contacts(&self) -> Result<Contacts<'_>, ImportError> {
-        let mut contacts = Vec::new();
-        for (needs, unit, archive) in &self.0 {
-            contacts.push((*needs, Contact::new(archive, unit, &[])?));
-        }
-        Ok(Contacts(contacts))
-    }
-}
-
-/// A contact for each kind of coupling with an FMU.
-pub struct Contacts<'a>(Vec<(Needs, Contact<'a>)>);
-
-impl<'a> Contacts<'a> {
-    /// The available ways to couple.
-    pub fn ways(&self) -> Vec<&'static Way> {
-        WAYS.iter().filter(|way| self.0.iter().any(|(needs, _)| *needs == way.needs)).collect()
-    }
-
-    /// The contact of the FMU of a kind, if the scene has it.
-    pub fn find(&mut self, needs: Needs) -> Option<&mut Contact<'a>> {
-        self.0.iter_mut().find(|(own, _)| *own == needs).map(|(_, contact)| contact)
-    }
-
-    /// The contact for an [available](Contacts::ways) way.
-    pub fn of(&mut self, way: &Way) -> &mut Contact<'a> {
-        self.find(way.needs).expect("a way that can be run has a contact")
-    }
-
-    /// The contact with the features that all FMUs have.
-    pub fn plain(&mut self) -> &mut Contact<'a> {
-        &mut self.0[0].1
-    }
+    let load = |needs| {
+        let archive = Archive::open(&path(needs))?;
+        Ok((needs, (archive.load()?, archive)))
+    };
+    kinds.into_iter().map(load).collect()
 }
 
 /// The first contact of `scene` alone, for a kind of coupling; all its parameters can be set.
@@ -130,19 +85,10 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         target: scene.power_laws.target.filter(|_| !own(Body::Target)),
     };
     let unit = Scene {
-        name: scene.name.clone(),
-        description: scene.description.clone(),
         parameters,
         contacts: vec![Group { name: None, count: None, own: Vec::new(), ..scene.contacts[0].clone() }],
         outputs: OUTPUTS.iter().chain(more).map(|name| (*name).to_string()).collect(),
-        loading: scene.loading,
-        unloading: scene.unloading,
-        damped: scene.damped,
-        loss: scene.loss,
-        passivity_guard: scene.passivity_guard,
-        yield_strength: scene.yield_strength,
         power_laws,
-        rates: scene.rates,
         quasi_static: vec![scene.quasi_static[0]],
         factors: vec![1.0],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
@@ -153,8 +99,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         watches: false,
         structured_names: false,
         standalone: false,
-        impact_is_assumed: scene.impact_is_assumed,
-        text: scene.text.clone(),
+        ..scene.clone()
     };
     // a unit with a mass finds the strength by itself, the others have it as a parameter
     unit.with_strengths_for(None).expect("the scene has been predicted")

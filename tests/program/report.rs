@@ -57,9 +57,7 @@ fn the_page_is_self_contained_with_its_data_beside_it() {
         "force-over-indentation.svg",
         "force-over-time.svg",
         "index.html",
-        "laws.svg",
         "report.json",
-        "restitution.svg",
         "stability.svg",
     ];
     assert_eq!(contents(&folder), expected);
@@ -73,8 +71,8 @@ fn the_page_has_every_row_of_the_data() {
     let (folder, data) = &*DEFAULT;
     let page = fs::read_to_string(folder.path().join("report/index.html")).expect("a page");
     let shown = page.matches("<tr>").count() + page.matches("<tr class=\"best\">").count();
-    // `restitution` is drawn only; seven tables have a head, and the scene and the outcome a row for each fact
-    let tables = ["precision", "orders", "limits", "stability", "extremes", "laws", "spread"];
+    // six tables have a head, and the scene and the outcome a row for each fact
+    let tables = ["precision", "orders", "limits", "stability", "extremes", "spread"];
     let facts = ["bodies", "outcome"].map(|facts| data["summary"][facts].as_array().expect("a list").len());
     let ways = data["use"]["ways"].as_array().expect("a list").len() + 1;
     let expected: usize = tables.map(|table| rows(data, table).len() + 1).into_iter().chain(facts).sum();

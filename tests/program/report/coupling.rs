@@ -115,17 +115,6 @@ fn a_delayed_force_creates_energy_at_a_large_step() {
 }
 
 #[test]
-fn the_fmu_alone_adds_only_rounding() {
-    let alone: Vec<_> = rows(&DEFAULT.1, "precision").iter().filter(|row| row["way"] == "unit alone").collect();
-    assert_eq!(alone.len(), 7, "4 to 256 steps per contact");
-    for row in alone {
-        for error in ["error_of_restitution", "error_of_largest_force", "error_of_dent"] {
-            assert!(row[error].as_f64().expect("an error") < 1e-14, "{error}: {row}");
-        }
-    }
-}
-
-#[test]
 fn the_error_of_the_dent_has_the_order_of_the_method_too() {
     let dents = |way: &str| -> Vec<f64> {
         let points = rows(&DEFAULT.1, "precision").iter().filter(|row| row["way"] == way);

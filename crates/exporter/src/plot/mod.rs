@@ -26,13 +26,11 @@ pub struct Picture {
 
 /// What a picture shows of its series.
 #[derive(Default)]
-pub struct View<'a> {
+pub struct View {
     /// The range of the values. A line is interrupted above it, and runs along its lower edge below it.
     pub values: Option<Range<f64>>,
     /// A value marked by a dashed line across the picture.
     pub mark: Option<f64>,
-    /// The names of the series that stand out; the others are grey and have no name. `None`: all stand out.
-    pub strong: Option<&'a [String]>,
 }
 
 /// plotters rounds everything to whole pixels. Pictures are therefore drawn large and scaled down; curves are then
@@ -60,7 +58,19 @@ const COLOURS: [RGBColor; 12] = [
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 const IN_MEMORY: &str = "a drawing in memory";
 
+impl Series {
+    /// A line through these points.
+    pub fn line(label: impl Into<String>, points: impl Iterator<Item = (f64, f64)>) -> Series {
+        Series { label: label.into(), points: points.collect(), dots: false }
+    }
+}
+
 impl Picture {
+    /// A picture of these series, over x and y with these titles.
+    pub fn new((x_title, y_title): (&str, &str), logarithmic: (bool, bool), series: Vec<Series>) -> Picture {
+        Picture { x_title: x_title.into(), y_title: y_title.into(), logarithmic, series }
+    }
+
     /// The picture as SVG of `width` by `height` pixels.
     pub fn svg(&self, width: u32, height: u32) -> String {
         self.seen(width, height, &View::default())
@@ -70,8 +80,8 @@ impl Picture {
     pub fn seen(&self, width: u32, height: u32, view: &View) -> String {
         let mut svg = String::new();
         let (wide, high) = (SCALE * width as i32, SCALE * height as i32);
-        let names = self.styles(view).into_iter().zip(&self.series);
-        let names: Vec<_> = names.filter(|(style, _)| style.strong && self.series.len() > 1).collect();
+        let names = self.styles().into_iter().zip(&self.series).filter(|_| self.series.len() > 1);
+        let names: Vec<_> = names.collect();
         // a letter is less than eight pixels wide; add the sample of the line
         let longest = names.iter().map(|(_, series)| series.label.chars().count() as i32).max();
         let legend = longest.map_or(0, |letters| SCALE * (8 * letters + 30));
@@ -147,10 +157,7 @@ impl Picture {
         }
         let (x_log, y_log) = self.logarithmic;
         let fits = |&(x, y): &(f64, f64)| (x > 0.0 || !x_log) && (y > 0.0 || !y_log) && x.is_finite() && y <= range.end;
-        let styles = self.styles(view);
-        // the grey ones first
-        let order = |strong: bool| self.series.iter().zip(&styles).filter(move |(_, style)| style.strong == strong);
-        for (series, style) in order(false).chain(order(true)) {
+        for (series, style) in self.series.iter().zip(self.styles()) {
             let pieces = series.points.split(|point| !fits(point)).filter(|piece| !piece.is_empty());
             for piece in pieces.map(|piece| piece.iter().map(|(x, y)| (*x, y.max(range.start)))) {
                 let drawn = match series.dots {
@@ -183,22 +190,13 @@ impl Picture {
     }
 
     /// How the series are drawn, each in a colour of its own. A line that a later one covers is wider, so that both are visible.
-    fn styles(&self, view: &View) -> Vec<Style> {
+    fn styles(&self) -> Vec<Style> {
         let style = |(index, series): (usize, &Series)| {
-            let strong = view.strong.is_none_or(|strong| strong.contains(&series.label));
             let covers = |other: &Series| !other.dots && coincide(&other.points, &series.points);
-            let width = match strong {
-                true if self.series[index + 1..].iter().any(covers) => 4 * SCALE,
-                true => 2 * SCALE,
-                false => SCALE,
-            };
-            let colour = match (strong, series.dots) {
-                (_, true) => BLACK,
-                (true, _) => COLOURS[index % COLOURS.len()],
-                (false, _) => RGBColor(181, 181, 181),
-            };
-            let dashed = strong && index >= COLOURS.len() && !series.dots;
-            Style { line: colour.stroke_width(width as u32), dashed, strong }
+            let width = if self.series[index + 1..].iter().any(covers) { 4 * SCALE } else { 2 * SCALE };
+            let colour = if series.dots { BLACK } else { COLOURS[index % COLOURS.len()] };
+            let dashed = index >= COLOURS.len() && !series.dots;
+            Style { line: colour.stroke_width(width as u32), dashed }
         };
         self.series.iter().enumerate().map(style).collect()
     }
@@ -208,7 +206,6 @@ impl Picture {
 struct Style {
     line: ShapeStyle,
     dashed: bool,
-    strong: bool,
 }
 
 /// Whether two lines look the same.

@@ -41,7 +41,7 @@ pub fn check_name(name: &str) -> Result<(), String> {
 }
 
 /// A checked scene.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// Name of the FMU: a C identifier.
     pub name: String,

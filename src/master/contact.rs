@@ -1,10 +1,17 @@
-//! The contact that a co-simulation algorithm steps.
+//! A contact of an FMU in the hands of a master.
 
 use crate::importer::{Archive, Description, ImportError, Instance, Unit};
 
-/// A contact in the hands of a co-simulation algorithm; it counts the calls.
+/// A tangential direction: value references of its rate and of its force, and the component of the motion along it.
+type Direction = (u32, u32, f64);
+
+/// The tangential variables of FMUs with one and with two directions: what is behind their names, and the component of the
+/// motion, which is along one line.
+const DIRECTIONS: [(&str, f64); 3] = [("", 1.0), ("[1]", 0.8), ("[2]", -0.6)];
+
+/// A contact in the hands of a master. It counts the calls.
 pub struct Contact<'a> {
-    instance: Instance<'a>,
+    pub instance: Instance<'a>,
     description: &'a Description,
     /// Parameters that differ from the start values of the FMU.
     parameters: Vec<(u32, f64)>,
@@ -13,6 +20,10 @@ pub struct Contact<'a> {
     // outputs that another FMU may not have
     mean_force: Option<u32>,
     predicted_force: Option<u32>,
+    /// Of a contact with friction.
+    directions: Vec<Direction>,
+    /// What precedes the names of its variables.
+    prefix: String,
     /// Time of the co-simulation, and its start time [s].
     time: f64,
     start_time: f64,
@@ -23,18 +34,30 @@ pub struct Contact<'a> {
 }
 
 impl<'a> Contact<'a> {
-    /// A contact of the FMU. Every start sets those of these `parameters` that the FMU has.
-    pub fn new(archive: &'a Archive, unit: &'a Unit, parameters: &[(&str, f64)]) -> Result<Contact<'a>, ImportError> {
+    /// The contact whose variables have this `prefix`. Every start sets those of these `parameters` that the FMU has.
+    pub fn new(
+        archive: &'a Archive,
+        unit: &'a Unit,
+        prefix: &str,
+        parameters: &[(&str, f64)],
+    ) -> Result<Contact<'a>, ImportError> {
         let description = &archive.description;
+        let real = |name: &str| description.real(&format!("{prefix}{name}"));
         let known = |(name, value): &(&str, f64)| Some((description.real(name).ok()?, *value));
+        let direction = |(index, component): &(&str, f64)| {
+            let both = ["rate", "force"].map(|name| real(&format!("tangential_{name}{index}")).ok());
+            Some((both[0]?, both[1]?, *component))
+        };
         Ok(Contact {
             instance: unit.instantiate()?,
             description,
             parameters: parameters.iter().filter_map(known).collect(),
-            rate: description.real("indentation_rate")?,
-            force: description.real("force")?,
-            mean_force: description.real("mean_force").ok(),
-            predicted_force: description.real("predicted_force").ok(),
+            rate: real("indentation_rate")?,
+            force: real("force")?,
+            mean_force: real("mean_force").ok(),
+            predicted_force: real("predicted_force").ok(),
+            directions: DIRECTIONS.iter().filter_map(direction).collect(),
+            prefix: prefix.into(),
             time: 0.0,
             start_time: 0.0,
             calls: 0,
@@ -42,7 +65,7 @@ impl<'a> Contact<'a> {
         })
     }
 
-    /// Restarts with these parameters; the others have the values of the scene.
+    /// Restarts with these parameters, by their whole names; the others have the values of the scene.
     pub fn start(&mut self, parameters: &[(&str, f64)]) -> Result<(), ImportError> {
         self.instance.call("fmi2Reset")?;
         self.instance.setup_experiment(0.0)?;
@@ -70,17 +93,6 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
-    /// Enables warnings, including those already logged.
-    pub fn ask_for_warnings(&mut self) -> Result<(), ImportError> {
-        self.instance.take_warnings();
-        self.instance.ask_for_warnings()
-    }
-
-    /// The warnings since they were enabled.
-    pub fn warnings(&mut self) -> Vec<String> {
-        self.instance.take_warnings()
-    }
-
     /// Time since the start [s].
     pub fn elapsed(&self) -> f64 {
         self.time - self.start_time
@@ -91,11 +103,6 @@ impl<'a> Contact<'a> {
         self.calls += 1;
         self.fastest = self.fastest.max(rate);
         self.instance.set_real(self.rate, rate)
-    }
-
-    /// Sets the relative tangential speed of the contact points [m/s].
-    pub fn set_tangential_rate(&mut self, rate: f64) -> Result<(), ImportError> {
-        self.instance.set_real(self.description.real("tangential_rate")?, rate)
     }
 
     /// Sets the derivatives of the closing speed for the next step: [m/s^2], [m/s^3].
@@ -110,6 +117,20 @@ impl<'a> Contact<'a> {
         self.instance.do_step(self.time, step)?;
         self.time += step;
         Ok(())
+    }
+
+    /// Makes a step [s] at a closing and a tangential speed [m/s]; the two forces at its end [N].
+    pub fn step_obliquely(&mut self, (closing, slip): (f64, f64), step: f64) -> Result<(f64, f64), ImportError> {
+        self.set_rate(closing)?;
+        for (rate, _, component) in &self.directions {
+            self.instance.set_real(*rate, component * slip)?;
+        }
+        self.step(step)?;
+        let mut pull = 0.0;
+        for (_, force, component) in &self.directions {
+            pull += component * self.instance.real(*force)?;
+        }
+        Ok((self.force()?, pull))
     }
 
     /// The force at the end of the step [N].
@@ -136,8 +157,8 @@ impl<'a> Contact<'a> {
         self.instance.real(self.predicted_force.ok_or_else(|| ImportError::Variable("predicted_force".into()))?)
     }
 
-    /// Another output of the FMU, which isn't counted.
+    /// Another output of the contact, which isn't counted.
     pub fn output(&mut self, name: &str) -> Result<f64, ImportError> {
-        self.instance.real(self.description.real(name)?)
+        self.instance.real(self.description.real(&format!("{}{name}", self.prefix))?)
     }
 }

@@ -1,7 +1,15 @@
-//! The ways to couple a contact with a mass that the importer moves.
+//! The master of a report and of a check: it moves the bodies against one contact of an FMU, as a user's importer would. The
+//! ways to couple a contact with a mass; and a ball on a contact with friction.
 
-use super::contact::Contact;
+mod contact;
+
+pub use contact::Contact;
+
 use crate::importer::ImportError;
+use brinell_contact::tangential::impact::Ball;
+
+/// Number of iterations between a force that follows the rate and the speed that it causes.
+const ITERATIONS: u32 = 3;
 
 /// The result of an impact for the importer.
 pub struct Rebound {
@@ -32,7 +40,7 @@ pub struct Body {
 pub type Advance = fn(&mut Contact, &mut Body, f64) -> Result<(), ImportError>;
 
 /// The features of the FMU that a way to couple needs.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Needs {
     /// The force.
     Force,
@@ -97,6 +105,29 @@ pub const LEAP_FROG: Way = Way {
     stable: 2.0,
 };
 
+/// The same for a force that follows the rate: it is that of the speed in the middle of the change that it causes.
+pub const LEAP_FROG_FOLLOWED: Way = Way { name: "leap-frog, iterated", advance: leap_frog_followed, ..LEAP_FROG };
+
+/// The FMU moves the mass: exact.
+pub const MASS_KNOWN: Way = Way {
+    name: "mass known",
+    what: "the FMU moves the mass within the step; apply mean_force",
+    advance: mass_known,
+    needs: Needs::Mass,
+    master: Master::Serial,
+    stable: f64::INFINITY,
+};
+
+/// The FMU moves the mass, and tracks the momentum that has not reached the importer's mass yet: exact.
+pub const LATE_MASS: Way = Way {
+    name: "mass known, parallel",
+    what: "the FMU moves the mass; apply the mean_force of the previous step",
+    advance: late_mass,
+    needs: Needs::LateMass,
+    master: Master::Parallel,
+    stable: f64::INFINITY,
+};
+
 /// All ways in a report.
 pub static WAYS: [Way; 6] = [
     // `x' = x + u`, `u' = u - z x`: both eigenvalues have the modulus `sqrt(1 + z)`
@@ -133,24 +164,8 @@ pub static WAYS: [Way; 6] = [
         master: Master::Serial,
         stable: 1.269_862_885_454_414,
     },
-    // exact
-    Way {
-        name: "mass known",
-        what: "the FMU moves the mass within the step; apply mean_force",
-        advance: mass_known,
-        needs: Needs::Mass,
-        master: Master::Serial,
-        stable: f64::INFINITY,
-    },
-    // exact: the FMU tracks the momentum that has not reached the mass yet
-    Way {
-        name: "mass known, parallel",
-        what: "the FMU moves the mass; apply the mean_force of the previous step",
-        advance: late_mass,
-        needs: Needs::LateMass,
-        master: Master::Parallel,
-        stable: f64::INFINITY,
-    },
+    MASS_KNOWN,
+    LATE_MASS,
 ];
 
 /// Number of steps after which an impact is given up. The longest impact of a report has sixteen million.
@@ -176,6 +191,11 @@ impl Body {
     /// Acceleration towards the surface [m/s^2] for the contact `force` [N].
     fn acceleration(&self, force: f64) -> f64 {
         (self.load - force) / self.mass
+    }
+
+    /// Its speed once it has got all that the contact gave it in the last `step` [s], in m/s.
+    pub fn settled_speed(&self, step: f64) -> f64 {
+        self.speed - step * self.owed / self.mass
     }
 
     /// Applies `force` [N] over `step` [s].
@@ -228,6 +248,19 @@ fn leap_frog(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), Im
     Ok(())
 }
 
+/// The same with a force that depends on the speed after it.
+fn leap_frog_followed(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+    contact.set_rate(body.speed)?;
+    contact.step(step)?;
+    body.force = contact.force()?;
+    for _ in 0..ITERATIONS {
+        contact.set_rate(body.speed + 0.5 * step * body.acceleration(body.force))?;
+        body.force = contact.force()?;
+    }
+    body.feel(body.force, step);
+    Ok(())
+}
+
 /// Acceleration and jerk as input derivatives; the mean force over the step as output. Third order.
 fn derivatives(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
     contact.set_rate(body.speed)?;
@@ -261,4 +294,24 @@ fn step_with_mass(contact: &mut Contact, body: &Body, step: f64) -> Result<(), I
         contact.set_derivatives(&[body.load / body.mass])?;
     }
     contact.step(step)
+}
+
+/// Moves `ball` until it leaves a contact with friction, in at most `most` steps of `step` [s]; `None` if it doesn't. `contact`
+/// makes a step at the two rates [m/s], and gives the normal and the tangential force [N].
+pub fn bounce<E>(
+    mut ball: Ball,
+    step: f64,
+    most: u32,
+    mut contact: impl FnMut((f64, f64)) -> Result<(f64, f64), E>,
+) -> Result<Option<Ball>, E> {
+    for _ in 0..most {
+        let (force, pull) = contact((ball.normal, ball.slip()))?;
+        ball.normal -= step * force / ball.mass;
+        ball.tangential -= step * pull / ball.mass;
+        ball.spin -= step * pull * ball.radius / ball.inertia;
+        if force <= 0.0 && ball.normal <= 0.0 {
+            return Ok(Some(ball));
+        }
+    }
+    Ok(None)
 }

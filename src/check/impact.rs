@@ -1,0 +1,98 @@
+//! The impact of a check: what a user's importer finds that moves the mass with fine steps.
+
+use crate::importer::ImportError;
+use crate::master::{Body, Contact, LATE_MASS, LEAP_FROG, LEAP_FROG_FOLLOWED, MASS_KNOWN, Needs, Way};
+use brinell_contact::impact::Impact;
+use brinell_exporter::scene::Scene;
+
+/// Results of an explicit co-simulation.
+pub struct Simulated {
+    pub max_indentation: f64,
+    pub max_force: f64,
+    pub residual_indentation: f64,
+    pub restitution: f64,
+    pub contact_time: f64,
+}
+
+/// Number of steps per contact. The method is of second order: its error is then far below the tolerance.
+pub const STEPS_PER_CONTACT: u32 = 4096;
+
+/// Number of steps after which an impact counts as endless: sixteen times the expected number.
+pub const MOST_STEPS: u32 = 16 * STEPS_PER_CONTACT;
+
+/// Number of short steps after which a long step no longer affects an FMU whose force is applied one step late.
+const FORGOTTEN: u32 = 120;
+
+/// The way to couple an FMU of `scene`.
+pub fn way_of(scene: &Scene) -> &'static Way {
+    match scene.coupling {
+        Some(coupling) if coupling.parallel => &LATE_MASS,
+        Some(_) => &MASS_KNOWN,
+        None if scene.follows_rate() => &LEAP_FROG_FOLLOWED,
+        None => &LEAP_FROG,
+    }
+}
+
+/// Moves the mass of `impact` across `gap` [m] and against the contact until they separate again.
+///
+/// # Errors
+/// [`ImportError`] if the FMU rejects a call, for a force that is not finite, and for an impact that doesn't end.
+pub fn simulate(
+    contact: &mut Contact,
+    way: &Way,
+    impact: &Impact,
+    gap: f64,
+    step: f64,
+) -> Result<Simulated, ImportError> {
+    approach(contact, way, impact.speed, gap, step)?;
+    let (mut body, begin) = (Body::flying(impact.mass, impact.speed), contact.elapsed());
+    let (mut indentation, mut max_indentation, mut max_force) = (0.0, 0.0, 0.0);
+    // indentation and force at the end of the last two steps
+    let mut before = [(0.0, 0.0); 2];
+    for _ in 0..MOST_STEPS {
+        let start = body.settled_speed(step);
+        (way.advance)(contact, &mut body, step)?;
+        let (force, speed, time) = (body.force, body.settled_speed(step), contact.elapsed() - begin);
+        if !force.is_finite() {
+            return Err(ImportError::Force { force, time });
+        }
+        // the other ways hold the rate, which is that in the middle of the step
+        indentation += step * if way.needs.knows_mass() { 0.5 * (start + speed) } else { start };
+        max_indentation = f64::max(max_indentation, indentation);
+        max_force = f64::max(max_force, force);
+        if force <= 0.0 && speed < 0.0 {
+            let residual_indentation = end_of_contact(before);
+            return Ok(Simulated {
+                max_indentation,
+                max_force,
+                residual_indentation,
+                restitution: -speed / impact.speed,
+                contact_time: time - (residual_indentation - indentation) / -speed,
+            });
+        }
+        before = [before[1], (indentation, force)];
+    }
+    Err(ImportError::Endless { steps: MOST_STEPS })
+}
+
+/// Crosses `gap` [m] at `speed` [m/s].
+fn approach(contact: &mut Contact, way: &Way, speed: f64, gap: f64, step: f64) -> Result<(), ImportError> {
+    if gap <= 0.0 {
+        return Ok(());
+    }
+    let short = if way.needs == Needs::LateMass { f64::min(gap, f64::from(FORGOTTEN) * step * speed) } else { 0.0 };
+    contact.set_rate(speed)?;
+    if gap > short {
+        contact.step((gap - short) / speed)?;
+    }
+    for _ in 0..if short > 0.0 { FORGOTTEN } else { 0 } {
+        contact.step(short / speed / f64::from(FORGOTTEN))?;
+    }
+    Ok(())
+}
+
+/// The indentation at which the force ends [m], from the last two points in contact: it vanishes as `(d - d_f)^1.5`.
+fn end_of_contact([(first, first_force), (last, last_force)]: [(f64, f64); 2]) -> f64 {
+    let (first_root, last_root) = (f64::powf(first_force, 2.0 / 3.0), f64::powf(last_force, 2.0 / 3.0));
+    last - last_root * (first - last) / (first_root - last_root)
+}
