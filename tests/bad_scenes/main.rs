@@ -142,6 +142,8 @@ fn a_character_that_xml_cannot_have_is_refused_by_its_key() {
     ] {
         let description = format!("description = §\"steel{escape} ball\"\nname");
         refused("name", &description, &["description has ", said, "character 6", "XML doesn't allow"]);
+        let author = description.replacen("description", "author", 1);
+        refused("name", &author, &["author has ", said, "character 6", "XML doesn't allow"]);
         refused("\"ball\"", &format!("§\"ball{escape}\""), &["name = ", "letters, digits and `_`"]);
         let contact = format!("[[contact]]\nname = §\"left{escape}\"");
         refused_with(&contact, &["name = ", "letters, digits and `_`"]);

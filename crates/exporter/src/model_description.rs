@@ -42,6 +42,7 @@ fn document(xml: &mut Xml<'_>, plan: &Plan, guid: &str) -> io::Result<()> {
         ("modelName", &scene.name),
         ("guid", guid),
         ("description", &scene.description),
+        ("author", &scene.author),
         ("generationTool", tool),
         ("variableNamingConvention", if scene.structured_names { "structured" } else { "flat" }),
     ];

@@ -4,7 +4,7 @@ use super::Scene;
 use super::bodies::{self, Body, Both};
 use super::contacts::{Contacts, Group, Parameter};
 use super::file::{ImpactTable, NamesName, SceneFile};
-use super::fmu::{self, check_description, check_input_derivatives, check_outputs, choose_settable};
+use super::fmu::{self, check_input_derivatives, check_outputs, check_text, choose_settable};
 use super::friction;
 use super::laws::{self, SceneLaws};
 use super::losses::{self, Loss};
@@ -26,7 +26,8 @@ use toml::Spanned;
 /// The first mistake.
 pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let name = check_name(&file.name)?;
-    let description = check_description(file.description.as_ref())?;
+    let description = check_text("description", file.description.as_ref())?;
+    let author = check_text("author", file.author.as_ref())?;
     let mut contacts = Contacts::of(&file)?;
     let laws = SceneLaws::of(&file.law, &contacts)?;
     let SceneLaws { damped, loading, unloading, passivity_guard } = laws;
@@ -71,6 +72,7 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let mut scene = Scene {
         name,
         description,
+        author,
         parameters,
         contacts: groups,
         outputs,

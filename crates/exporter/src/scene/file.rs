@@ -12,6 +12,7 @@ use toml::Spanned;
 pub struct SceneFile {
     pub name: Spanned<String>,
     pub description: Option<Spanned<String>>,
+    pub author: Option<Spanned<String>>,
     pub impactor: Option<Spanned<Impactor>>,
     pub target: Option<Spanned<BodyTable>>,
     #[serde(default)]

@@ -10,15 +10,15 @@ use crate::xml;
 use std::collections::HashSet;
 use toml::Spanned;
 
-/// A text that the model description can contain.
-pub fn check_description(given: Option<&Spanned<String>>) -> Result<String, Mistake> {
+/// The text of the `key`, which the model description must be able to contain; empty if it is not given.
+pub fn check_text(key: &str, given: Option<&Spanned<String>>) -> Result<String, Mistake> {
     let Some(text) = given else { return Ok(String::new()) };
     match xml::forbidden(text.get_ref()) {
         None => Ok(text.get_ref().clone()),
         Some((place, character)) => {
             let number = text.get_ref()[..place].chars().count() + 1;
             let character = xml::name(character);
-            let message = format!("description has {character} as character {number}, which XML doesn't allow");
+            let message = format!("{key} has {character} as character {number}, which XML doesn't allow");
             Err(Mistake(text.span(), message))
         }
     }

@@ -46,6 +46,8 @@ pub struct Scene {
     /// Name of the FMU: a C identifier.
     pub name: String,
     pub description: String,
+    /// Who answers for the FMU; empty if nobody is named.
+    pub author: String,
     /// The parameters of all contacts, in the order of the table.
     pub parameters: Vec<Parameter>,
     /// The groups of contacts: at least one.
