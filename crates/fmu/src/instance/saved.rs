@@ -158,8 +158,10 @@ impl<S: Scene> Instance<S> {
         let slots = histories.as_mut().iter_mut().zip(rates.as_mut());
         for (contact, (history_slot, rate_slot)) in slots.enumerate() {
             let group = S::group(contact);
-            // in the first pass, these may be the bodies of a blank instance, for which no law can be evaluated
-            let read = match in_earnest {
+            // in the first pass, these may be the bodies of a blank instance, for which no law can be evaluated; contacts with
+            // friction or a loss evaluate theirs
+            let asks = S::Contact::HAS_FRICTION || S::Contact::FOLLOWS_RATE;
+            let read = match in_earnest || !asks {
                 true => None,
                 false => Some(bodies_of::<S>(group, &values, sizes.clone())?),
             };
