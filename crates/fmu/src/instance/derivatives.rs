@@ -1,5 +1,6 @@
 //! Derivatives: of inputs and outputs with respect to time, and of outputs with respect to the input.
 
+use super::variables::of_state;
 use super::*;
 use crate::scene::Real;
 use brinell_contact::Regime;
@@ -112,7 +113,7 @@ impl<S: Scene> Instance<S> {
 
     /// First and second derivative of an output with respect to time.
     #[inline(always)]
-    fn derivatives(&self, variable: Real, contact: usize) -> Option<(f64, f64)> {
+    fn derivatives(&self, output: Real, contact: usize) -> Option<(f64, f64)> {
         let history = self.histories().get(contact)?;
         let (rate, slope) = self.end_of(contact);
         let model = self.model(contact);
@@ -120,12 +121,12 @@ impl<S: Scene> Instance<S> {
         let work = (force * rate, stiffness * rate * rate + force * slope);
         // for a function of the indentation with these derivatives
         let by_time = |(first, second): (f64, f64)| (first * rate, second * rate * rate + first * slope);
-        if let (true, Some(quantity)) = (S::Contact::HAS_FRICTION, variable.quantity()) {
+        if let (true, Some(quantity)) = (S::Contact::HAS_FRICTION, output.quantity()) {
             let normal = Course { rate, slope, bend: 0.0 };
             let tangential = [0, 1].map(|direction| self.tangential_end_of(contact, direction));
             return Some(history.tangential_derivatives(&model, quantity, &normal, &tangential));
         }
-        let along: fn(&S::Contact, &S::Model, f64) -> f64 = match variable {
+        let variable = match output {
             Real::Force if S::Contact::DERIVATIVES < 2 => return Some((stiffness * rate, 0.0)),
             Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
             Real::Indentation => return Some((rate, slope)),
@@ -143,20 +144,15 @@ impl<S: Scene> Instance<S> {
             | Real::SecondPredictedTangentialForce => return Some((0.0, 0.0)),
             // the force changes with the distance
             Real::ClosingSpeed if Self::MOVES => return Some((slope, -stiffness * rate / self.mass(contact))),
-            Real::ResidualIndentation => |contact, model, _| contact.residual_indentation(model),
-            Real::ContactRadius => |contact, model, _| contact.contact_radius(model),
-            Real::MeanPressure => |contact, model, rate| contact.mean_pressure(model, rate),
-            Real::Stiffness => |contact, _, rate| contact.stiffness(rate),
             // the heat is not a function of the indentation, but the remaining part of the work is
-            Real::DissipatedEnergy if !S::Contact::FOLLOWS_RATE => |contact, model, _| contact.dissipated_energy(model),
-            Real::ElasticEnergy | Real::DissipatedEnergy => |contact, model, _| contact.elastic_energy(model),
-            _ => return None,
+            Real::DissipatedEnergy if S::Contact::FOLLOWS_RATE => Real::ElasticEnergy,
+            variable => variable,
         };
         if history.regime() == Regime::Apart {
             return Some((0.0, 0.0));
         }
-        let (first, second) = by_time(slopes(history, &model, |contact| along(contact, &model, rate)));
-        let rest = variable == Real::DissipatedEnergy && S::Contact::FOLLOWS_RATE;
+        let (first, second) = by_time(slopes(history, &model, |contact| of_state::<S>(variable, contact, &model, rate)));
+        let rest = output == Real::DissipatedEnergy && S::Contact::FOLLOWS_RATE;
         Some(if rest { (work.0 - first, work.1 - second) } else { (first, second) })
     }
 

@@ -156,13 +156,7 @@ impl<S: Scene> Instance<S> {
             Real::Force => history.force(shown),
             Real::Indentation => history.indentation(),
             Real::MaxIndentation => history.max_indentation(),
-            Real::ResidualIndentation => history.residual_indentation(&model),
-            Real::ContactRadius => history.contact_radius(&model),
-            Real::MeanPressure => history.mean_pressure(&model, shown),
-            Real::Stiffness => history.stiffness(shown),
             Real::Work => history.work(&model),
-            Real::ElasticEnergy => history.elastic_energy(&model),
-            Real::DissipatedEnergy => history.dissipated_energy(&model),
             Real::Impulse => momentum().map_or(f64::NAN, Momentum::impulse),
             Real::MeanForce => match self.contacts.endings.as_ref().get(contact) {
                 Some(ending) => ending.force,
@@ -184,19 +178,12 @@ impl<S: Scene> Instance<S> {
                     _ => f64::NAN,
                 }
             }
-            Real::TangentialForce
-            | Real::SecondTangentialForce
-            | Real::MeanTangentialForce
-            | Real::SecondMeanTangentialForce
-            | Real::TangentialImpulse
-            | Real::SecondTangentialImpulse
-            | Real::TangentialEnergy
-            | Real::FrictionWork
-            | Real::StickRadius => {
-                variable.quantity().map_or(f64::NAN, |quantity| history.tangential(&model, quantity))
-            }
             Real::ClosingSpeed | Real::ExternalAcceleration | Real::EffectiveMass => f64::NAN,
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
+            output => match output.quantity() {
+                Some(quantity) => history.tangential(&model, quantity),
+                None => of_state::<S>(output, history, &model, shown),
+            },
         }
     }
 
@@ -249,6 +236,21 @@ impl<S: Scene> Instance<S> {
             Integer::Regime => self.histories().get(contact).map_or(0, |history| history.regime() as i32),
             Integer::Sliding => self.histories().get(contact).map_or(0, |history| history.sliding() as i32),
         }
+    }
+}
+
+/// The output that is a function of the state of a `contact` at this `rate` \[m/s\]. Its derivatives by time follow from it. NaN for
+/// other variables.
+#[inline(always)]
+pub(super) fn of_state<S: Scene>(output: Real, contact: &S::Contact, model: &S::Model, rate: f64) -> f64 {
+    match output {
+        Real::ResidualIndentation => contact.residual_indentation(model),
+        Real::ContactRadius => contact.contact_radius(model),
+        Real::MeanPressure => contact.mean_pressure(model, rate),
+        Real::Stiffness => contact.stiffness(rate),
+        Real::ElasticEnergy => contact.elastic_energy(model),
+        Real::DissipatedEnergy => contact.dissipated_energy(model),
+        _ => f64::NAN,
     }
 }
 
