@@ -3,6 +3,10 @@
 //! A usual run takes one law of each kind; `BRINELL_LAWS=all cargo test --release --test exported every_law` takes all.
 
 use crate::command::{empty_folder, run};
+use crate::loaded::{OK, Unit};
+use crate::physics::Random;
+use crate::unit::write_scene;
+use std::f64::consts::PI;
 use std::{env, fs};
 
 /// The laws of a usual run: elastic, in segments, fitted in segments, without segments, an integral for its work; each
@@ -89,5 +93,28 @@ fn every_rate_dependent_law_runs_inside_an_fmu_with_nothing_plastic() {
         assert!(row("restitution") > 0.5 && row("restitution") < 1.0, "{name}: {checked}");
         let gives = law["restitution"].as_f64().unwrap();
         assert!(gives > 0.4 && gives < 0.95, "{name}: asked for 0.5 it gives {gives}");
+    }
+}
+
+/// On every branch: rates of both signs over five decades.
+#[test]
+fn the_contact_area_is_that_of_the_contact_radius() {
+    for law in ["big-alabo", "brinell", "johnson", "tsuji"] {
+        let more = if law == "tsuji" { "restitution = 0.6\n" } else { "" };
+        let text = format!(
+            "name = \"area\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\" }}\n\
+             [law]\nloading = {law:?}\n{more}[fmu]\noutputs = [\"contact_radius\", \"contact_area\"]\n"
+        );
+        let unit = Unit::load(&write_scene(&format!("area_{law}"), &text));
+        let (mut contact, mut random, mut touched) = (unit.ready(), Random(3), 0);
+        for step in 0..2000 {
+            let rate = (random.next() - 0.45) * 10f64.powf(5.0 * random.next() - 4.0);
+            contact.set_one("indentation_rate", rate);
+            assert_eq!(contact.step(f64::from(step) * 1e-6, 1e-6), OK);
+            let [radius, area] = ["contact_radius", "contact_area"].map(|name| contact.real(name));
+            assert!((area - PI * radius * radius).abs() <= 4.0 * f64::EPSILON * area, "{law}, step {step}: {area}");
+            touched += u32::from(area > 0.0);
+        }
+        assert!((100..2000).contains(&touched), "{law}: in contact in {touched} steps");
     }
 }

@@ -267,7 +267,7 @@ impactor = { radius = 10e-3, youngs_modulus = 210e9, poissons_ratio = 0.3 }
 target = { material = "aluminium 6061-T6", radius = -50e-3, surface = "fresh" }
 law = { loading = "jackson-green", unloading = "jackson" }
 fmu = { outputs = [
-    "indentation", "max_indentation", "residual_indentation", "contact_radius", "mean_pressure", "stiffness", "work",
+    "indentation", "max_indentation", "residual_indentation", "contact_radius", "contact_area", "mean_pressure", "stiffness", "work",
     "elastic_energy", "dissipated_energy", "impulse", "mean_force", "predicted_force", "regime"] }
 "#;
     let rate_dependent = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.6\n\

@@ -151,7 +151,8 @@ impl<S: Scene> Instance<S> {
         if history.regime() == Regime::Apart {
             return Some((0.0, 0.0));
         }
-        let (first, second) = by_time(slopes(history, &model, |contact| of_state::<S>(variable, contact, &model, rate)));
+        let (first, second) =
+            by_time(slopes(history, &model, |contact| of_state::<S>(variable, contact, &model, rate)));
         let rest = output == Real::DissipatedEnergy && S::Contact::FOLLOWS_RATE;
         Some(if rest { (work.0 - first, work.1 - second) } else { (first, second) })
     }

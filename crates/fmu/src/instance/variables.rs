@@ -4,6 +4,7 @@ use super::friction::check_tangential_rate;
 use super::*;
 use crate::scene::{Integer, Real};
 use brinell_contact::path::Course;
+use core::f64::consts::PI;
 
 impl<S: Scene> Instance<S> {
     /// Checks whether `variable` of `contact` may be set to `value` now.
@@ -246,6 +247,10 @@ pub(super) fn of_state<S: Scene>(output: Real, contact: &S::Contact, model: &S::
     match output {
         Real::ResidualIndentation => contact.residual_indentation(model),
         Real::ContactRadius => contact.contact_radius(model),
+        Real::ContactArea => {
+            let radius = contact.contact_radius(model);
+            PI * radius * radius
+        }
         Real::MeanPressure => contact.mean_pressure(model, rate),
         Real::Stiffness => contact.stiffness(rate),
         Real::ElasticEnergy => contact.elastic_energy(model),

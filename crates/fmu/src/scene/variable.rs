@@ -180,6 +180,8 @@ variables! {
         ResidualIndentation = "residual_indentation",
         /// Contact radius \[m\].
         ContactRadius = "contact_radius",
+        /// Contact area \[m^2\].
+        ContactArea = "contact_area",
         /// Mean pressure \[Pa\].
         MeanPressure = "mean_pressure",
         /// Stiffness \[N/m\].
