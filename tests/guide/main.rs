@@ -8,6 +8,7 @@ mod code;
 mod comparisons;
 mod links;
 mod markdown;
+mod modules;
 #[path = "../../src/parallel.rs"]
 mod parallel;
 mod promises;
