@@ -16,6 +16,12 @@
 //! On one elastic curve `F` the result is exact for any history and any division into steps, as long as the [`List`]
 //! of segments is not full.
 //!
+//! # One direction and two
+//! [`SpringsOf`] is the contact for both: its curve, the growth of its dent, its outputs. What differs is [`Shear`], the springs
+//! themselves. Along a line ([`Stuck`]) slopes are +-1 where springs slip, cones cut the polyline in closed form, and each vertex
+//! keeps the sum below it. In a plane ([`plane`]) slipping springs follow a pursuit curve, slopes are vectors, and a motion is cut
+//! where a spring's limit is reached. Their lists and the merge of segments have the same outline, but no formula in common.
+//!
 //! # Limits
 //! Quasi-static. No coupling of normal and tangential displacements: exact for equal bodies, an approximation
 //! otherwise. One coefficient of friction. A circular contact area whose springs belong to the area: steady rolling

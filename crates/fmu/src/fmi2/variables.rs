@@ -224,77 +224,34 @@ unsafe fn none_of_type<S: Scene>(
     }
 }
 
-/// There are no Boolean variables.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn get_boolean<S: Scene>(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *mut fmi2Boolean,
-) -> fmi2Status {
-    let _ = value;
-    // SAFETY: the caller's component, and an array of the given length.
-    unsafe { none_of_type::<S>(c, order::GET_BOOLEAN, "Boolean", vr, nvr) }
+/// Functions for a type without variables, or with outputs only.
+macro_rules! functions_of_no_variable {
+    ($($(#[$says:meta])* $function:ident = $kind:literal, $name:ident, $value:ty;)+) => {$(
+        $(#[$says])*
+        ///
+        /// # Safety
+        /// See [the module](super#safety).
+        pub unsafe fn $function<S: Scene>(
+            c: fmi2Component,
+            vr: *const fmi2ValueReference,
+            nvr: usize,
+            _value: $value,
+        ) -> fmi2Status {
+            // SAFETY: the caller's component, and an array of the given length.
+            unsafe { none_of_type::<S>(c, order::$name, $kind, vr, nvr) }
+        }
+    )+};
 }
 
-/// There are no String variables.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn get_string<S: Scene>(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *mut fmi2String,
-) -> fmi2Status {
-    let _ = value;
-    // SAFETY: the caller's component, and an array of the given length.
-    unsafe { none_of_type::<S>(c, order::GET_STRING, "String", vr, nvr) }
-}
-
-/// No Integer variable can be set: they are outputs.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn set_integer<S: Scene>(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *const fmi2Integer,
-) -> fmi2Status {
-    let _ = value;
-    // SAFETY: the caller's component, and an array of the given length.
-    unsafe { none_of_type::<S>(c, order::SET_INTEGER, "Integer", vr, nvr) }
-}
-
-/// There are no Boolean variables.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn set_boolean<S: Scene>(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *const fmi2Boolean,
-) -> fmi2Status {
-    let _ = value;
-    // SAFETY: the caller's component, and an array of the given length.
-    unsafe { none_of_type::<S>(c, order::SET_BOOLEAN, "Boolean", vr, nvr) }
-}
-
-/// There are no String variables.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn set_string<S: Scene>(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *const fmi2String,
-) -> fmi2Status {
-    let _ = value;
-    // SAFETY: the caller's component, and an array of the given length.
-    unsafe { none_of_type::<S>(c, order::SET_STRING, "String", vr, nvr) }
+functions_of_no_variable! {
+    /// There are no Boolean variables.
+    get_boolean = "Boolean", GET_BOOLEAN, *mut fmi2Boolean;
+    /// There are no String variables.
+    get_string = "String", GET_STRING, *mut fmi2String;
+    /// No Integer variable can be set: they are outputs.
+    set_integer = "Integer", SET_INTEGER, *const fmi2Integer;
+    /// There are no Boolean variables.
+    set_boolean = "Boolean", SET_BOOLEAN, *const fmi2Boolean;
+    /// There are no String variables.
+    set_string = "String", SET_STRING, *const fmi2String;
 }
