@@ -26,7 +26,7 @@ pub fn numbers(scene: &Scene, group: usize) -> Vec<(&'static str, f64, &'static 
     names.filter_map(number).collect()
 }
 
-/// The first contact with its name, if it has one: "the first contact, <code>bead[1]</code>".
+/// The first contact with its name, if it has one: "the first contact, <code>bead\[1\]</code>".
 pub fn first_contact(scene: &Scene) -> Option<String> {
     let first = &scene.contacts[0];
     first.name.is_some().then(|| format!("the first contact, <code>{}</code>", first.prefix(0).trim_end_matches('.')))

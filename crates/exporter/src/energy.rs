@@ -235,7 +235,7 @@ fn makes_energy(model: &Model<AnyLoading, AnyUnloading>) -> bool {
     false
 }
 
-/// Increasing depths [m]: over the decades around yield, and close to the corners of the law on both sides.
+/// Increasing depths \[m\]: over the decades around yield, and close to the corners of the law on both sides.
 fn depths(model: &Model<AnyLoading, AnyUnloading>) -> Vec<f64> {
     let unit = model.pair.yield_point(UNIT_PRESSURE_FACTOR).indentation;
     let mut depths: Vec<f64> = (0..=420).map(|step| unit * libm::pow(10.0, f64::from(step) / 60.0 - 2.0)).collect();

@@ -29,21 +29,21 @@ const STEPS: u32 = 120;
 /// The result of a test.
 #[derive(Clone, Copy, Debug)]
 pub struct Dent {
-    /// Indentation under the load [m].
+    /// Indentation under the load \[m\].
     pub max_indentation: f64,
-    /// Diameter of the contact under load [m]. It is taken as the diameter of the dent, because unloading makes the dent
+    /// Diameter of the contact under load \[m\]. It is taken as the diameter of the dent, because unloading makes the dent
     /// shallower but hardly narrower.
     pub diameter: f64,
-    /// Depth of the dent after unloading [m].
+    /// Depth of the dent after unloading \[m\].
     pub depth: f64,
-    /// Load over the contact area under load [Pa].
+    /// Load over the contact area under load \[Pa\].
     pub mean_pressure: f64,
     pub regime: Regime,
-    /// Contact radius over effective radius [-].
+    /// Contact radius over effective radius \[-\].
     pub radius_ratio: f64,
     /// Brinell number HBW; `None` without a dent, or if the dent is wider than the ball.
     pub brinell: Option<f64>,
-    /// Meyer hardness [Pa]; `None` without a dent.
+    /// Meyer hardness \[Pa\]; `None` without a dent.
     pub meyer: Option<f64>,
 }
 
@@ -54,7 +54,7 @@ impl Dent {
     }
 }
 
-/// The Brinell number of a dent of this `diameter` [m] from a ball of diameter `ball` [m] under `load` [N]:
+/// The Brinell number of a dent of this `diameter` \[m\] from a ball of diameter `ball` \[m\] under `load` \[N\]:
 /// `HBW = 0.102 * 2 F / (pi D (D - sqrt(D^2 - d^2)))`, with lengths in millimetres. `None` if the dent is wider than the ball.
 ///
 /// Reference: ISO 6506-1, section 4.
@@ -73,7 +73,7 @@ pub fn load_ratio(load: f64, ball: f64) -> f64 {
     PER_KILOGRAM * load / (1e6 * ball * ball)
 }
 
-/// The test with `load` [N] and a ball of diameter `ball` [m]; `None` if the law cannot be evaluated.
+/// The test with `load` \[N\] and a ball of diameter `ball` \[m\]; `None` if the law cannot be evaluated.
 fn test(model: &Model<AnyLoading, AnyUnloading>, load: f64, ball: f64) -> Option<Dent> {
     let depth = depth_of_force(model, load)?;
     let peak = model.peak(depth);
@@ -93,7 +93,7 @@ fn test(model: &Model<AnyLoading, AnyUnloading>, load: f64, ball: f64) -> Option
     })
 }
 
-/// The smallest indentation [m] at which the force reaches `force` [N].
+/// The smallest indentation \[m\] at which the force reaches `force` \[N\].
 fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option<f64> {
     let at = |depth: f64| model.loading.segment(&model.pair, depth).force(depth);
     // the bits of positive f64 numbers, read as integers, keep their order
@@ -130,7 +130,7 @@ fn elastoplastic(choice: &Choice) -> Result<Model<AnyLoading, AnyUnloading>, Str
         .ok_or_else(|| format!("the law {} leaves no dent: a hardness test needs a law that yields", choice.laws))
 }
 
-/// The yield strength [Pa] of a target for which the test gives the Brinell number `hardness`, and the dent.
+/// The yield strength \[Pa\] of a target for which the test gives the Brinell number `hardness`, and the dent.
 ///
 /// # Errors
 /// A sentence with the reason why there is no result.

@@ -52,7 +52,7 @@ pub fn check_loading(model: &AnyModel, published: AnyLoading) -> Result<(), Stri
     Ok(())
 }
 
-/// Increasing indentations [m] over the evaluated range and on both sides of every corner.
+/// Increasing indentations \[m\] over the evaluated range and on both sides of every corner.
 ///
 /// # Errors
 /// A corner at which the next piece of the curve does not begin.
@@ -77,7 +77,7 @@ fn looked_at(model: &AnyModel, unit: f64) -> Result<Vec<f64>, f64> {
     Ok(points)
 }
 
-/// A decrease of the force: its relative size, the indentation [m], and the forces before and after [N].
+/// A decrease of the force: its relative size, the indentation \[m\], and the forces before and after \[N\].
 struct Fall {
     part: f64,
     place: f64,
@@ -85,7 +85,7 @@ struct Fall {
     to: f64,
 }
 
-/// The largest decrease of the loading force between neighbouring `points` [m].
+/// The largest decrease of the loading force between neighbouring `points` \[m\].
 fn deepest_fall(model: &AnyModel, points: &[f64]) -> Fall {
     let force = |d: f64| model.loading.segment(&model.pair, d).force(d);
     let fall = |pair: &[f64]| {
@@ -132,7 +132,7 @@ pub fn check_unloading(model: &AnyModel) -> Result<(), String> {
     Ok(())
 }
 
-/// Depths over the evaluated range [m], evenly spaced on a logarithmic scale.
+/// Depths over the evaluated range \[m\], evenly spaced on a logarithmic scale.
 fn depths(unit: f64) -> impl Iterator<Item = f64> {
     let (low, high) = RANGE;
     (0..=DEPTHS).map(move |step| unit * low * libm::pow(high / low, f64::from(step) / f64::from(DEPTHS)))

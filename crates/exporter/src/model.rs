@@ -88,7 +88,7 @@ impl AnyModel {
         }
     }
 
-    /// The indentation up to which the law is valid [m].
+    /// The indentation up to which the law is valid \[m\].
     pub fn valid_depth(&self) -> f64 {
         match self {
             AnyModel::Elastoplastic(model) => model.valid_depth(),
@@ -97,13 +97,13 @@ impl AnyModel {
         }
     }
 
-    /// The model with this yield strength of the target [Pa], if its law has one.
+    /// The model with this yield strength of the target \[Pa\], if its law has one.
     pub fn with_yield_strength(&self, yield_strength: f64) -> Option<AnyModel> {
         let model = self.elastoplastic()?;
         Some(self.with_plastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }))
     }
 
-    /// The law on the bodies `pair`, with the given yield strength [Pa]; without one, the yield strength stays the same.
+    /// The law on the bodies `pair`, with the given yield strength \[Pa\]; without one, the yield strength stays the same.
     pub fn on(&self, pair: Pair, yield_strength: Option<f64>) -> AnyModel {
         let pair = Pair { yield_strength: yield_strength.unwrap_or(self.pair().yield_strength), ..pair };
         match self {
@@ -113,13 +113,13 @@ impl AnyModel {
         }
     }
 
-    /// The model with a target of this hardening modulus [Pa]; `None` if its law has none.
+    /// The model with a target of this hardening modulus \[Pa\]; `None` if its law has none.
     pub fn with_hardening(&self, hardening_modulus: f64) -> Option<AnyModel> {
         let model = self.elastoplastic().filter(|model| model.loading.strengthened(hardening_modulus).is_some())?;
         Some(self.with_plastic(strengthened(model, hardening_modulus)))
     }
 
-    /// The stiffness of the way back from `indentation` [m]; of a rate-dependent law that of its elastic part [N/m].
+    /// The stiffness of the way back from `indentation` \[m\]; of a rate-dependent law that of its elastic part \[N/m\].
     pub fn stiffness(&self, indentation: f64) -> f64 {
         match self {
             AnyModel::Elastoplastic(model) | AnyModel::Lossy(losses::Model { plastic: model, .. }) => {
@@ -140,7 +140,7 @@ impl AnyModel {
         }
     }
 
-    /// Indentation [m] and force [N] during an impact with its `prediction`: up to the largest indentation, and back if
+    /// Indentation \[m\] and force \[N\] during an impact with its `prediction`: up to the largest indentation, and back if
     /// unloading follows another path.
     pub fn branches(&self, impact: &Impact, prediction: &Prediction) -> Option<Vec<Vec<(f64, f64)>>> {
         match self {
@@ -176,7 +176,7 @@ impl AnyModel {
     }
 }
 
-/// The model with the form of its laws for targets of this hardening modulus [Pa] and any Poisson's ratio, if they have one.
+/// The model with the form of its laws for targets of this hardening modulus \[Pa\] and any Poisson's ratio, if they have one.
 pub fn strengthened(
     model: &Model<AnyLoading, AnyUnloading>,
     hardening_modulus: f64,

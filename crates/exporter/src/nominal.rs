@@ -9,9 +9,9 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy)]
 pub struct Nominal {
     prediction: Prediction,
-    /// Stiffness [N/m].
+    /// Stiffness \[N/m\].
     stiffness: f64,
-    /// Speed of the scene's impact [m/s].
+    /// Speed of the scene's impact \[m/s\].
     speed: f64,
     /// Coefficient of friction; 1 if it is zero.
     friction: f64,
@@ -59,9 +59,9 @@ fn one_digit(value: f64, round: fn(f64) -> f64) -> f64 {
 
 /// Step size and stop time that suit the scene.
 pub struct Experiment {
-    /// Step size [s].
+    /// Step size \[s\].
     pub step: f64,
-    /// Stop time [s].
+    /// Stop time \[s\].
     pub stop: f64,
 }
 

@@ -9,7 +9,7 @@ use object::{BigEndian, Endianness};
 use sha2::{Digest, Sha256};
 use std::ops::Range;
 
-/// Length of a hash [bytes].
+/// Length of a hash \[bytes\].
 const HASH: usize = 32;
 
 /// An invalid signature.

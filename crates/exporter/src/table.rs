@@ -197,12 +197,12 @@ pub struct Material {
     pub name: String,
     /// Its number in EN 10027-2 or DIN 17007 (Werkstoffnummer). A scene that has it instead of the name gets an error with the name.
     pub number: Option<String>,
-    /// Young's modulus [Pa].
+    /// Young's modulus \[Pa\].
     pub youngs_modulus: f64,
     pub poissons_ratio: f64,
-    /// Yield strength [Pa].
+    /// Yield strength \[Pa\].
     pub yield_strength: f64,
-    /// Density [kg/m^3].
+    /// Density \[kg/m^3\].
     pub density: f64,
     pub source: String,
 }

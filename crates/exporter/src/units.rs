@@ -129,27 +129,27 @@ fn number(text: &str, unit: &str) -> Result<f64, String> {
     text.parse().map_err(|_| said().unwrap_or_else(|| format!("a number in {} is expected", kind(unit).name)))
 }
 
-/// A mass [kg] on the command line.
+/// A mass \[kg\] on the command line.
 pub fn masses(text: &str) -> Result<f64, String> {
     number(text, "kg")
 }
 
-/// A speed [m/s] on the command line.
+/// A speed \[m/s\] on the command line.
 pub fn speeds(text: &str) -> Result<f64, String> {
     number(text, "m/s")
 }
 
-/// An energy [J] on the command line.
+/// An energy \[J\] on the command line.
 pub fn energies(text: &str) -> Result<f64, String> {
     number(text, "J")
 }
 
-/// A length [m] on the command line.
+/// A length \[m\] on the command line.
 pub fn lengths(text: &str) -> Result<f64, String> {
     number(text, "m")
 }
 
-/// A force [N] on the command line.
+/// A force \[N\] on the command line.
 pub fn forces(text: &str) -> Result<f64, String> {
     number(text, "N")
 }

@@ -21,8 +21,8 @@ pub enum Beyond {
     Speed { ratio: f64, waves: f64 },
 }
 
-/// The limits that a contact of the bodies `pair` exceeds at this contact `radius` [m] and this closing `speed` [m/s]; the
-/// `density` [kg/m^3] of the target may be unknown.
+/// The limits that a contact of the bodies `pair` exceeds at this contact `radius` \[m\] and this closing `speed` \[m/s\]; the
+/// `density` \[kg/m^3\] of the target may be unknown.
 pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec<Beyond> {
     let width = radius / pair.radius;
     let waves = density.map_or(f64::INFINITY, |density| wave_speed(pair.youngs_modulus, density));
@@ -32,7 +32,7 @@ pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec
     width.into_iter().chain(speed).collect()
 }
 
-/// Warnings about a `prediction` for an impact at `speed` [m/s] of the bodies `pair`; the `density` [kg/m^3] of the target may
+/// Warnings about a `prediction` for an impact at `speed` \[m/s\] of the bodies `pair`; the `density` \[kg/m^3\] of the target may
 /// be unknown. Empty if the laws are valid.
 pub fn warnings(pair: &Pair, density: Option<f64>, prediction: &Prediction, speed: f64) -> Vec<String> {
     beyond(pair, density, prediction.max_contact_radius, speed).into_iter().map(words).collect()
@@ -112,7 +112,7 @@ pub fn words(beyond: Beyond) -> String {
     }
 }
 
-/// The limits of validity of an FMU on bodies with this limit of `depth` [m] and this target, in words. Beyond them, the FMU
+/// The limits of validity of an FMU on bodies with this limit of `depth` \[m\] and this target, in words. Beyond them, the FMU
 /// logs a warning.
 pub fn limits(pair: &Pair, density: Option<f64>, depth: f64) -> String {
     let radius = format!(

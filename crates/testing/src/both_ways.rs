@@ -156,7 +156,7 @@ impl Both {
 }
 
 impl Both {
-    /// Lets an importer move a body of this `mass` [kg] in steps that are far too long, on both; the messages, which must be
+    /// Lets an importer move a body of this `mass` \[kg\] in steps that are far too long, on both; the messages, which must be
     /// the same.
     pub fn drive_with_long_steps(&self, mass: f64) -> Vec<String> {
         let mut pair = Pair::new(&self.compiled, &self.prebuilt);

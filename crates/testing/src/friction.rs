@@ -41,7 +41,7 @@ pub fn table(name: &str) -> Vec<Row> {
     rows
 }
 
-/// Hertz's curve of these effective modulus [Pa] and radius [m].
+/// Hertz's curve of these effective modulus \[Pa\] and radius \[m\].
 pub fn hertz(modulus: f64, radius: f64) -> Segment {
     let power = 4.0 / 3.0 * modulus * radius.sqrt();
     Segment { upper: 1e100, power, ..Segment::NOTHING }
@@ -60,11 +60,11 @@ pub struct Ball {
     pub mass: f64,
     /// \[m\]
     pub radius: f64,
-    /// Closing speed along the normal [m/s].
+    /// Closing speed along the normal \[m/s\].
     pub normal: f64,
-    /// Tangential speed of the centre [m/s].
+    /// Tangential speed of the centre \[m/s\].
     pub tangential: f64,
-    /// Spin [rad/s]; positive if it moves the contact point as a positive tangential speed does.
+    /// Spin \[rad/s\]; positive if it moves the contact point as a positive tangential speed does.
     pub spin: f64,
 }
 
@@ -75,15 +75,15 @@ pub struct Rebound {
     pub steps: u32,
     /// Normal and tangential restitution of the centre.
     pub restitution: (f64, f64),
-    /// Tangential speed of the contact point [m/s].
+    /// Tangential speed of the contact point \[m/s\].
     pub slip: f64,
-    /// Rebound angle of the centre from the normal [degrees].
+    /// Rebound angle of the centre from the normal \[degrees\].
     pub angle: f64,
 }
 
 impl Ball {
-    /// The impact in steps of `step` [s]: the contact moves first, then the ball. `contact` takes the way along the normal, the
-    /// tangential one and whether the ball has left; it gives the forces [N], or `None` when the bodies have parted.
+    /// The impact in steps of `step` \[s\]: the contact moves first, then the ball. `contact` takes the way along the normal, the
+    /// tangential one and whether the ball has left; it gives the forces \[N\], or `None` when the bodies have parted.
     pub fn impact(mut self, step: f64, mut contact: impl FnMut(f64, f64) -> Option<(f64, f64)>) -> Rebound {
         let before = self;
         let inertia = 0.4 * self.mass * self.radius * self.radius;

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 /// The observations of an instance after its last call.
 #[derive(Clone, Debug, Default)]
 pub struct Seen {
-    /// The dissipated energy of each contact [J], by the prefix of its variables.
+    /// The dissipated energy of each contact \[J\], by the prefix of its variables.
     dissipated: HashMap<String, f64>,
 }
 

@@ -47,9 +47,9 @@ pub struct Master<S: Scene> {
     pub parallel: bool,
     pub wired: bool,
     pub mass: f64,
-    /// Closing speed that the importer knows [m/s].
+    /// Closing speed that the importer knows \[m/s\].
     pub speed: f64,
-    /// Acceleration by all forces except the contact force [m/s^2].
+    /// Acceleration by all forces except the contact force \[m/s^2\].
     pub acceleration: f64,
 }
 

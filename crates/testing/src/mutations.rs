@@ -151,5 +151,5 @@ pub fn assert_message(message: &str, case: &str) {
     assert!(is_good && !speaks_rust, "{} bytes of message: {message}\nabout: {case}", message.len());
 }
 
-/// More than any message is long [bytes].
+/// More than any message is long \[bytes\].
 const LONGEST: usize = 3000;

@@ -11,7 +11,7 @@ use std::mem::discriminant;
 /// A model with laws chosen at run time.
 pub type AnyModel = Model<AnyLoading, AnyUnloading>;
 
-/// Mass of the sphere of [`mild`]: radius 5 mm, 7850 kg/m^3 [kg].
+/// Mass of the sphere of [`mild`]: radius 5 mm, 7850 kg/m^3 \[kg\].
 pub const MASS: f64 = 4.0 / 3.0 * PI * 0.005 * 0.005 * 0.005 * 7850.0;
 
 /// The "mild" pair of the tables: a rigid sphere of 5 mm on steel with a yield strength of 300 MPa.
@@ -33,7 +33,7 @@ pub fn random_bodies(random: &mut Random) -> Pair {
     Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio }
 }
 
-/// A rigid sphere of effective radius `radius` [m] on a half-space of effective modulus `modulus` [Pa], nu = 0.3.
+/// A rigid sphere of effective radius `radius` \[m\] on a half-space of effective modulus `modulus` \[Pa\], nu = 0.3.
 pub fn pair_of(radius: f64, modulus: f64, yield_strength: f64) -> Pair {
     let poissons_ratio = 0.3;
     let youngs_modulus = modulus * (1.0 - poissons_ratio * poissons_ratio);
@@ -122,12 +122,12 @@ pub fn is_scale_free(model: &AnyModel) -> bool {
     !laws::says(loading_entry(model), "depends_on_modulus_ratio")
 }
 
-/// Force on the unloading path from `largest` [m] at `indentation` [m], [N].
+/// Force on the unloading path from `largest` \[m\] at `indentation` \[m\], \[N\].
 pub fn unloading_force(model: &AnyModel, largest: f64, indentation: f64) -> f64 {
     model.unloading_segment(largest, indentation).force(indentation)
 }
 
-/// Stiffness at the same point [N/m].
+/// Stiffness at the same point \[N/m\].
 pub fn unloading_stiffness(model: &AnyModel, largest: f64, indentation: f64) -> f64 {
     model.unloading_segment(largest, indentation).stiffness(indentation)
 }
@@ -152,27 +152,27 @@ pub fn all_models(pair: Pair) -> Vec<(String, AnyModel)> {
     models
 }
 
-/// A contact of `model` that has been loaded to `indentation` [m].
+/// A contact of `model` that has been loaded to `indentation` \[m\].
 pub fn pressed(model: &AnyModel, indentation: f64) -> History {
     History::start(model, -indentation).expect("within range")
 }
 
-/// Moves `history` by `increment` [m], which must be within range.
+/// Moves `history` by `increment` \[m\], which must be within range.
 pub fn advance(history: &mut History, model: &AnyModel, increment: f64) {
     history.advance(model, increment).expect("within range");
 }
 
-/// Moves `history` to `indentation` [m], up to the rounding of one sum.
+/// Moves `history` to `indentation` \[m\], up to the rounding of one sum.
 pub fn go(history: &mut History, model: &AnyModel, indentation: f64) {
     advance(history, model, indentation - history.indentation());
 }
 
-/// Force on the loading curve [N].
+/// Force on the loading curve \[N\].
 pub fn loading_force(model: &AnyModel, indentation: f64) -> f64 {
     model.loading.segment(&model.pair, indentation).force(indentation)
 }
 
-/// The corners of the loading curve [m], in order: every end of a smooth piece except the last.
+/// The corners of the loading curve \[m\], in order: every end of a smooth piece except the last.
 pub fn corners(model: &AnyModel) -> Vec<f64> {
     let mut corners = Vec::new();
     let mut corner = model.loading.next_corner(&model.pair, 0.0);
@@ -211,13 +211,13 @@ impl Random {
     }
 }
 
-/// `x` yield indentations [m] on a grid of powers of two, on which sums and differences are exact.
+/// `x` yield indentations \[m\] on a grid of powers of two, on which sums and differences are exact.
 pub fn on_grid(x: f64) -> f64 {
     const GRID: f64 = (1u64 << 62) as f64;
     (x * unit(&mild()).indentation * GRID).round() / GRID
 }
 
-/// Moves exactly to `target` [m] > 0, from one side: each step at most halves or doubles the indentation, which causes no
+/// Moves exactly to `target` \[m\] > 0, from one side: each step at most halves or doubles the indentation, which causes no
 /// rounding.
 pub fn exactly(history: &mut History, model: &AnyModel, target: f64) {
     while history.indentation() != target {

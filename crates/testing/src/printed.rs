@@ -29,7 +29,7 @@ pub fn closure(closure: &str) -> AnyModel {
     }
 }
 
-/// Speed at which the mild sphere just yields: `m v_y^2/2 = (2/5) F_y d_y` [m/s].
+/// Speed at which the mild sphere just yields: `m v_y^2/2 = (2/5) F_y d_y` \[m/s\].
 pub fn yield_speed() -> f64 {
     let unit = unit(&mild());
     (0.8 * unit.force * unit.indentation / MASS).sqrt()

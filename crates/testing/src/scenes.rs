@@ -28,13 +28,13 @@ pub struct Choice {
     pub unloading: AnyUnloading,
     pub surface: Surface,
     pub damped: AnyDamped,
-    /// Young's modulus of the target of the first contact [Pa]; that of each following one is a tenth larger.
+    /// Young's modulus of the target of the first contact \[Pa\]; that of each following one is a tenth larger.
     pub youngs_modulus: f64,
     pub poissons_ratio: f64,
     pub yield_strength: f64,
-    /// Radius of the impactor [m].
+    /// Radius of the impactor \[m\].
     pub radius: f64,
-    /// Radius of the target [m]: a wide socket, so that a parameter can be set to a value that does not fit.
+    /// Radius of the target \[m\]: a wide socket, so that a parameter can be set to a value that does not fit.
     pub target_radius: f64,
     pub restitution: f64,
     pub effective_mass: f64,
@@ -233,14 +233,14 @@ pub fn ready<S: Scene>() -> Instance<S> {
     instance
 }
 
-/// Sets the rate of `contact` [m/s], which must be accepted.
+/// Sets the rate of `contact` \[m/s\], which must be accepted.
 pub fn set_rate<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64) {
     let variable = (Real::IndentationRate, contact);
     instance.check_real(variable, rate).expect("the rate is allowed");
     instance.set_real(variable, rate);
 }
 
-/// Sets the tangential rate of `contact` [m/s], which must be accepted; with two directions, another one in the second.
+/// Sets the tangential rate of `contact` \[m/s\], which must be accepted; with two directions, another one in the second.
 pub fn set_tangential_rate<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64) {
     let both = [(Real::TangentialRate, rate), (Real::SecondTangentialRate, 0.7 * (rate * rate - 0.5))];
     for (input, rate) in both.into_iter().take(S::Contact::DIRECTIONS) {

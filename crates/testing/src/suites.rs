@@ -1,6 +1,7 @@
 //! The conformance suite and the random calls, run on any library.
 
 use super::child;
+use crate::places::root;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -27,7 +28,7 @@ impl Suites {
     /// The programs of this build.
     pub fn build() -> Suites {
         let mut cargo = Command::new(env!("CARGO"));
-        cargo.current_dir(env!("CARGO_MANIFEST_DIR"));
+        cargo.current_dir(root());
         cargo.args([
             "test",
             "--release",

@@ -20,7 +20,7 @@ pub use zip::result::ZipError;
 pub struct Packed {
     /// Folder of its platform.
     pub platform: &'static str,
-    /// Size [bytes].
+    /// Size \[bytes\].
     pub size: usize,
     /// The symbols that it imports from the process.
     pub imports: Vec<String>,

@@ -19,7 +19,7 @@ use brinell_contact::Regime;
 use brinell_contact::impact::{Impact, Prediction};
 use std::error::Error;
 
-/// Standard gravity [m/s^2].
+/// Standard gravity \[m/s^2\].
 pub const GRAVITY: f64 = 9.80665;
 
 /// An impact without a prediction.
@@ -71,12 +71,12 @@ pub fn positive(name: &'static str, value: f64) -> Result<f64, PredictError> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(PredictError::NotPositive { name, value }) }
 }
 
-/// The speed [m/s] of a `mass` [kg] with this kinetic energy [J].
+/// The speed \[m/s\] of a `mass` \[kg\] with this kinetic energy \[J\].
 pub fn speed_of_energy(mass: f64, energy: f64) -> f64 {
     (2.0 * energy / mass).sqrt()
 }
 
-/// The speed [m/s] after a fall from `height` [m].
+/// The speed \[m/s\] after a fall from `height` \[m\].
 pub fn speed_of_height(height: f64) -> f64 {
     (2.0 * GRAVITY * height).sqrt()
 }
@@ -132,14 +132,14 @@ pub fn quantities(prediction: &Prediction) -> [Quantity; 9] {
     ]
 }
 
-/// Dissipated energy [J].
+/// Dissipated energy \[J\].
 pub fn energy_lost(prediction: &Prediction) -> f64 {
     let lost = prediction.energy - prediction.rebound_energy;
     // energies that differ only by rounding
     if lost.abs() <= 8.0 * f64::EPSILON * prediction.energy { 0.0 } else { lost }
 }
 
-/// The speeds [m/s] at which an impact enters each further regime of `choice`.
+/// The speeds \[m/s\] at which an impact enters each further regime of `choice`.
 pub fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
     let mut onsets = Vec::new();
     let Some(model) = choice.model.elastoplastic() else { return onsets };

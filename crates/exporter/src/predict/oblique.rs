@@ -32,13 +32,13 @@ const SOLID_SPHERE: f64 = 0.4;
 /// What makes an impact oblique.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
-    /// Angle of incidence from the normal [degrees].
+    /// Angle of incidence from the normal \[degrees\].
     pub angle: f64,
-    /// Spin before the impact [rad/s].
+    /// Spin before the impact \[rad/s\].
     pub spin: f64,
     /// Coefficient of friction.
     pub coefficient: f64,
-    /// Moment of inertia [kg.m^2]; that of a solid sphere if it is not given.
+    /// Moment of inertia \[kg.m^2\]; that of a solid sphere if it is not given.
     pub inertia: Option<f64>,
 }
 
@@ -196,17 +196,17 @@ impl Outcome {
         -ratio(self.rebound.ball.slip(), self.before.slip())
     }
 
-    /// Angle of the rebound from the normal [degrees]; negative if the ball flies back.
+    /// Angle of the rebound from the normal \[degrees\]; negative if the ball flies back.
     pub fn angle(&self) -> f64 {
         self.rebound.ball.tangential.atan2(-self.rebound.ball.normal).to_degrees()
     }
 
-    /// Speed of the centre after the impact [m/s].
+    /// Speed of the centre after the impact \[m/s\].
     pub fn speed(&self) -> f64 {
         self.rebound.ball.tangential.hypot(self.rebound.ball.normal)
     }
 
-    /// Kinetic energy lost in all [J].
+    /// Kinetic energy lost in all \[J\].
     pub fn energy_lost(&self) -> f64 {
         let normal = |ball: &Ball| 0.5 * ball.mass * ball.normal * ball.normal;
         normal(&self.before) - normal(&self.rebound.ball) + self.rebound.friction_work

@@ -14,13 +14,13 @@ const MOMENTS: u32 = 200;
 /// A moment of an impact.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
-    /// Time since first contact [s].
+    /// Time since first contact \[s\].
     pub time: f64,
-    /// [m]
+    /// \[m\]
     pub indentation: f64,
-    /// [N]
+    /// \[N\]
     pub force: f64,
-    /// Closing speed [m/s].
+    /// Closing speed \[m/s\].
     pub speed: f64,
 }
 

@@ -177,7 +177,7 @@ impl Scene {
         if strength(Body::Impactor) < strength(Body::Target) { Body::Impactor } else { Body::Target }
     }
 
-    /// The strength of the harder body of `group` [Pa], if it is known.
+    /// The strength of the harder body of `group` \[Pa\], if it is known.
     fn harder_strength(&self, group: usize) -> Option<f64> {
         match self.softer(group) {
             Body::Impactor => self.group_value(group, Body::Target.yield_strength()),

@@ -197,7 +197,7 @@ fn check_impact(
     Ok(Impact { mass, speed })
 }
 
-/// Assumed density of the ball without an `[impact]` [kg/m^3].
+/// Assumed density of the ball without an `[impact]` \[kg/m^3\].
 const STEEL: f64 = 7850.0;
 
 /// Rejects bodies that do not touch at one point.

@@ -59,9 +59,9 @@ pub struct Group {
     /// The parameters of this group that override those of all contacts, in the order of the table.
     pub own: Vec<Parameter>,
     pub surface: Surface,
-    /// Density of the target [kg/m^3], if known. It is not a variable; it limits the speeds for which the law is valid.
+    /// Density of the target \[kg/m^3\], if known. It is not a variable; it limits the speeds for which the law is valid.
     pub density: Option<f64>,
-    /// Yield strength of the impactor [Pa], if known. It is a variable only where the impactor may be the softer body.
+    /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may be the softer body.
     pub impactor_strength: Option<f64>,
 }
 
@@ -352,7 +352,7 @@ impl Contacts {
         Both::each(|body| self.rates.of(body).as_ref().map(|rate| *rate.get_ref()))
     }
 
-    /// Yield strength of the softer body of a contact [Pa], if it has one.
+    /// Yield strength of the softer body of a contact \[Pa\], if it has one.
     pub fn yield_strength(&self, index: usize) -> Option<f64> {
         let may_yield = |body| body == Body::Target || self.level_of_impactor(index).impactor_may_yield;
         let strength = |body: Body| self.number(index, body.yield_strength()).map(|strength| *strength.get_ref());

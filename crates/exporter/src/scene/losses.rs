@@ -21,7 +21,7 @@ pub enum Loss {
     Fitted(f64),
     /// Elastic waves in a half-space.
     Waves,
-    /// A plate of this thickness [m].
+    /// A plate of this thickness \[m\].
     Plate(f64),
 }
 
@@ -32,7 +32,7 @@ pub const THICKNESS: &str = "target.plate_thickness";
 /// Allowed restitutions.
 const RESTITUTIONS: RangeInclusive<f64> = 0.001..=1.0;
 
-/// Allowed thicknesses [m].
+/// Allowed thicknesses \[m\].
 const THICKNESSES: RangeInclusive<f64> = 1e-9..=1e6;
 
 /// The loss of the scene `file`; `damped` is the name of its law if that has a damping of its own.

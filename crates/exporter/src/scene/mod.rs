@@ -63,7 +63,7 @@ pub struct Scene {
     pub loss: Option<Loss>,
     /// Whether unloading is limited to return no more than the loading took.
     pub passivity_guard: bool,
-    /// Yield strength of the softer body of the first contact [Pa], if it has one, whether or not the scene's law needs it.
+    /// Yield strength of the softer body of the first contact \[Pa\], if it has one, whether or not the scene's law needs it.
     pub yield_strength: Option<f64>,
     /// Hardening by a power law, for which the yield strength and the hardening modulus stand.
     pub power_laws: Both<Option<PowerLaw>>,
@@ -213,7 +213,7 @@ impl Scene {
         guarded.unwrap_or(unloading)
     }
 
-    /// Hardening modulus of the softer body of `group` in the scene's impact [Pa].
+    /// Hardening modulus of the softer body of `group` in the scene's impact \[Pa\].
     pub fn hardening_modulus(&self, group: usize) -> f64 {
         self.group_value(group, self.softer(group).hardening_modulus()).unwrap_or(0.0) * self.factors[group]
     }

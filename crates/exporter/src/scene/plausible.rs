@@ -187,14 +187,14 @@ pub fn of_quantity(name: &str, value: f64) -> Option<String> {
     expected.question(name, value)
 }
 
-/// The doubt about a kinetic `energy` [J] of a `mass` [kg]: the speed that it gives; `name` is its name on the command line.
+/// The doubt about a kinetic `energy` \[J\] of a `mass` \[kg\]: the speed that it gives; `name` is its name on the command line.
 pub fn of_energy(name: &str, energy: f64, mass: f64) -> Option<String> {
     let most = 0.5 * mass * SPEED.range.end() * SPEED.range.end();
     let why = format!("the mass is {}, and {}", quantity(mass, "kg"), SPEED.why);
     Expected { range: 0.0..=most, unit: "J", factors: &[1e-3, 1e-6], why: &why }.question(name, energy)
 }
 
-/// The doubt about the depth [m] of a dent by an impactor with this `radius` [m]; `name` is its name on the command line.
+/// The doubt about the depth \[m\] of a dent by an impactor with this `radius` \[m\]; `name` is its name on the command line.
 pub fn of_depth(name: &str, depth: f64, radius: f64) -> Option<String> {
     let why = "an atom has 0.1 nm, and no dent is deeper than the impactor's radius";
     Expected { range: 1e-10..=radius, unit: "m", factors: &[1e-3, 1e-6], why }.question(name, depth)

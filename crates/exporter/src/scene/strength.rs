@@ -31,7 +31,7 @@ impl BodyTable {
         self.strengths().iter().any(|(_, value)| value.is_some()) || self.power_law.is_some() || self.rate.is_some()
     }
 
-    /// Yield strength and hardening modulus [Pa] of this `body` with this Young's modulus. They are given by two numbers, by a
+    /// Yield strength and hardening modulus \[Pa\] of this `body` with this Young's modulus. They are given by two numbers, by a
     /// tangent modulus, or by a power law; the line to the first strain represents the power law until the impact is known.
     pub fn flow(
         &self,
@@ -140,7 +140,7 @@ pub fn check_rate(body: Body, table: &Spanned<RateTable>) -> Result<Spanned<Rate
 /// The strength of the softer body of a group in an impact.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct InImpact {
-    /// Yield strength and hardening modulus [Pa], including the factor.
+    /// Yield strength and hardening modulus \[Pa\], including the factor.
     pub yield_strength: f64,
     pub hardening_modulus: f64,
     /// The straight line that approximates a power law, without the factor.
