@@ -1,4 +1,14 @@
 //! `brinell`: exports FMI 2.0 co-simulation FMUs of elastoplastic contact, and checks them.
+//!
+//! | module | what it has |
+//! |---|---|
+//! | `messages`, `files`, `parallel`, `scene_file` | standard error, the user's files, processors |
+//! | `sources`, `prebuilt`, `package` | the library of an FMU: compiled, or filled in |
+//! | `importer`, `master` | an FMU behind its C interface, and who moves the bodies |
+//! | `export`, `check`, `predict`, `report`, and others | the commands, one module each |
+//! | `arguments` | the command line |
+//!
+//! What needs neither files nor processes is in the crate `brinell-exporter`.
 #![deny(unsafe_code)]
 
 mod about;

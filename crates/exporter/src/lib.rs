@@ -2,14 +2,15 @@
 //!
 //! | module | what it has |
 //! |---|---|
-//! | [`numbers`], [`layout`], [`nearest`], [`mistake`], [`units`], [`xml`], [`html`] | words: numbers and tables for people, mistakes with their place in a file |
-//! | [`table`] | variables, units, materials and laws, from the folder `modelDescription` |
-//! | [`model`], [`laws`], [`pairing`], [`parameters`], [`law_check`], [`energy`], [`guard`], [`validity`] | laws chosen by name: which go together, their constants, where they hold |
+//! | [`numbers`], [`layout`], [`columns`], [`nearest`], [`mistake`], [`units`], [`xml`], [`html`], [`plot`] | words, tables and pictures; mistakes with their place in a file |
+//! | [`table`], [`regime`] | variables, units, materials and laws, from the folder `modelDescription` |
+//! | [`model`], [`parameters`], [`pairing`], [`law_check`], [`law_text`], [`validity`] | laws by name: their constants, which go together, where they hold |
 //! | [`scene`] | a checked scene |
+//! | [`bodies`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
 //! | [`predict`], [`hardness`] | what an impact or a hardness test of a scene will do |
-//! | [`plan`] | what all files of an FMU have in common |
-//! | [`interface`], [`model_description`], [`constants`], [`documentation`], [`plot`] | these files |
-//! | [`platform`], [`symbols`], [`signature`], [`prebuilt`], [`package`] | libraries as bytes, and the archive |
+//! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
+//! | [`constants`], [`model_description`], [`documentation`] | these files |
+//! | [`platform`], [`signature`], [`symbols`], [`package`], [`prebuilt`] | libraries as bytes, and the archive |
 //!
 //! Each uses only those above it. Text and bytes come in; text, bytes and mistakes go out. No file is read here, no process or thread
 //! started, no clock or environment looked at: a command, Python or a page in a browser may all use this crate.
