@@ -96,6 +96,7 @@ pub mod piece;
 pub mod quadrature;
 pub mod rate;
 pub mod regime;
+mod runge_kutta;
 pub mod segment;
 pub mod strength;
 pub mod tangential;

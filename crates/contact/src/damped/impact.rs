@@ -4,6 +4,7 @@ use super::{Damped, Model};
 use crate::Regime;
 use crate::impact::{Impact, Prediction};
 use crate::regime::LARGEST_INDENTATION;
+use crate::runge_kutta;
 use libm::{fabs, pow, sqrt};
 
 /// An instant of the motion.
@@ -29,8 +30,6 @@ const MOST_STEPS: u32 = 1_000_000;
 ///
 /// `None` if the mass or the speed is not positive and finite, if the energy is below the smallest normal number, or if the
 /// motion leaves the range of the law.
-///
-/// Reference: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19-26.
 pub fn predict<D: Damped + Copy>(model: &Model<D>, impact: &Impact) -> Option<Prediction> {
     follow(model, impact, |_, _| {})
 }
@@ -150,25 +149,12 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
 
     /// The state after `step` \[s\], and the relative error.
     fn step(&self, state: &State, step: f64) -> (State, f64) {
-        let mut slopes = [(0.0, 0.0); 7];
-        let mut next = *state;
-        for (stage, row) in STAGES.iter().enumerate() {
-            let (mut indentation, mut speed) = (state.indentation, state.speed);
-            for (weight, slope) in row.iter().zip(&slopes) {
-                indentation += step * weight * slope.0;
-                speed += step * weight * slope.1;
-            }
-            next = State { time: state.time + step, indentation, speed };
-            if let Some(slope) = slopes.get_mut(stage) {
-                *slope = (speed, -self.force(&next) / self.mass);
-            }
-        }
-        let (mut lengths, mut speeds) = (0.0, 0.0);
-        for (weight, slope) in ERROR.iter().zip(&slopes) {
-            lengths += step * weight * slope.0;
-            speeds += step * weight * slope.1;
-        }
-        (next, fmax(fabs(lengths) / self.length, fabs(speeds) / self.speed))
+        let at = |&[indentation, speed]: &[f64; 2]| State { time: state.time + step, indentation, speed };
+        let slope = |numbers: &[f64; 2]| Some([numbers[1], -self.force(&at(numbers)) / self.mass]);
+        let Some((next, [length, speed])) = runge_kutta::step(&[state.indentation, state.speed], step, slope) else {
+            return (*state, f64::INFINITY);
+        };
+        (at(&next), fmax(fabs(length) / self.length, fabs(speed) / self.speed))
     }
 
     /// The state within the `step` from `state` at which `happens` becomes true. It must be true at the end of the step.
@@ -201,18 +187,3 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         fmax(ends, force(0.5 * (low + high)))
     }
 }
-
-/// The stages of Dormand and Prince; the last one is the step itself.
-pub(crate) const STAGES: [[f64; 6]; 7] = [
-    [0.0; 6],
-    [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
-    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
-    [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0],
-    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0],
-    [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
-];
-
-/// The difference between the methods of order 5 and 4.
-pub(crate) const ERROR: [f64; 7] =
-    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];

@@ -5,7 +5,7 @@
 //! flight spends nothing: rounding of its energy, which may be much larger, is no heat.
 
 use super::history::History;
-use super::runge_kutta::{Ended, State, Stretch};
+use super::stretch::{Ended, State, Stretch};
 use super::{Damping, Form, Loss, Model};
 use crate::loading::Loading;
 use crate::motion::flight::Flight;

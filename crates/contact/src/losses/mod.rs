@@ -15,7 +15,7 @@ pub mod bodies;
 mod held;
 pub mod history;
 pub mod impact;
-mod runge_kutta;
+mod stretch;
 
 pub use bodies::follow;
 pub use history::History;

@@ -8,18 +8,15 @@ mod integration;
 
 use super::{Damped, History, Sum, within};
 use crate::damped::Model;
-use crate::damped::impact::STAGES;
 use crate::motion::flight::Flight;
 use crate::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, SMALLEST_MOTION};
 use crate::numbers::largest;
 use crate::regime::TooDeep;
-use libm::{fabs, pow, sqrt};
+use crate::runge_kutta::{self, EVALUATIONS};
+use libm::{fabs, sqrt};
 
 /// Largest error of a step of the integration, relative to the largest indentation and speed of the contact.
 const TOLERANCE: f64 = 1e-12;
-
-/// Smaller errors count as this one.
-const LEAST: f64 = 1e-30;
 
 /// Largest number of contacts and flights in a step.
 const MOST_EVENTS: u32 = MOST_EVALUATIONS / 10;
@@ -148,12 +145,12 @@ impl<D: Damped + Copy> Bodies<D> {
         let mut guess = if depth < SMALLEST_MOTION { self.first_guess() } else { self.left };
         while self.left > 0.0 {
             let step = self.limited(guess);
-            self.evaluations += STAGES.len() as u32;
+            self.evaluations += EVALUATIONS;
             if self.evaluations > MOST_EVALUATIONS {
                 return Err(NoMotion::TooLong);
             }
             let (next, error) = self.stepped(step);
-            let factor = 0.9 * pow(TOLERANCE / largest(error, LEAST), 0.2);
+            let factor = runge_kutta::factor(TOLERANCE, error);
             // written positively to reject NaN
             let accepted = error <= TOLERANCE;
             if !accepted {

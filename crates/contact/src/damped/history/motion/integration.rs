@@ -2,10 +2,10 @@
 
 use super::{Bodies, State};
 use crate::damped::Damped;
-use crate::damped::impact::{ERROR, STAGES};
 use crate::motion::SMALLEST_MOTION;
 use crate::numbers::{largest, quotient};
 use crate::regime::LARGEST_INDENTATION;
+use crate::runge_kutta::{self, EVALUATIONS};
 use libm::{fabs, sqrt};
 
 /// The part of the contact's depth that a step may cover: no change of the force is passed over.
@@ -73,7 +73,7 @@ impl<D: Damped + Copy> Bodies<D> {
         }
         let sign = self.net(&state) > 0.0;
         let (mut low, mut high) = (0.0, step);
-        self.evaluations += HALVINGS * STAGES.len() as u32;
+        self.evaluations += HALVINGS * EVALUATIONS;
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
             let there = self.stepped(middle).0;
@@ -94,32 +94,21 @@ impl<D: Damped + Copy> Bodies<D> {
 
     /// The state after `step` \[s\], and its relative error.
     pub(super) fn stepped(&self, step: f64) -> (State, f64) {
-        let mut slopes = [State { depth: 0.0, speed: 0.0 }; 7];
-        let mut next = self.state;
-        for (stage, row) in STAGES.iter().enumerate() {
-            next = self.state;
-            for (weight, slope) in row.iter().zip(&slopes) {
-                next.depth += step * weight * slope.depth;
-                next.speed += step * weight * slope.speed;
-            }
-            if let Some(slope) = slopes.get_mut(stage) {
-                *slope = State { depth: next.speed, speed: self.net(&next) };
-            }
-        }
-        let mut error = State { depth: 0.0, speed: 0.0 };
-        for (weight, slope) in ERROR.iter().zip(&slopes) {
-            error.depth += step * weight * slope.depth;
-            error.speed += step * weight * slope.speed;
-        }
+        let State { depth, speed } = self.state;
+        let slope = |&[depth, speed]: &[f64; 2]| Some([speed, self.net(&State { depth, speed })]);
+        let Some(([depth, speed], error)) = runge_kutta::step(&[depth, speed], step, slope) else {
+            return (self.state, f64::INFINITY);
+        };
+        let next = State { depth, speed };
         let relative = |error: f64, size: f64| fabs(error) / largest(size, SMALLEST_MOTION);
-        let depth = relative(error.depth, largest(self.scale.depth, fabs(next.depth)));
-        let speed = relative(error.speed, largest(self.scale.speed, fabs(next.speed)));
+        let depth = relative(error[0], largest(self.scale.depth, fabs(next.depth)));
+        let speed = relative(error[1], largest(self.scale.speed, fabs(next.speed)));
         (next, largest(depth, speed))
     }
 
     /// The time within `step` \[s\] at which `happens` becomes true, and the state then. It must be true at the end.
     pub(super) fn event(&mut self, step: f64, happens: impl Fn(&State) -> bool) -> (f64, State) {
-        self.evaluations += HALVINGS * STAGES.len() as u32;
+        self.evaluations += HALVINGS * EVALUATIONS;
         let (mut low, mut high) = (0.0, step);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);

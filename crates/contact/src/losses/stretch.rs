@@ -7,9 +7,10 @@ use crate::loading::Loading;
 use crate::motion::SMALLEST_MOTION;
 use crate::numbers::{largest, quotient, smallest};
 use crate::piece::Piece;
+use crate::runge_kutta::{self, EVALUATIONS};
 use crate::unloading::Unloading;
 use events::Event;
-use libm::{fabs, pow, sqrt};
+use libm::{fabs, sqrt};
 
 /// An instant of the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,9 +56,6 @@ const DIGITS: f64 = 16.0;
 
 /// Largest indentation of a stage \[m\].
 const FARTHEST: f64 = 1e20;
-
-/// Smaller errors count as this one.
-const LEAST: f64 = 1e-30;
 
 /// Distance from the balance of forces, relative to the height above the surface, at which bodies count as at rest.
 const REST: f64 = 1e-9;
@@ -144,36 +142,26 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
 
     /// The state after `step` \[s\], and its relative error.
     fn step(&self, from: &State, step: f64) -> (State, f64) {
-        let mut slopes = [(0.0, 0.0, 0.0, 0.0); 7];
-        let (mut next, mut pull) = (*from, 0.0);
-        for (stage, row) in STAGES.iter().enumerate() {
-            let State { mut way, mut retreat, mut speed, mut heat, .. } = *from;
-            for (weight, slope) in row.iter().zip(&slopes) {
-                way += step * weight * slope.0;
-                retreat += step * weight * slope.1;
-                speed += step * weight * slope.2;
-                heat += step * weight * slope.3;
-            }
-            next = State { time: from.time + step, way, retreat, speed, heat };
+        let time = from.time + step;
+        let mut pull = 0.0;
+        let slope = |&[way, retreat, speed, heat]: &[f64; 4]| {
+            let there = State { time, way, retreat, speed, heat };
             // a step that is far too long must not overflow in its next stage; written positively to reject NaN
-            let near = fabs(self.indentation(&next)) < FARTHEST;
+            let near = fabs(self.indentation(&there)) < FARTHEST;
             if !near {
-                return (*from, f64::INFINITY);
+                return None;
             }
-            if let Some(slope) = slopes.get_mut(stage) {
-                let (force, _) = self.force_and_rate(&next);
-                let given = self.damping.retreat(force);
-                pull = largest(pull, fabs(force * self.inverse_mass));
-                *slope = (speed, given, self.acceleration - force * self.inverse_mass, given * force);
-            }
-        }
-        let mut errors = [0.0; 3];
-        for (weight, slope) in ERROR.iter().zip(&slopes) {
-            for (error, slope) in errors.iter_mut().zip([slope.0, slope.1, slope.2]) {
-                *error += step * weight * slope;
-            }
-        }
-        let [way, retreat, speed] = errors.map(fabs);
+            let (force, _) = self.force_and_rate(&there);
+            let given = self.damping.retreat(force);
+            pull = largest(pull, fabs(force * self.inverse_mass));
+            Some([speed, given, self.acceleration - force * self.inverse_mass, given * force])
+        };
+        let numbers = [from.way, from.retreat, from.speed, from.heat];
+        let Some(([way, retreat, speed, heat], errors)) = runge_kutta::step(&numbers, step, slope) else {
+            return (*from, f64::INFINITY);
+        };
+        let next = State { time, way, retreat, speed, heat };
+        let [way, retreat, speed, _] = errors.map(fabs);
         let moved = fabs(self.start - self.surface) + fabs(next.way) + fabs(next.retreat);
         let height = moved + ROUNDED * fabs(self.start);
         // bodies near rest are slower than the rounding of the forces, which balance
@@ -230,10 +218,10 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
             }
             let last = *guess >= rest;
             let step = if last { rest } else { *guess };
-            let Some(fewer) = left.checked_sub(STAGES.len() as u32) else { return (state, Ended::TooLong) };
+            let Some(fewer) = left.checked_sub(EVALUATIONS) else { return (state, Ended::TooLong) };
             *left = fewer;
             let (next, error) = self.step(&state, step);
-            let factor = 0.9 * pow(TOLERANCE / largest(error, LEAST), 0.2);
+            let factor = runge_kutta::factor(TOLERANCE, error);
             // written positively to reject NaN
             let accepted = error <= TOLERANCE;
             if !accepted {
@@ -245,7 +233,7 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
                 continue;
             }
             if let Some((event, length)) = self.first_event(&state, &next, step) {
-                *left = left.saturating_sub(20 * STAGES.len() as u32);
+                *left = left.saturating_sub(20 * EVALUATIONS);
                 let (end, error) = self.step(&state, length);
                 // most of the longer step may have had no force
                 if error > TOLERANCE && length < step && length > f64::MIN_POSITIVE {
@@ -276,11 +264,3 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         }
     }
 }
-
-/// The stages of Dormand and Prince; the last one is the step itself.
-///
-/// Reference: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19-26.
-const STAGES: [[f64; 6]; 7] = crate::damped::impact::STAGES;
-
-/// The difference between the methods of order 5 and 4.
-const ERROR: [f64; 7] = crate::damped::impact::ERROR;
