@@ -11,8 +11,9 @@ const FIRST_YIELD: f64 = 1.07;
 /// The prediction for an impactor with these lines on a target of 300 MPa, at `speed` [m/s].
 fn predicted(impactor: &str, speed: f64) -> Value {
     let folder = empty_folder();
+    let own = if impactor.contains("youngs_modulus") { "" } else { "youngs_modulus = 206e9" };
     let text = format!(
-        "name = \"unit\"\n[impactor]\nradius = 5e-3\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n{impactor}\n\
+        "name = \"unit\"\n[impactor]\nradius = 5e-3\n{own}\npoissons_ratio = 0.3\n{impactor}\n\
          [target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 300e6\n[law]\nloading = \"brinell\"\n\
          [impact]\nmass = 4.11e-3\nspeed = {speed:?}\n"
     );
@@ -114,5 +115,24 @@ fn two_equal_spheres_are_a_rigid_sphere_of_half_the_radius_on_half_the_modulus()
             let (two, one) = (number(&two[key]), number(&one[key]));
             assert!((two - one).abs() <= 1e-12 * one, "{key} at {speed} m/s: {two} {one}");
         }
+    }
+}
+
+/// The errors are those of the table in the guide, for the ratio of the moduli that is nearest.
+#[test]
+fn an_elastic_ball_is_said_to_make_the_contact_harder_than_the_laws_know() {
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/laws.md")).unwrap();
+    let rows = [(206e9 * 3.0, "three times the"), (206e9, "the same"), (206e9 / 3.0, "a third of the")];
+    for (modulus, row) in rows {
+        for (factor, speed) in [(0.7, 0.1), (1.0, 1.0), (1.4, 10.0)] {
+            let row = page.lines().find(|line| line.starts_with(&format!("| elastic, {row} modulus"))).expect("a row");
+            let cells: Vec<_> = row.split('|').map(str::trim).collect();
+            let answer = predicted(&format!("youngs_modulus = {:e}", factor * modulus), speed);
+            let expected = format!("up to {} in force at the same depth and {} in restitution", cells[2], cells[3]);
+            assert!(says(&answer, &expected), "{expected}: {answer}");
+        }
+    }
+    for modulus in [2.1e12, 2e13] {
+        assert!(!says(&predicted(&format!("youngs_modulus = {modulus:e}"), 1.0), "stays elastic"), "{modulus}: rigid");
     }
 }

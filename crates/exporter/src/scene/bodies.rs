@@ -210,7 +210,10 @@ pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
     if softer == Body::Impactor {
         notes.push("The impactor is the softer body: it yields, and the dent is in the impactor.".into());
     }
-    let Some(hard) = scene.harder_strength(0) else { return notes };
+    let Some(hard) = scene.harder_strength(0) else {
+        notes.extend(beside_elastic(scene));
+        return notes;
+    };
     if (hard / soft - 1.0).abs() <= EQUAL {
         return vec![
             "Both bodies are equally strong and yield alike: force over indentation is the same, and each of them has half of \
@@ -228,6 +231,41 @@ pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
             cell(pressure / hard, 1.0),
             quantity(hard, "Pa")
         ));
+    } else {
+        notes.extend(beside_elastic(scene));
     }
     notes
+}
+
+/// How much too soft the law `brinell` is beside an elastic body: the modulus of the body that yields over that of the other, and the
+/// largest errors of force and restitution \[%\] against finite elements of both bodies, for Poisson's ratios of 0.3, no hardening and
+/// small strain. The guide has the table.
+const BESIDE_ELASTIC: [(f64, &str, &str); 3] = [(1.0 / 3.0, "4.5", "2"), (1.0, "9", "4 to 5"), (3.0, "15", "7 to 9")];
+
+/// Below this ratio of the moduli the elastic body is nearly rigid.
+const NEARLY_RIGID: f64 = 0.1;
+
+/// What the elastic body of the first contact means for the accuracy of the laws, which take both bodies as one of the effective
+/// modulus. `None` if no body yields, or if the other one is rigid.
+pub fn beside_elastic(scene: &Scene) -> Option<String> {
+    scene.yield_strength?;
+    let softer = scene.softer(0);
+    let [impactor, target] =
+        scene.bodies_with(0, &[]).map(|body| body.youngs_modulus / (1.0 - body.poissons_ratio.powi(2)));
+    let ratio = if softer == Body::Target { target / impactor } else { impactor / target };
+    if ratio < NEARLY_RIGID {
+        return None;
+    }
+    let distance = |(known, ..): &(f64, &str, &str)| (ratio / known).ln().abs();
+    let nearest = BESIDE_ELASTIC.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)))?;
+    let (known, force, restitution) = nearest;
+    Some(format!(
+        "The {} stays elastic, and its modulus is {} times that of the {}. The laws take both as one body of the effective modulus, \
+         which is too soft: by finite elements with {} times the modulus, up to {force} % in force at the same depth and {restitution} % \
+         in restitution.",
+        softer.other().name(),
+        cell(1.0 / ratio, 1.0),
+        softer.name(),
+        cell(1.0 / known, 1.0),
+    ))
 }
