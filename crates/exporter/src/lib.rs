@@ -14,6 +14,27 @@
 //!
 //! Each uses only those above it. Text and bytes come in; text, bytes and mistakes go out. No file is read here, no process or thread
 //! started, no clock or environment looked at: a command, Python or a page in a browser may all use this crate.
+//!
+//! ```
+//! use brinell_exporter::{model_description, plan::Plan, scene::Scene};
+//! use std::path::Path;
+//!
+//! let text = "
+//!     name = \"ball\"
+//!     impactor = { radius = 5e-3 }
+//!     target = { material = \"mild steel\" }
+//!     impact = { mass = 4e-3, speed = 1.0 }
+//! ";
+//! let scene = Scene::parse(text.into(), Path::new("ball.toml"))?;
+//! let impact = &scene.predictions[0];
+//! assert!(impact.max_force > 300.0 && impact.restitution < 0.5);
+//! let mut xml = Vec::new();
+//! model_description::write(&Plan::of(&scene), "a GUID", &mut xml)?;
+//! assert!(String::from_utf8(xml)?.contains("modelIdentifier=\"ball\""));
+//! let mistake = Scene::parse(text.replace("5e-3", "-5e-3"), Path::new("ball.toml")).unwrap_err();
+//! assert!(mistake.to_string().starts_with("ball.toml:3:"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![forbid(unsafe_code)]
 
 pub mod bodies;
