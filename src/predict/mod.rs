@@ -217,7 +217,9 @@ impl Question<'_> {
     /// Of several laws, those that depend on the strength and on the constants that vary.
     fn depending_on(&self, axes: &[Axis]) -> Vec<Choice> {
         let mut choices = self.choices.to_vec();
-        if choices.len() > 1 && axes.iter().any(|axis| axis.name == "target.yield_strength") {
+        // where none depends on it, that is refused
+        let varies = axes.iter().any(|axis| axis.name == "target.yield_strength");
+        if varies && choices.iter().any(Choice::yields) {
             choices.retain(Choice::yields);
         }
         let constants = || axes.iter().filter(|axis| constants::is_one(axis.name));

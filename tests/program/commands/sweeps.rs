@@ -344,3 +344,21 @@ fn implausible_numbers_of_the_command_line_are_asked_about_with_what_was_probabl
         assert_eq!(said(arguments), "", "{arguments:?}");
     }
 }
+
+/// A table without a row came out once, and no word of it.
+#[test]
+fn a_sweep_over_the_strength_keeps_the_laws_that_have_one_and_is_refused_where_none_has() {
+    let folder = empty_folder();
+    fs::copy(scene("steel_ball"), folder.path().join("scene.toml")).unwrap();
+    let sweep = |laws: &str| {
+        let range = "target.yield_strength=1e8:1e9:3";
+        run(folder.path(), ["predict", "scene.toml", "--laws", laws, "--sweep", range, "--json"])
+    };
+    for laws in ["hertz", "hertz,hunt-crossley", "damped"] {
+        let refused = sweep(laws).with_status(2);
+        assert!(refused.err.contains("target.yield_strength: the law has no yield strength"), "{laws}: {refused:?}");
+    }
+    for (laws, left) in [("hertz,thornton", 1), ("thornton,hunt-crossley,brinell", 2)] {
+        assert_eq!(sweep(laws).with_status(0).json()["laws"].as_array().unwrap().len(), left, "{laws}");
+    }
+}
