@@ -13,10 +13,9 @@
 mod parallel;
 
 mod checks;
-mod importer;
 mod table;
 
-use brinell_testing::{arithmetic, child, face, functions, judge, targets, unit};
+use brinell_testing::{arithmetic, child, face, importer, judge, targets, unit};
 use checks::CHECKS;
 use face::Face;
 use importer::CALLS;

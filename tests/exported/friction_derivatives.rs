@@ -1,6 +1,6 @@
 //! Derivatives of the inputs and outputs of FMUs with friction, and states with them.
 
-use crate::loaded::{ERROR, Instance, OK, Unit, take_message};
+use crate::loaded::{ERROR, Instance, OK, Unit};
 use crate::physics::Random;
 use crate::unit;
 
@@ -169,7 +169,7 @@ fn derivatives_apply_to_one_step() {
     }
     // the state knows the end of the step with derivatives
     let state = instance.save();
-    let bytes = instance.serialize(state);
+    let bytes = instance.bytes(state);
     instance.free(state);
     let state = instance.deserialize(&bytes).expect("its own state");
     instance.restore(state);
@@ -182,7 +182,7 @@ fn derivatives_apply_to_one_step() {
         assert_eq!(instance.real(name).to_bits(), other.real(name).to_bits(), "{name}");
     }
     // it was not for nothing
-    let (mut held, _) = worked(&unit, (0.3, 0.1));
+    let (held, _) = worked(&unit, (0.3, 0.1));
     assert_eq!(held.step(time, STEP), OK);
     assert!((held.real("friction_work") / other.real("friction_work") - 1.0).abs() > 1e-3);
 }
@@ -200,7 +200,7 @@ fn a_saved_course_continues_with_the_same_bits() {
         instance.set_one("tangential_rate", number(0.3));
         bend(&mut instance, [number(1e5), number(1e5)], [number(1e11), number(1e11)]);
         let state = instance.save();
-        let bytes = instance.serialize(state);
+        let bytes = instance.bytes(state);
         instance.free(state);
         let state = copy.deserialize(&bytes).expect("its own state");
         copy.restore(state);
@@ -220,9 +220,9 @@ fn a_refused_step_changes_nothing() {
     let names = ["force", "tangential_force", "mean_tangential_force", "tangential_impulse", "friction_work"];
     let before = names.map(|name| instance.real(name).to_bits());
     bend(&mut instance, [1e150, 1e5], [0.0, 1e11]);
-    take_message();
+    instance.take_message();
     assert_eq!(instance.step(time, STEP), ERROR);
-    let message = take_message();
+    let message = instance.take_message();
     assert!(message.contains("the indentation would become"), "{message}");
     assert_eq!(names.map(|name| instance.real(name).to_bits()), before);
 }
@@ -232,9 +232,9 @@ fn derivatives_that_cannot_be_set_are_refused_in_words() {
     let unit = oblique();
     let refused = |set: &dyn Fn(&mut Instance) -> i32, said: &str| {
         let mut instance = unit.ready();
-        take_message();
+        instance.take_message();
         assert_eq!(set(&mut instance), ERROR);
-        let message = take_message();
+        let message = instance.take_message();
         assert!(message.contains(said), "{message}");
     };
     let tangential = unit.ready().real_of("tangential_rate");

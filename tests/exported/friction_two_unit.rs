@@ -1,6 +1,6 @@
 //! FMUs with friction in two directions, through the C interface.
 
-use crate::loaded::{ERROR, Instance, OK, Unit, take_message};
+use crate::loaded::{ERROR, Instance, OK, Unit};
 use crate::physics::Random;
 use crate::unit;
 use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
@@ -160,11 +160,11 @@ fn a_restored_contact_continues_with_the_same_bits() {
         go(&mut other, &mut same, pair, STEP);
         assert_eq!(bits(&one), bits(&other), "{index}");
         // through the bytes, after a step that the other instance does not make
-        let state = one.save();
-        let bytes = one.serialize(state);
+        let mut state = one.save();
+        let bytes = one.bytes(state);
         let mut later = time;
         go(&mut one, &mut later, (-1.0, [3.0, -2.0]), STEP);
-        assert!(one.deserialize_into(state, &bytes));
+        assert_eq!(one.overwrite(&mut state, &bytes), OK);
         one.restore(state);
         one.free(state);
         assert_eq!(bits(&one), bits(&other), "{index}");
@@ -178,11 +178,11 @@ fn hostile_rates_are_refused_or_give_finite_forces() {
         (f64::NAN, "tangential_rate = NaN is not finite"),
         (-2e40, "tangential_rate = -2e40 is out of range: allowed is -1e40 to 1e40 m/s"),
     ] {
-        let mut instance = unit.ready();
+        let instance = unit.ready();
         let references = ["indentation_rate", "tangential_rate[2]"].map(|name| instance.real_of(name));
-        take_message();
+        instance.take_message();
         assert_eq!(instance.set(&references, &[1.0, value]), ERROR);
-        let message = take_message();
+        let message = instance.take_message();
         assert!(message.contains(said), "{message}");
         assert_eq!(instance.real("indentation_rate"), 0.0);
     }

@@ -1,6 +1,6 @@
 //! FMUs with friction, through the C interface.
 
-use crate::loaded::{ERROR, Instance, OK, Unit, take_message};
+use crate::loaded::{ERROR, Instance, OK, Unit};
 use crate::physics::Random;
 use crate::unit;
 use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
@@ -212,7 +212,7 @@ fn inputs_can_be_set_in_any_order_and_survive_parameters() {
     instance.set_one("indentation_rate", 0.5);
     instance.set_one("friction.coefficient", 0.2);
     instance.initialize();
-    let mut other = unit.ready_with(&[("friction.coefficient", 0.2)]);
+    let other = unit.ready_with(&[("friction.coefficient", 0.2)]);
     let [one, two] = ["tangential_rate", "indentation_rate"].map(|name| other.real_of(name));
     assert_eq!(other.set(&[two, one], &[0.5, 0.4]), OK);
     assert_eq!((instance.step(0.0, STEP), other.step(0.0, STEP)), (OK, OK));
@@ -236,11 +236,11 @@ fn a_rejected_set_changes_nothing() {
         (f64::INFINITY, "tangential_rate = infinity is not finite"),
         (-2e40, "tangential_rate = -2e40 is out of range: allowed is -1e40 to 1e40 m/s"),
     ] {
-        let mut instance = unit.ready();
+        let instance = unit.ready();
         let references = ["indentation_rate", "tangential_rate"].map(|name| instance.real_of(name));
-        take_message();
+        instance.take_message();
         assert_eq!(instance.set(&references, &[1.0, value]), ERROR);
-        let message = take_message();
+        let message = instance.take_message();
         assert!(message.contains(said), "{message}");
         assert_eq!(instance.real("indentation_rate"), 0.0);
     }
@@ -248,11 +248,11 @@ fn a_rejected_set_changes_nothing() {
         (-1e-3, "friction.coefficient = -0.001 is out of range: allowed is 0 to 10"),
         (10.1, "friction.coefficient = 10.1 is out of range: allowed is 0 to 10"),
     ] {
-        let mut instance = unit.instantiate();
+        let instance = unit.instantiate();
         let reference = instance.real_of("friction.coefficient");
-        take_message();
+        instance.take_message();
         assert_eq!(instance.set(&[reference], &[value]), ERROR);
-        let message = take_message();
+        let message = instance.take_message();
         assert!(message.contains(said), "{message}");
     }
 }

@@ -28,7 +28,7 @@ fn restitution(text: &str) -> f64 {
 }
 
 /// The outputs after steps with rates of both signs.
-fn history(mut instance: Instance) -> Vec<[f64; 3]> {
+fn history(instance: Instance) -> Vec<[f64; 3]> {
     let mut random = Random(3);
     let outputs = ["force", "work", "dissipated_energy"].map(|name| instance.real_of(name));
     let rate = instance.real_of("indentation_rate");
@@ -61,7 +61,7 @@ fn a_constant_that_is_set_acts_like_that_of_another_scene() {
         let set = history(one.ready_with(&[(name, second)]));
         assert_eq!(set, history(other.ready()), "{name}");
         assert_ne!(set, history(one.ready()), "{name}");
-        let mut refused = one.instantiate();
+        let refused = one.instantiate();
         let reference = refused.real_of(name);
         assert_ne!(refused.set(&[reference], &[-1.0]), OK, "{name}");
         assert!(refused.message().contains(&format!("{name} = -1 is out of range")), "{}", refused.message());

@@ -160,7 +160,7 @@ fn states_of_other_scenes_are_rejected() {
     let instances: Vec<_> = fmus.iter().map(Unit::ready).collect();
     for (index, instance) in instances.iter().enumerate() {
         let state = instance.save();
-        let bytes = instance.serialize(state);
+        let bytes = instance.bytes(state);
         for (other, taker) in instances.iter().enumerate() {
             let taken = taker.deserialize(&bytes);
             assert_eq!(taken.is_some(), index == other, "{index} to {other}");

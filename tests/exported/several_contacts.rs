@@ -113,7 +113,7 @@ fn however_inputs_and_forces_are_addressed_they_are_the_same() {
     const COUNT: usize = 40;
     let unit = counted(COUNT);
     let mut expected = vec![f64::NAN; COUNT];
-    let mut plain = unit.ready();
+    let plain = unit.ready();
     let rates: Vec<_> = (0..COUNT).map(|contact| rate(contact, 3).abs()).collect();
     assert_eq!(plain.set(&references(0, COUNT), &rates), OK);
     assert_eq!(plain.step(0.0, STEP), OK);
@@ -123,7 +123,7 @@ fn however_inputs_and_forces_are_addressed_they_are_the_same() {
     let middle: Vec<usize> = (COUNT / 2..COUNT).chain(0..COUNT / 2).collect();
     let repeated: Vec<usize> = (0..COUNT).chain([7, 7, 8]).collect();
     for order in [reversed, middle, repeated] {
-        let mut other = unit.ready();
+        let other = unit.ready();
         let inputs: Vec<_> = order.iter().map(|&contact| contact as u32).collect();
         let values: Vec<_> = order.iter().map(|&contact| rates[contact]).collect();
         assert_eq!(other.set(&inputs, &values), OK);
@@ -152,7 +152,7 @@ fn one_wrong_reference_or_value_and_nothing_is_set() {
     ];
     for (reference, value) in forbidden {
         for place in [0, COUNT / 2, COUNT - 1] {
-            let mut instance = unit.ready();
+            let instance = unit.ready();
             let mut all = references(0, COUNT);
             let mut values = vec![1.0; COUNT];
             (all[place], values[place]) = (reference, value);
@@ -163,7 +163,7 @@ fn one_wrong_reference_or_value_and_nothing_is_set() {
         }
     }
     // consecutive references beyond the last contact
-    let mut instance = unit.ready();
+    let instance = unit.ready();
     assert_eq!(instance.set(&references(COUNT - 2, 4), &[1.0; 4]), ERROR);
     assert_eq!(instance.real("contact[40].indentation_rate"), 0.0);
 }
@@ -204,7 +204,7 @@ fn a_parameter_of_a_contact_is_its_own_and_one_of_all_is_everyones() {
     let unit =
         several("owners", &["name = \"a\"\n".into(), "name = \"b\"\ntarget = { yield_strength = 400e6 }\n".into()]);
     let force = |parameters: &[(&str, f64)]| {
-        let mut instance = unit.ready_with(parameters);
+        let instance = unit.ready_with(parameters);
         assert_eq!(instance.set(&[0, 1], &[3.0, 3.0]), OK);
         assert_eq!(instance.step(0.0, STEP), OK);
         [instance.real("a.force"), instance.real("b.force")]
@@ -226,22 +226,22 @@ fn a_state_of_many_contacts_is_restored_from_memory_and_from_bytes() {
     let mut instance = unit.ready();
     run(&mut instance, 0..7, COUNT);
     let saved = instance.save();
-    let bytes = instance.serialize(saved);
+    let bytes = instance.bytes(saved);
     let first = run(&mut instance, 7..20, COUNT);
     instance.restore(saved);
     assert_eq!(run(&mut instance, 7..20, COUNT), first);
     // to an instance that was never initialized
     let mut other = unit.instantiate();
-    let state = other.deserialize(&bytes).expect("undamaged bytes");
+    let mut state = other.deserialize(&bytes).expect("undamaged bytes");
     other.restore(state);
-    assert_eq!(other.serialize(state), bytes);
+    assert_eq!(other.bytes(state), bytes);
     assert_eq!(run(&mut other, 7..20, COUNT), first);
     // a damaged word is rejected, and the state that was to be overwritten does not change
     let mut damaged = bytes.clone();
     let middle = damaged.len() / 2;
     damaged[middle] ^= 1;
-    assert!(!other.deserialize_into(state, &damaged));
-    assert_eq!(other.serialize(state), bytes);
+    assert_eq!(other.overwrite(&mut state, &damaged), ERROR);
+    assert_eq!(other.bytes(state), bytes);
     other.free(state);
     instance.free(saved);
 }
@@ -258,7 +258,7 @@ fn instances_of_ten_thousand_contacts_work_on_a_small_stack() {
             let forces = run(&mut one, 0..4, COUNT);
             run(&mut other, 0..1, COUNT);
             let saved = one.save();
-            let bytes = one.serialize(saved);
+            let bytes = one.bytes(saved);
             one.reset();
             let state = one.deserialize(&bytes).expect("undamaged bytes");
             one.restore(state);

@@ -40,7 +40,7 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
 }
 
 /// Steps of any size with rates of both signs, and the outputs after each.
-fn history(mut instance: Instance, seed: u64) -> Vec<[f64; 6]> {
+fn history(instance: Instance, seed: u64) -> Vec<[f64; 6]> {
     let mut random = Random(seed);
     let outputs = OUTPUTS.map(|name| instance.real_of(name));
     let rate = instance.real_of("indentation_rate");
@@ -90,7 +90,7 @@ fn two_equal_balls_that_harden_have_the_force_of_one_on_a_rigid_plane() {
         let (strength, hardening) = (between(&mut random, 5e7, 5e9), between(&mut random, 1e6, 4e10));
         let target = [("target.yield_strength", strength), ("target.hardening_modulus", hardening)];
         let impactor = [("impactor.yield_strength", strength), ("impactor.hardening_modulus", hardening)];
-        let (mut two, mut one) = (two.ready_with(&[impactor, target].concat()), one.ready_with(&target));
+        let (two, one) = (two.ready_with(&[impactor, target].concat()), one.ready_with(&target));
         let rates = [two.real_of("indentation_rate"), one.real_of("indentation_rate")];
         let places = [two.real_of("force"), one.real_of("force")];
         let mut time = 0.0;
@@ -188,7 +188,7 @@ fn each_contact_has_its_own_softer_body() {
     let text = scene("material = \"titanium Ti-6Al-4V\"\n", STEEL, "big-alabo", contacts);
     let unit = load("two_contacts", &text);
     let alone = load("alone", &scene("material = \"aluminium 6061-T6\"\n", STEEL, "big-alabo", ""));
-    let (mut both, mut one) = (unit.ready(), alone.ready());
+    let (both, one) = (unit.ready(), alone.ready());
     let rates = ["ball.indentation_rate", "plate.indentation_rate"].map(|name| both.real_of(name));
     let forces = ["ball.force", "plate.force"].map(|name| both.real_of(name));
     let (rate, force) = (one.real_of("indentation_rate"), one.real_of("force"));

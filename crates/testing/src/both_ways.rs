@@ -1,6 +1,7 @@
 //! A compiled and a prebuilt FMU of one scene: the same calls give the same bits and the same messages.
 
-use super::loaded::{Instance, OK, Unit, take_message};
+use super::face::{Variable, attribute};
+use super::loaded::{Instance, OK, Unit};
 use super::physics::Random;
 use super::prebuilt::{export, export_by_kind};
 use super::unit;
@@ -13,18 +14,6 @@ pub struct Both {
     pub kind: String,
     compiled: Unit,
     prebuilt: Unit,
-    variables: Vec<Variable>,
-}
-
-#[derive(Clone, Debug)]
-struct Variable {
-    name: String,
-    reference: u32,
-    causality: String,
-    is_real: bool,
-    start: f64,
-    minimum: f64,
-    maximum: f64,
 }
 
 /// The model description of an FMU.
@@ -34,47 +23,22 @@ fn description(fmu: &Path) -> String {
     fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library")
 }
 
-/// The text of an attribute.
-fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
-    element.split_once(&format!(" {name}=\""))?.1.split('"').next()
-}
-
-fn variables(description: &str) -> Vec<Variable> {
-    let elements = description.split("<ScalarVariable").skip(1);
-    let number = |element, name| attribute(element, name).map_or(f64::NAN, |text| text.parse().expect("a number"));
-    elements
-        .map(|element| {
-            let element = element.split("</ScalarVariable>").next().unwrap();
-            Variable {
-                name: attribute(element, "name").unwrap().into(),
-                reference: attribute(element, "valueReference").unwrap().parse().unwrap(),
-                causality: attribute(element, "causality").unwrap().into(),
-                is_real: element.contains("<Real"),
-                start: number(element, "start"),
-                minimum: number(element, "min"),
-                maximum: number(element, "max"),
-            }
-        })
-        .collect()
-}
-
 impl Both {
     pub fn of(text: String, store: &Path) -> Both {
         let (compiled, (prebuilt, kind)) = (export(&text, None), export_by_kind(&text, store));
         let [one, other] = [&compiled, &prebuilt].map(|fmu| {
             let text = description(fmu);
-            let guid = attribute(&text, "guid").unwrap().to_string();
+            let guid = attribute(&text, "guid").expect("a GUID").to_string();
             assert_eq!(guid.len(), 32);
             (text.replace(&guid, "GUID"), guid)
         });
         assert!(one.0 == other.0, "the model descriptions differ in more than the GUID: {text}");
         assert_ne!(one.1, other.1, "{text}");
-        let variables = variables(&one.0);
-        Both { kind, compiled: Unit::open(&compiled), prebuilt: Unit::open(&prebuilt), variables }
+        Both { kind, compiled: Unit::open(&compiled), prebuilt: Unit::open(&prebuilt) }
     }
 
-    fn of_causality(&self, causality: &str) -> Vec<Variable> {
-        self.variables.iter().filter(|variable| variable.causality == causality).cloned().collect()
+    fn of_causality(&self, causality: &str) -> Vec<&Variable> {
+        self.compiled.face.variables.iter().filter(|variable| variable.causality == causality).collect()
     }
 
     /// Makes the same calls, `calls` in number, on both, and compares all messages and outputs. Returns the number of
@@ -87,9 +51,9 @@ impl Both {
         let inputs = self.of_causality("input");
         let mut pair = Pair::new(&self.compiled, &self.prebuilt);
         // outputs that the scene does not request are missing, whatever the library supports
-        let beyond = self.variables.len() as u32;
+        let beyond = self.compiled.face.variables.len() as u32;
         assert_ne!(pair.both(|unit| unit.set(&[beyond], &[1.0])), OK);
-        pair.both(|unit| unit.status_of("fmi2Reset"));
+        pair.both(|unit| unit.reset());
         pair.begin(&parameters, random);
         let (mut time, mut step) = (0.0, 1e-6);
         let mut depth_of_state = None;
@@ -114,7 +78,7 @@ impl Both {
                 time += step;
             } else {
                 // too deep, or too long: only a reset is possible
-                pair.both(|unit| unit.status_of("fmi2Reset"));
+                pair.both(|unit| unit.reset());
                 pair.begin(&parameters, random);
                 (time, depth_of_state) = (0.0, None);
                 continue;
@@ -143,7 +107,7 @@ impl Both {
                     let reference = any.map_or(99, |parameter| parameter.reference);
                     let value = positive(random, -9.0, 12.0);
                     if pair.both(|unit| unit.set(&[reference], &[value])) != OK {
-                        pair.both(|unit| unit.status_of("fmi2Reset"));
+                        pair.both(|unit| unit.reset());
                         pair.begin(&parameters, random);
                         (time, depth_of_state) = (0.0, None);
                     }
@@ -161,14 +125,13 @@ impl Both {
     pub fn drive_with_long_steps(&self, mass: f64) -> Vec<String> {
         let mut pair = Pair::new(&self.compiled, &self.prebuilt);
         pair.both(|unit| unit.enter_initialization());
-        assert_eq!(pair.both(|unit| unit.status_of("fmi2ExitInitializationMode")), OK);
-        let reference =
-            |name: &str| self.variables.iter().find(|variable| variable.name == name).map(|it| it.reference);
+        assert_eq!(pair.both(|unit| unit.exit()), OK);
+        let reference = |name: &str| self.compiled.references.get(name).copied();
         let [rate, force] = ["indentation_rate", "force"].map(|name| [reference(name).expect("every scene has it")]);
         let (mut speed, step, mut messages) = (1.0, 2e-3, Vec::new());
         for index in 0..4 {
             pair.both(|unit| unit.set(&rate, &[speed]));
-            messages.push(pair.both(|unit| (unit.step(f64::from(index) * step, step), take_message())).1);
+            messages.push(pair.both(|unit| (unit.step(f64::from(index) * step, step), unit.take_message())).1);
             let mut now = [0.0];
             assert_eq!(pair.compiled.get(&force, &mut now), OK);
             speed -= step * now[0] / mass;
@@ -217,9 +180,10 @@ impl<'a> Pair<'a> {
 
     /// Makes the same call on both; result and message must be equal.
     fn both<T: PartialEq + std::fmt::Debug>(&mut self, call: impl Fn(&mut Instance) -> T) -> T {
-        take_message();
-        let one = (call(&mut self.compiled), take_message());
-        let other = (call(&mut self.prebuilt), take_message());
+        let [one, other] = [&mut self.compiled, &mut self.prebuilt].map(|unit| {
+            unit.take_message();
+            (call(unit), unit.take_message())
+        });
         assert_eq!(one, other);
         self.messages += usize::from(!one.1.is_empty());
         one.0
@@ -235,31 +199,32 @@ impl<'a> Pair<'a> {
     }
 
     /// Sets parameters and initializes, until the parameters are accepted.
-    fn begin(&mut self, parameters: &[Variable], random: &mut Random) {
+    fn begin(&mut self, parameters: &[&Variable], random: &mut Random) {
         self.states = None;
         loop {
             let mut taken = true;
-            for Variable { name, reference, start, minimum, maximum, .. } in parameters {
+            for parameter in parameters {
                 if below(random, 3) == 0 {
                     continue;
                 }
-                let value = match name.rsplit('.').next().unwrap() {
+                let value = match parameter.name.rsplit('.').next().unwrap() {
                     "poissons_ratio" => between(random, -0.2, 0.5),
                     "initial_gap" => signed(random, -8.0, -5.0),
                     "restitution" => between(random, 0.2, 1.0),
-                    _ => start * positive(random, -0.5, 0.5),
+                    _ => parameter.start.expect("every parameter has one") * positive(random, -0.5, 0.5),
                 };
                 // occasionally beyond the limits
-                let value = if below(random, 40) == 0 { 2.0 * maximum + 1.0 } else { value.clamp(*minimum, *maximum) };
-                taken &= self.both(|unit| unit.set(&[*reference], &[value])) == OK;
+                let (minimum, maximum) = parameter.limits();
+                let value = if below(random, 40) == 0 { 2.0 * maximum + 1.0 } else { value.clamp(minimum, maximum) };
+                taken &= self.both(|unit| unit.set(&[parameter.reference], &[value])) == OK;
             }
             if taken {
                 self.both(|unit| unit.enter_initialization());
-                if self.both(|unit| unit.status_of("fmi2ExitInitializationMode")) == OK {
+                if self.both(|unit| unit.exit()) == OK {
                     return;
                 }
             }
-            self.both(|unit| unit.status_of("fmi2Reset"));
+            self.both(|unit| unit.reset());
         }
     }
 
@@ -268,7 +233,7 @@ impl<'a> Pair<'a> {
         let states = [&self.compiled, &self.prebuilt].map(|unit| {
             let state = unit.save();
             // through bytes and back
-            let bytes = unit.serialize(state);
+            let bytes = unit.bytes(state);
             unit.free(state);
             unit.deserialize(&bytes).expect("its own state")
         });

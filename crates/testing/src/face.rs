@@ -55,7 +55,7 @@ pub struct Face {
 }
 
 /// The value of an attribute.
-fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+pub fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
     let (_, rest) = element.split_once(&format!(" {name}=\""))?;
     rest.split('"').next()
 }
@@ -103,10 +103,9 @@ impl Variable {
             items: attribute(element, "declaredType").and_then(|name| types.get(name)).cloned().unwrap_or_default(),
         }
     }
-}
 
-impl Variable {
-    fn limits(&self) -> (f64, f64) {
+    /// Smallest and largest value, as declared; infinite if not.
+    pub fn limits(&self) -> (f64, f64) {
         (self.minimum.unwrap_or(f64::NEG_INFINITY), self.maximum.unwrap_or(f64::INFINITY))
     }
 }

@@ -12,6 +12,7 @@ pub mod fmi_crate;
 pub mod friction;
 pub mod functions;
 pub mod hosts;
+pub mod importer;
 pub mod importer_table;
 pub mod judge;
 pub mod kinds;

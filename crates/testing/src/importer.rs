@@ -1,4 +1,5 @@
 //! An importer: an instance with the messages that it logs, and calls with arguments of the right kind.
+#![allow(clippy::not_unsafe_ptr_arg_deref, reason = "states go from the library back to it")]
 
 use crate::face::Face;
 use crate::functions::{Functions, memory, variadic};
@@ -104,6 +105,14 @@ impl<'a> Importer<'a> {
     }
 
     pub fn named(face: &'a Face, name: &str, logging: bool) -> Importer<'a> {
+        Importer::try_named(face, name, logging).unwrap_or_else(|messages| panic!("no instance: {messages:?}"))
+    }
+
+    /// An instance, if the library creates one.
+    ///
+    /// # Errors
+    /// What the library says about why it doesn't.
+    pub fn try_named(face: &'a Face, name: &str, logging: bool) -> Result<Importer<'a>, Vec<Message>> {
         let log = Box::new(Log::default());
         let (callbacks, name) = (callbacks(face, &log), CString::new(name).expect("no zero"));
         // SAFETY: strings that end with 0, and callbacks that live
@@ -118,8 +127,7 @@ impl<'a> Importer<'a> {
                 c_int::from(logging),
             )
         };
-        assert!(!c.is_null(), "no instance: {:?}", log.borrow());
-        Importer { face, c, log, time: 0.0 }
+        if c.is_null() { Err(log.take()) } else { Ok(Importer { face, c, log, time: 0.0 }) }
     }
 
     /// An instance in this phase; where it can be, after some steps.
@@ -276,8 +284,13 @@ impl<'a> Importer<'a> {
     /// A state of these bytes: the status of the call and the state.
     pub fn state_of(&self, bytes: &[c_char]) -> (c_int, fmi2FMUstate) {
         let mut state = null_mut();
-        let status = unsafe { (self.f().deserialize_fmu_state)(self.c, bytes.as_ptr(), bytes.len(), &raw mut state) };
+        let status = self.overwrite(&mut state, bytes);
         (status, state)
+    }
+
+    /// Makes `state` one of these bytes; a new one, if it is null.
+    pub fn overwrite(&self, state: &mut fmi2FMUstate, bytes: &[c_char]) -> c_int {
+        unsafe { (self.f().deserialize_fmu_state)(self.c, bytes.as_ptr(), bytes.len(), state) }
     }
 
     pub fn real_status(&self, kind: c_int) -> (c_int, f64) {
