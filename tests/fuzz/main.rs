@@ -11,7 +11,7 @@
 mod call;
 mod run;
 
-use brinell_testing::{arithmetic, child, face, functions, judge, targets, unit};
+use brinell_testing::{arithmetic, child, face, importer, judge, targets, unit};
 use call::{Call, script};
 use child::Failure;
 use face::Face;

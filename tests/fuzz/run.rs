@@ -6,49 +6,33 @@ mod values;
 use crate::arithmetic::{control, set_control};
 use crate::call::{Call, INSTANCES, STATES, Simple, Wrong};
 use crate::face::Face;
-use crate::functions::{memory, variadic};
+use crate::importer::{ERROR, Log, Message, OK, Phase, WARNING, callbacks};
 use crate::judge::{Seen, check_values};
 use brinell_fmu::fmi2::abi::*;
-use std::ffi::{CString, c_char, c_int, c_void};
-use std::ptr::{null, null_mut};
+use std::ffi::{CString, c_char, c_int};
+use std::ptr::null;
 use values::finite;
 
-const OK: c_int = 0;
-const WARNING: c_int = 1;
-const ERROR: c_int = 3;
-
-/// The states of the standard for a co-simulation FMU.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Phase {
-    Instantiated,
-    Initialization,
-    Step,
-    Terminated,
-    Error,
+/// What an importer knows about an instance, and about a state that it saved.
+#[derive(Clone)]
+struct Known {
+    phase: Phase,
+    has_experiment: bool,
+    time: f64,
+    /// Whether an input has a derivative in the next step. The derivative ends with that step; parts of the step then
+    /// differ from the whole.
+    has_course: bool,
+    seen: Seen,
 }
 
-/// An instance, with the knowledge of an importer about it.
 struct Instance {
     component: fmi2Component,
-    phase: Phase,
-    has_experiment: bool,
-    time: f64,
-    /// Whether an input has a derivative in the next step. The derivative ends with that step; parts of the step then
-    /// differ from the whole.
-    has_course: bool,
-    seen: Seen,
+    known: Known,
 }
 
-/// A saved state, with the knowledge about its instance.
 struct State {
     pointer: fmi2FMUstate,
-    phase: Phase,
-    has_experiment: bool,
-    time: f64,
-    /// Whether an input has a derivative in the next step. The derivative ends with that step; parts of the step then
-    /// differ from the whole.
-    has_course: bool,
-    seen: Seen,
+    known: Known,
 }
 
 /// A running script. Dropping it frees its instances and states.
@@ -56,48 +40,42 @@ pub struct Runner<'a> {
     face: &'a Face,
     instances: [Option<Instance>; INSTANCES],
     states: [Option<State>; STATES],
-    /// The last serialized state, and its origin.
-    bytes: Option<(Vec<c_char>, State)>,
+    /// The last serialized state, and what is known about it.
+    bytes: Option<(Vec<c_char>, Known)>,
+    /// The messages of the last call.
+    log: Box<Log>,
     /// The arithmetic of a new process.
     control: u32,
     /// Number of calls of the C interface.
     pub calls: u64,
 }
 
-unsafe extern "C" fn logger(
-    _: *mut c_void,
-    name: *const c_char,
-    status: c_int,
-    category: *const c_char,
-    text: *const c_char,
-) {
-    assert!(!name.is_null() && !category.is_null() && !text.is_null() && (0..=4).contains(&status));
-    // SAFETY: messages end with 0
-    let text = unsafe { std::ffi::CStr::from_ptr(text) }.to_str().expect("messages are UTF-8");
-    // messages are format strings: every % is doubled
-    assert!(text.replace("%%", "").find('%').is_none(), "{text:?} has a format of printf");
-}
-
-fn callbacks(face: &Face) -> fmi2CallbackFunctions {
-    let (allocate, free) = memory(face.needs_no_memory());
-    fmi2CallbackFunctions {
-        logger: Some(variadic(logger)),
-        allocateMemory: allocate,
-        freeMemory: free,
-        stepFinished: None,
-        componentEnvironment: null_mut(),
+/// Checks the messages of the last call; the log is empty afterwards.
+fn check_messages(log: &Log) -> Result<(), String> {
+    for message in log.take() {
+        let Message { name, status, category, text } = &message;
+        if [name, category, text].into_iter().any(|text| text == "NULL") || !(0..=4).contains(status) {
+            return Err(format!("{message:?} is incomplete"));
+        }
+        // messages are format strings: every % is doubled
+        if text.replace("%%", "").contains('%') {
+            return Err(format!("{text:?} has a format of printf"));
+        }
     }
+    Ok(())
 }
 
 impl<'a> Runner<'a> {
     pub fn new(face: &'a Face) -> Runner<'a> {
-        Runner { face, instances: [None, None], states: [None, None, None], bytes: None, control: control(), calls: 0 }
+        let (instances, states, log) = ([None, None], [None, None, None], Box::new(Log::default()));
+        Runner { face, instances, states, bytes: None, log, control: control(), calls: 0 }
     }
 
     /// Runs all calls; the error names the call and the failure.
     pub fn run(&mut self, script: &[Call]) -> Result<(), String> {
         for (number, call) in script.iter().enumerate() {
-            self.make(call).map_err(|wrong| format!("call {number}, {call:?}: {wrong}"))?;
+            let result = self.make(call).and_then(|()| check_messages(&self.log));
+            result.map_err(|wrong| format!("call {number}, {call:?}: {wrong}"))?;
         }
         Ok(())
     }
@@ -145,7 +123,7 @@ impl<'a> Runner<'a> {
         let (empty, name) = (CString::default(), CString::new("100 %s # Größe").expect("no zero"));
         let other = CString::new("{another}").expect("no zero");
         let (mut name_pointer, mut guid, mut kind) = (name.as_ptr(), self.face.guid.as_ptr(), 1);
-        let callbacks = callbacks(self.face);
+        let callbacks = callbacks(self.face, &self.log);
         let mut callbacks_pointer = &raw const callbacks;
         match wrong {
             None => {}
@@ -166,10 +144,9 @@ impl<'a> Runner<'a> {
             (false, Some(_)) => Err("an instance in spite of a wrong argument".into()),
             (true, Some(_)) => Ok(()),
             (false, None) => {
-                let phase = Phase::Instantiated;
-                let seen = Seen::default();
-                self.instances[at] =
-                    Some(Instance { component, phase, has_experiment: false, time: 0.0, has_course: false, seen });
+                let (phase, seen) = (Phase::Instantiated, Seen::default());
+                let known = Known { phase, has_experiment: false, time: 0.0, has_course: false, seen };
+                self.instances[at] = Some(Instance { component, known });
                 Ok(())
             }
         }
@@ -188,7 +165,7 @@ impl<'a> Runner<'a> {
         self.calls += 1;
         let functions = &self.face.functions;
         let c = instance.component;
-        let before = instance.phase;
+        let before = instance.known.phase;
         let (status, allowed) = match call {
             Call::Setup { start, stop, tolerance, .. } => {
                 let (defined, stop_time) = (c_int::from(stop.is_some()), stop.unwrap_or(0.0));
@@ -205,7 +182,7 @@ impl<'a> Runner<'a> {
                     )
                 };
                 if status == OK {
-                    (instance.has_experiment, instance.time) = (true, *start);
+                    (instance.known.has_experiment, instance.known.time) = (true, *start);
                 }
                 (status, before == Phase::Instantiated)
             }
@@ -216,7 +193,7 @@ impl<'a> Runner<'a> {
             }
             Call::Set { kind, references, values, null, .. } => {
                 let status = self.set(c, *kind, references, values, *null);
-                (status, matches!(before, Phase::Instantiated | Phase::Initialization | Phase::Step))
+                (status, matches!(before, Phase::Instantiated | Phase::Initialization | Phase::StepComplete))
             }
             Call::InputDerivatives { references, orders, values, .. } => {
                 // SAFETY: arrays as long as announced
@@ -224,8 +201,8 @@ impl<'a> Runner<'a> {
                     let (references, count) = (references.as_ptr(), references.len());
                     (functions.set_real_input_derivatives)(c, references, count, orders.as_ptr(), values.as_ptr())
                 };
-                instance.has_course = true;
-                (status, matches!(before, Phase::Instantiated | Phase::Initialization | Phase::Step))
+                instance.known.has_course = true;
+                (status, matches!(before, Phase::Instantiated | Phase::Initialization | Phase::StepComplete))
             }
             Call::OutputDerivatives { references, orders, .. } => {
                 let mut values = vec![f64::NAN; references.len()];
@@ -258,15 +235,15 @@ impl<'a> Runner<'a> {
             }
             Call::Step { late, step, .. } => {
                 // SAFETY: the component lives
-                let status = unsafe { (functions.do_step)(c, instance.time + late, *step, 1) };
+                let status = unsafe { (functions.do_step)(c, instance.known.time + late, *step, 1) };
                 if status <= WARNING {
-                    if !(*step > 0.0 && step.is_finite() && (instance.time + late).is_finite()) {
-                        return Err(format!("a step of {step:e} s from {:e} s succeeds", instance.time + late));
+                    if !(*step > 0.0 && step.is_finite() && (instance.known.time + late).is_finite()) {
+                        return Err(format!("a step of {step:e} s from {:e} s succeeds", instance.known.time + late));
                     }
-                    instance.time += late + step;
-                    instance.has_course = false;
+                    instance.known.time += late + step;
+                    instance.known.has_course = false;
                 }
-                (status, before == Phase::Step)
+                (status, before == Phase::StepComplete)
             }
             Call::Status { which, kind, .. } => (ask(self.face, c, *which, *kind), true),
             Call::Log { on, categories, .. } => {
@@ -286,22 +263,22 @@ impl<'a> Runner<'a> {
             return Err(format!("status {status} in the phase {before:?}, where it isn't allowed"));
         }
         if status == ERROR {
-            instance.phase = Phase::Error;
+            instance.known.phase = Phase::Error;
         }
         self.judge(instance, call, status)
     }
 
     /// Checks the values after a call, if they can be read.
     fn judge(&mut self, instance: &mut Instance, call: &Call, status: c_int) -> Result<(), String> {
-        if instance.phase == Phase::Instantiated {
-            instance.seen = Seen::default();
+        if instance.known.phase == Phase::Instantiated {
+            instance.known.seen = Seen::default();
             return Ok(());
         }
         let values = self.values(instance)?;
         let steps = matches!(call, Call::Step { .. });
         // parameters may change until the first step, and some between steps
-        let before = if steps && status <= WARNING { instance.seen.clone() } else { Seen::default() };
-        instance.seen = check_values(self.face, &values, &before)?;
+        let before = if steps && status <= WARNING { instance.known.seen.clone() } else { Seen::default() };
+        instance.known.seen = check_values(self.face, &values, &before)?;
         Ok(())
     }
 
@@ -315,7 +292,7 @@ impl<'a> Runner<'a> {
             (self.face.functions.get_real)(instance.component, references.as_ptr(), values.len(), values.as_mut_ptr())
         };
         if status != OK {
-            return Err(format!("status {status} of fmi2GetReal in the phase {:?}", instance.phase));
+            return Err(format!("status {status} of fmi2GetReal in the phase {:?}", instance.known.phase));
         }
         Ok(values)
     }
@@ -327,27 +304,29 @@ fn simple(face: &Face, instance: &mut Instance, which: Simple) -> (c_int, bool) 
     let (function, allowed, then) = match which {
         Simple::Enter => (
             functions.enter_initialization_mode,
-            instance.phase == Phase::Instantiated && instance.has_experiment,
+            instance.known.phase == Phase::Instantiated && instance.known.has_experiment,
             Phase::Initialization,
         ),
-        Simple::Exit => (functions.exit_initialization_mode, instance.phase == Phase::Initialization, Phase::Step),
+        Simple::Exit => {
+            (functions.exit_initialization_mode, instance.known.phase == Phase::Initialization, Phase::StepComplete)
+        }
         Simple::Terminate => (
             functions.terminate,
             // more than the standard allows, as importers need it
-            matches!(instance.phase, Phase::Instantiated | Phase::Step | Phase::Terminated),
+            matches!(instance.known.phase, Phase::Instantiated | Phase::StepComplete | Phase::Terminated),
             // an instance that was never initialized has nothing to terminate
-            if instance.phase == Phase::Step { Phase::Terminated } else { instance.phase },
+            if instance.known.phase == Phase::StepComplete { Phase::Terminated } else { instance.known.phase },
         ),
         Simple::Reset => (functions.reset, true, Phase::Instantiated),
         // there is no asynchronous step to cancel
-        Simple::Cancel => (functions.cancel_step, false, instance.phase),
+        Simple::Cancel => (functions.cancel_step, false, instance.known.phase),
     };
     // SAFETY: the component lives
     let status = unsafe { function(instance.component) };
     if status <= WARNING {
-        instance.phase = then;
+        instance.known.phase = then;
         if which == Simple::Reset {
-            (instance.has_experiment, instance.has_course) = (false, false);
+            (instance.known.has_experiment, instance.known.has_course) = (false, false);
         }
     }
     (status, allowed)

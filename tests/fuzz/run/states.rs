@@ -1,8 +1,8 @@
 //! Saving, restoring and serializing states, and a step against its parts.
 
-use super::{ERROR, Instance, OK, Phase, Runner, State, WARNING};
+use super::{Instance, Runner, State};
+use crate::importer::{ERROR, OK, Phase, WARNING};
 use crate::judge::same_values;
-use brinell_fmu::fmi2::abi::fmi2FMUstate;
 use std::ptr::null_mut;
 
 impl Runner<'_> {
@@ -13,9 +13,9 @@ impl Runner<'_> {
         // SAFETY: the component lives, and the state, if it isn't null
         let status = unsafe { (self.face.functions.get_fmu_state)(instance.component, &raw mut pointer) };
         if status != OK || pointer.is_null() {
-            return Err(format!("status {status} in the phase {:?}", instance.phase));
+            return Err(format!("status {status} in the phase {:?}", instance.known.phase));
         }
-        self.states[place] = Some(State::of(pointer, instance));
+        self.states[place] = Some(State { pointer, known: instance.known.clone() });
         Ok(())
     }
 
@@ -27,7 +27,7 @@ impl Runner<'_> {
         if status != OK {
             return Err(format!("status {status}"));
         }
-        state.give(instance);
+        instance.known = state.known.clone();
         Ok(())
     }
 
@@ -56,11 +56,11 @@ impl Runner<'_> {
         };
         match (status, short_by) {
             (OK, 0) => {
-                self.bytes = Some((bytes, State { pointer: null_mut(), seen: state.seen.clone(), ..*state }));
+                self.bytes = Some((bytes, state.known.clone()));
                 Ok(())
             }
             (ERROR, 1..) => {
-                instance.phase = Phase::Error;
+                instance.known.phase = Phase::Error;
                 Ok(())
             }
             _ => Err(format!("status {status} with {short_by} bytes too few")),
@@ -74,7 +74,7 @@ impl Runner<'_> {
         flip: Option<usize>,
         length: Option<usize>,
     ) -> Result<(), String> {
-        let (Some(instance), Some((bytes, of))) = (&mut self.instances[at], &self.bytes) else { return Ok(()) };
+        let (Some(instance), Some((bytes, known))) = (&mut self.instances[at], &self.bytes) else { return Ok(()) };
         let mut changed = bytes.clone();
         if let Some(bit) = flip {
             let bit = bit % (8 * changed.len());
@@ -94,13 +94,13 @@ impl Runner<'_> {
             if status != ERROR || !pointer.is_null() {
                 return Err(format!("status {status} with damaged bytes"));
             }
-            instance.phase = Phase::Error;
+            instance.known.phase = Phase::Error;
             return Ok(());
         }
         if status != OK || pointer.is_null() {
             return Err(format!("status {status} with good bytes"));
         }
-        let state = State { pointer, seen: of.seen.clone(), ..*of };
+        let state = State { pointer, known: known.clone() };
         if let Some(mut old) = self.states[place].replace(state) {
             // SAFETY: it isn't used again
             unsafe { (self.face.functions.free_fmu_state)(instance.component, &raw mut old.pointer) };
@@ -113,7 +113,7 @@ impl Runner<'_> {
     pub(super) fn split(&mut self, at: usize, step: f64, parts: u32) -> Result<(), String> {
         let Some(mut instance) = self.instances[at].take() else { return Ok(()) };
         let moves_bodies = self.face.named.keys().any(|name| name.ends_with("mean_force"));
-        let result = if instance.phase == Phase::Step && !moves_bodies && !instance.has_course {
+        let result = if instance.known.phase == Phase::StepComplete && !moves_bodies && !instance.known.has_course {
             self.split_of(&mut instance, step, parts)
         } else {
             Ok(())
@@ -130,12 +130,12 @@ impl Runner<'_> {
         // SAFETY: component and state live
         let (whole, pieces) = unsafe {
             (functions.get_fmu_state)(c, &raw mut start);
-            let whole = (functions.do_step)(c, instance.time, step, 1);
+            let whole = (functions.do_step)(c, instance.known.time, step, 1);
             let whole = if whole <= WARNING { Some(self.values(instance)?) } else { None };
             (functions.set_fmu_state)(c, start);
             let mut status = OK;
             for index in 0..parts {
-                status = status.max((functions.do_step)(c, instance.time + f64::from(index) * part, part, 1));
+                status = status.max((functions.do_step)(c, instance.known.time + f64::from(index) * part, part, 1));
             }
             let pieces = if status <= WARNING { Some(self.values(instance)?) } else { None };
             (functions.set_fmu_state)(c, start);
@@ -147,19 +147,5 @@ impl Runner<'_> {
             (Some(whole), Some(pieces)) => same_values(self.face, &whole, &pieces),
             _ => Ok(()),
         }
-    }
-}
-
-impl State {
-    fn of(pointer: fmi2FMUstate, instance: &Instance) -> State {
-        let Instance { phase, has_experiment, time, has_course, ref seen, .. } = *instance;
-        State { pointer, phase, has_experiment, time, has_course, seen: seen.clone() }
-    }
-
-    /// Makes `instance` as it was.
-    fn give(&self, instance: &mut Instance) {
-        (instance.phase, instance.has_experiment, instance.time) = (self.phase, self.has_experiment, self.time);
-        instance.has_course = self.has_course;
-        instance.seen = self.seen.clone();
     }
 }

@@ -1,7 +1,8 @@
 //! Reading and setting variables of every kind.
 
-use super::{Runner, WARNING};
+use super::Runner;
 use crate::call::Kind;
+use crate::importer::WARNING;
 use brinell_fmu::fmi2::abi::{fmi2Component, fmi2String};
 use std::ffi::{CString, c_int};
 use std::ptr::{null, null_mut};
