@@ -11,6 +11,6 @@ brinell_fmu::scene::kind! {
         plain ContactRadius {}
     },
     parts: { Momentum = Absent, Course = Present, Prediction = Absent, Coupling = Absent, Watch = Absent },
-    reals: { 0: IndentationRate, 1: Force, 2: Indentation, 4: ResidualIndentation, 10: DissipatedEnergy },
+    reals: { 0: IndentationRate, 1: Force, 2: Indentation, 4: ResidualIndentation, 11: DissipatedEnergy },
     integers: {},
 }
