@@ -15,6 +15,7 @@ every_unit = pytest.mark.parametrize("name", sorted(paths()))
 # unit: SI exponents, display units with the factor of FMI 2.0 (display value = factor * value in base units)
 UNITS = {
     "m": ({"m": 1}, {"mm": 1e3, "um": 1e6}),
+    "m2": ({"m": 2}, {"mm2": 1e6}),
     "m/s": ({"m": 1, "s": -1}, {}),
     "m/s2": ({"m": 1, "s": -2}, {}),
     "N": ({"kg": 1, "m": 1, "s": -2}, {"kN": 1e-3}),
