@@ -20,7 +20,8 @@
 //! [`SpringsOf`] is the contact for both: its curve, the growth of its dent, its outputs. What differs is [`Shear`], the springs
 //! themselves. Along a line ([`Stuck`]) slopes are +-1 where springs slip, cones cut the polyline in closed form, and each vertex
 //! keeps the sum below it. In a plane ([`plane`]) slipping springs follow a pursuit curve, slopes are vectors, and a motion is cut
-//! where a spring's limit is reached. Their lists and the merge of segments have the same outline, but no formula in common.
+//! where a spring's limit is reached. Their lists and the merge of segments have one outline and the same conditions on the new
+//! slopes; they differ in which slopes are allowed, and in the sum below each vertex along a line.
 //!
 //! # Limits
 //! Quasi-static. No coupling of normal and tangential displacements: exact for equal bodies, an approximation
