@@ -53,7 +53,20 @@ pub fn step<const N: usize>(
     Some((next, error))
 }
 
-/// The factor on a step with this relative `error` for which the error would be just below the `tolerance`.
+/// The factor on a step with this relative `error` for which the error would be just below the `tolerance`; NaN for an error that is
+/// none.
 pub fn factor(tolerance: f64, error: f64) -> f64 {
-    0.9 * pow(tolerance / largest(error, LEAST), 0.2)
+    // in this order NaN stays NaN, and no step becomes longer by it
+    0.9 * pow(tolerance / largest(LEAST, error), 0.2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::factor;
+
+    #[test]
+    fn an_error_that_is_no_number_makes_no_step_longer() {
+        assert!(factor(1e-12, f64::NAN).is_nan());
+        assert!(factor(1e-12, f64::INFINITY) == 0.0 && factor(1e-12, 0.0) > 5.0 && factor(1e-12, 1e-12) < 1.0);
+    }
 }

@@ -17,7 +17,7 @@ pub const ERROR: c_int = 3;
 /// Number of calls of the C interface in this process.
 pub static CALLS: AtomicU64 = AtomicU64::new(0);
 
-/// Length of a step [s].
+/// Length of a step \[s\].
 pub const STEP: f64 = 1e-6;
 
 /// The name of instances: what is special to printf and to loggers, and not ASCII.
