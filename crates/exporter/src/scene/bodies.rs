@@ -237,13 +237,20 @@ pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
     notes
 }
 
-/// How much too soft the law `brinell` is beside an elastic body: the modulus of the body that yields over that of the other, and the
-/// largest errors of force and restitution \[%\] against finite elements of both bodies, for Poisson's ratios of 0.3, no hardening and
-/// small strain. The guide has the table.
-const BESIDE_ELASTIC: [(f64, &str, &str); 3] = [(1.0 / 3.0, "4.5", "2"), (1.0, "9", "4 to 5"), (3.0, "15", "7 to 9")];
+/// How much too soft the law `brinell` is beside an elastic body: the modulus of the body that yields over that of the other, the
+/// other way round in words, and the largest errors of force and restitution \[%\]. By finite elements of both bodies, for Poisson's
+/// ratios of 0.3, no hardening and small strain; the guide has the table.
+const BESIDE_ELASTIC: [(f64, &str, &str, &str); 3] = [
+    (1.0 / 3.0, "three times the", "4.5", "2"),
+    (1.0, "the same", "9", "4 to 5"),
+    (3.0, "a third of the", "15", "7 to 9"),
+];
 
 /// Below this ratio of the moduli the elastic body is nearly rigid.
 const NEARLY_RIGID: f64 = 0.1;
+
+/// Above this ratio of the moduli no finite elements of pairs are near.
+const SOFTEST: f64 = 4.5;
 
 /// What the elastic body of the first contact means for the accuracy of the laws, which take both bodies as one of the effective
 /// modulus. `None` if no body yields, or if the other one is rigid.
@@ -256,16 +263,17 @@ pub fn beside_elastic(scene: &Scene) -> Option<String> {
     if ratio < NEARLY_RIGID {
         return None;
     }
-    let distance = |(known, ..): &(f64, &str, &str)| (ratio / known).ln().abs();
+    let distance = |(known, ..): &(f64, &str, &str, &str)| (ratio / known).ln().abs();
     let nearest = BESIDE_ELASTIC.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)))?;
-    let (known, force, restitution) = nearest;
+    let (_, modulus, force, restitution) = nearest;
+    let more =
+        if ratio > SOFTEST { "; here it is more, since the error grows as the elastic body gets softer" } else { "" };
     Some(format!(
-        "The {} stays elastic, and its modulus is {} times that of the {}. The laws take both as one body of the effective modulus, \
-         which is too soft: by finite elements with {} times the modulus, up to {force} % in force at the same depth and {restitution} % \
-         in restitution.",
+        "The {} stays elastic, and its modulus is {} times that of the {}. The laws take both bodies as one of the effective modulus, \
+         which is too soft. By finite elements with {modulus} modulus, the law brinell is too low by up to {force} % in force at the \
+         same depth and {restitution} % in restitution{more}.",
         softer.other().name(),
         cell(1.0 / ratio, 1.0),
         softer.name(),
-        cell(1.0 / known, 1.0),
     ))
 }
