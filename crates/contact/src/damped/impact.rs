@@ -3,9 +3,10 @@
 use super::{Damped, Model};
 use crate::Regime;
 use crate::impact::{Impact, Prediction};
+use crate::numbers::largest;
 use crate::regime::LARGEST_INDENTATION;
 use crate::runge_kutta;
-use libm::{fabs, pow, sqrt};
+use libm::{fabs, sqrt};
 
 /// An instant of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,11 +51,11 @@ pub fn follow<D: Damped + Copy>(
     let motion = Motion::new(model, impact)?;
     let mut state = State { time: 0.0, indentation: 0.0, speed: impact.speed };
     let mut step = 1e-6 * motion.time;
-    let (mut turning, mut largest) = (state, motion.force(&state));
+    let (mut turning, mut max_force) = (state, motion.force(&state));
     watch(&state, 0.0);
     for _ in 0..MOST_STEPS {
         let (next, error) = motion.step(&state, step);
-        let factor = 0.9 * pow(TOLERANCE / (error + f64::MIN_POSITIVE), 0.2);
+        let factor = runge_kutta::factor(TOLERANCE, error);
         // written positively to reject NaN
         let accepted = error <= TOLERANCE;
         if !accepted {
@@ -64,14 +65,14 @@ pub fn follow<D: Damped + Copy>(
         if state.speed > 0.0 && next.speed <= 0.0 {
             turning = motion.event(&state, step, |state| state.speed <= 0.0);
         }
-        largest = fmax(largest, motion.largest_force(&state, &next, step));
+        max_force = largest(max_force, motion.largest_force(&state, &next, step));
         if motion.is_over(&next) {
             let end = motion.event(&state, step, |state| motion.is_over(state));
             watch(&end, 0.0);
             let rebound_energy = 0.5 * impact.mass * end.speed * end.speed;
             return Some(Prediction {
                 max_indentation: turning.indentation,
-                max_force: largest,
+                max_force,
                 max_contact_radius: sqrt(model.pair.radius * turning.indentation),
                 regime: Regime::Elastic,
                 residual_indentation: 0.0,
@@ -87,10 +88,6 @@ pub fn follow<D: Damped + Copy>(
         step *= if factor < 5.0 { factor } else { 5.0 };
     }
     None
-}
-
-fn fmax(one: f64, other: f64) -> f64 {
-    if one > other { one } else { other }
 }
 
 /// The motion of a mass under the law.
@@ -154,7 +151,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         let Some((next, [length, speed])) = runge_kutta::step(&[state.indentation, state.speed], step, slope) else {
             return (*state, f64::INFINITY);
         };
-        (at(&next), fmax(fabs(length) / self.length, fabs(speed) / self.speed))
+        (at(&next), largest(fabs(length) / self.length, fabs(speed) / self.speed))
     }
 
     /// The state within the `step` from `state` at which `happens` becomes true. It must be true at the end of the step.
@@ -171,7 +168,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
     fn largest_force(&self, state: &State, next: &State, step: f64) -> f64 {
         let (mut low, mut high) = (0.0, step);
         let force = |step: f64| self.force(&self.step(state, step).0);
-        let ends = fmax(self.force(state), self.force(next));
+        let ends = largest(self.force(state), self.force(next));
         // the force is smooth: if it is lower in the middle, or monotone, the maximum is at an end
         if force(0.5 * step) <= 0.5 * (self.force(state) + self.force(next)) {
             return ends;
@@ -184,6 +181,6 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
                 high -= third;
             }
         }
-        fmax(ends, force(0.5 * (low + high)))
+        largest(ends, force(0.5 * (low + high)))
     }
 }
