@@ -18,6 +18,9 @@ use std::sync::LazyLock;
 use std::time::Duration;
 use suites::{Subject, Suites};
 
+/// Cargo builds the program before these tests; without its feature they do not compile.
+const _: &str = env!("CARGO_BIN_EXE_brinell");
+
 /// The longest time for all checks of a library, which sanitizers slow down.
 const LIMIT: Duration = Duration::from_secs(600);
 

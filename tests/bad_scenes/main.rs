@@ -10,6 +10,9 @@ use command::{contents, empty_folder, run};
 use refusal::{message_of, refused_text};
 use std::fs;
 
+/// Cargo builds the program before these tests; without its feature they do not compile.
+const _: &str = env!("CARGO_BIN_EXE_brinell");
+
 /// A scene without errors, to be modified.
 const SCENE: &str = "\
 name = \"ball\"

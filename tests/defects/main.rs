@@ -19,6 +19,9 @@ use std::process::Command;
 use std::time::Duration;
 use suites::{Subject, Suites};
 
+/// Cargo builds the program before these tests; without its feature they do not compile.
+const _: &str = env!("CARGO_BIN_EXE_brinell");
+
 /// The longest time for a test of one library.
 const LIMIT: Duration = Duration::from_secs(120);
 

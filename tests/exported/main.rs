@@ -6,6 +6,9 @@ use brinell_testing::{
     both_ways, command, courses, hosts, kinds, loaded, physics, prebuilt, pytest, refusal, skips, standalone, unit,
 };
 
+/// Cargo builds the program before these tests; without its feature they do not compile.
+const _: &str = env!("CARGO_BIN_EXE_brinell");
+
 mod bad_units;
 mod contact_groups;
 mod contacts;

@@ -22,6 +22,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tempfile::TempDir;
 
+/// Cargo builds the program before these tests; without its feature they do not compile.
+const _: &str = env!("CARGO_BIN_EXE_brinell");
+
 /// Number of calls over all FMUs in a usual run.
 const CALLS: u64 = 100_000;
 
