@@ -208,7 +208,7 @@ fn group_line(group: &Group) -> String {
     });
     let own = own.collect::<Vec<_>>().join(", ");
     let own = if own.is_empty() { "as the scene".into() } else { own };
-    paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.count()), &own)
+    paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.size()), &own)
 }
 
 fn law(scene: &Scene) -> String {

@@ -88,7 +88,7 @@ fn gap(scene: &Scene, group: usize) -> (Option<String>, f64) {
 fn others_at_rest(scene: &Scene, group: usize, description: &Description) -> Result<Vec<(String, u32)>, ImportError> {
     let mut forces = Vec::new();
     for (place, other) in scene.contacts.iter().enumerate() {
-        for index in usize::from(place == group)..other.count() {
+        for index in usize::from(place == group)..other.size() {
             let name = format!("{}force", other.prefix(index));
             let reference = description.real(&name)?;
             forces.push((name, reference));

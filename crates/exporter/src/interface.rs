@@ -128,7 +128,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
                 minimum: variable.minimum(kinds),
                 group: Some(group),
                 reference,
-                count: group.count(),
+                count: group.size(),
                 per_contact: true,
                 start: (variable.causality == Causality::Input).then(|| start(variable, scene, index)),
                 dependencies: parameters.of_group(index, depends),
@@ -142,8 +142,8 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
                 nominal: nominals[index].get(variable),
                 is_first: scene.directions > 1 && has_second(variable),
             });
-            reference += group.count();
-            first += group.count();
+            reference += group.size();
+            first += group.size();
         }
     }
     entries.extend(parameters.0.iter().map(|settable| Entry {

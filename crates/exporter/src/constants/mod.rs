@@ -86,7 +86,7 @@ fn add_groups(file: &mut File, scene: &Scene) {
     file.add("contacts", format_args!("{contacts} in {groups}"));
     let mut end = 0;
     let table = |group: &Group| {
-        end += group.count();
+        end += group.size();
         format!("({:?}, {}, {end})", group.name.as_deref().unwrap_or_default(), group.count.is_some())
     };
     file.add("tables", list(scene.contacts.iter().map(table)));

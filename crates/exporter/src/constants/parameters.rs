@@ -51,7 +51,7 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
 
 /// The first contact of `group`.
 fn first_contact(scene: &Scene, group: &Group) -> usize {
-    scene.contacts.iter().take_while(|other| other.name != group.name).map(Group::count).sum()
+    scene.contacts.iter().take_while(|other| other.name != group.name).map(Group::size).sum()
 }
 
 /// The variables that can be parameters of a scene, in the order of the library's enum.
@@ -106,7 +106,7 @@ impl Sources<'_> {
         let firsts = scene.contacts.iter().map(|group| {
             let first = (value, contact);
             value += group.own.iter().filter(|own| own.settable).map(|own| group.variables_of(own)).sum::<usize>();
-            contact += group.count();
+            contact += group.size();
             first
         });
         Sources { scene, firsts: firsts.collect() }

@@ -5,7 +5,7 @@ mod hash;
 pub mod resource;
 mod universal;
 
-pub use archive::{Archive, archive};
+pub use archive::archive;
 pub use hash::Hash;
 pub use universal::join;
 
@@ -15,6 +15,8 @@ use crate::symbols::{self, SymbolError};
 use crate::{documentation, model_description};
 use brinell_tables::{ICON, LICENSES};
 pub use zip::result::ZipError;
+
+use archive::Archive;
 
 /// A packed library.
 pub struct Packed {

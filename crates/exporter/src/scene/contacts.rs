@@ -67,7 +67,7 @@ pub struct Group {
 
 impl Group {
     /// The number of contacts in the group.
-    pub fn count(&self) -> usize {
+    pub fn size(&self) -> usize {
         self.count.unwrap_or(1)
     }
 
@@ -103,7 +103,7 @@ impl Group {
 
     /// The number of variables for the group's own `parameter`.
     pub fn variables_of(&self, parameter: &Parameter) -> usize {
-        if parameter.per_contact { self.count() } else { 1 }
+        if parameter.per_contact { self.size() } else { 1 }
     }
 }
 
@@ -456,7 +456,7 @@ impl Contacts {
                     let names = group.own.iter().chain(shared).map(|parameter| parameter.name);
                     return Err(wrong(&unknown("parameter", text, names)));
                 };
-                total += group.count();
+                total += group.size();
                 if total > MOST_VALUES {
                     let message = format!("{text} makes {total} values per contact: allowed are {MOST_VALUES} in all");
                     return Err(wrong(&message));

@@ -152,7 +152,7 @@ impl Scene {
 
     /// Whether contacts of a group may differ, so that each is treated as a group of its own.
     pub fn contacts_differ(&self) -> bool {
-        self.contacts.iter().any(|group| group.count() > 1 && group.own.iter().any(|own| own.per_contact))
+        self.contacts.iter().any(|group| group.size() > 1 && group.own.iter().any(|own| own.per_contact))
     }
 
     /// Whether the FMU has the input `name`, which is not the rate.
@@ -174,7 +174,7 @@ impl Scene {
 
     /// The number of contacts of the FMU.
     pub fn contact_count(&self) -> usize {
-        self.contacts.iter().map(Group::count).sum()
+        self.contacts.iter().map(Group::size).sum()
     }
 
     /// The physical model of the first contact.
