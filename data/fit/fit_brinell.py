@@ -10,9 +10,13 @@ w = W/(F_y d_y).
 
 Loading. Below x = 1, f and area are Hertz's (x^1.5, x). Above, the slopes df/dx and d(area)/dx are continuous, linear in
 sqrt(x) between knots, and constant beyond the last knot. Every segment then has the form c0 + c1 x + c2 x^1.5, of which
-Hertz's law is a special case. Force and area end linearly: the mean pressure is constant there, the fully plastic regime.
+Hertz's law is a special case. Force and area end linearly: the mean pressure tends to the ratio of their slopes, the fully
+plastic regime.
 The origin of all segments is x = 0. With z = x - knot, the curvature would be infinite just above every knot, and the
 force would rise above Hertz's just after yield, so that the law would not be passive.
+The slopes up to x = 250 and the unloading are fitted to loading.csv and its unloadings alone, in a chain that ends at
+NEAR_END. The slope at 1000 is fitted to loading.csv and to the table up to x = 3000 (DEEP), with the near slopes held:
+that table has larger elements, and must not move the curve where loading.csv is better.
 
 Unloading from x_m. f = f_m ((1+g) s^1.5 - g s^2), s = (x - x_f)/r, r = x_m - x_f. The initial slope is the elastic
 2 E* a_m, hence r = (1 - g/3) f_m / radius_m. g depends on the lag behind Hertz, psi = 1 - f_m/x_m^1.5:
@@ -29,15 +33,23 @@ from scipy.optimize import least_squares
 HERE = Path(__file__).parent
 TRUTH = HERE.parent / "truth"
 DEPTHS = ("3", "10", "30", "82.5", "200")
+DEEP = "pairs/one_body_loading_to_3000.csv"
 
 YIELD_PRESSURE = 1.1      # mean pressure / S at x = 1: the normalisation of the curves
-PLASTIC_PRESSURE = 3.0    # limit of mean pressure / S in the finite-element curves (2.97 to 3.00 from x = 500 on)
+# Limit of mean pressure / S. The finite-element curves have 3.01 at x = 1000, 3.03 at 2000 and 3.04 at 3000, where the
+# pressure still rises slowly, as the elastic part of the indentation fades.
+PLASTIC_PRESSURE = 3.05
 PLASTIC_AREA = 2.86       # a^2/(R d) of the rigid, perfectly plastic similarity solution, 2 c^2 with c^2 = 1.43
-# Both determine the last slope, 7.8. A fit with this slope free gives 7.9 (printed), in agreement.
+# Both determine the last slope of the force, 7.93. A fit with both slopes free gives 7.62 and 2.75 (printed): the same
+# mean pressure, 3.05 S.
 PLASTIC_SLOPE = PLASTIC_PRESSURE * PLASTIC_AREA / YIELD_PRESSURE
 # Hertz's law ends at x = 1: von Mises' first yield is at 0.956, but the curves stay within 0.02 % of Hertz's up to 1.05.
-# More knots than these would fit the numerical error of the curves.
-KNOTS = np.array([1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 2000.0])
+# More knots than these would fit the numerical error of the curves. At the last one the slopes reach the plastic ones: with
+# 5000 instead of 10000, the force would exceed the deep table by up to 0.9 % instead of 0.4 %.
+NEAR = np.array([1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0])
+KNOTS = np.r_[NEAR, 1000.0, 10000.0]
+# The end of the chain of the near slopes, where the mean pressure tends to 3.0 S: that of loading.csv at x = 1000.
+NEAR_END, NEAR_SLOPE = 2000.0, 3.0 * PLASTIC_AREA / YIELD_PRESSURE
 # g decreases again for deep dents, where unloading causes reverse yielding. Only x_m = 200 shows this, so the constant is
 # fixed and not fitted (0.6 to 0.8 work as well). A fit would worsen the interpolation between the depths and near yield.
 DECLINE = 0.7
@@ -47,21 +59,21 @@ DECIMALS = 4
 class Chain:
     """Segments c0 + c1 x + c2 x^1.5 from the slopes at the knots; the first segment is Hertz's and ends at x = 1."""
 
-    def __init__(self, slopes, power):
-        root = np.sqrt(KNOTS)
+    def __init__(self, slopes, power, knots=KNOTS):
+        self.knots, root = knots, np.sqrt(knots)
         self.slopes, self.rows = np.asarray(slopes, float), [(0.0, 1.0, 0.0) if power == 1 else (0.0, 0.0, 1.0)]
         value = 1.0
-        for i, (knot, slope) in enumerate(zip(KNOTS, self.slopes)):
-            last = i + 1 == len(KNOTS)
+        for i, (knot, slope) in enumerate(zip(knots, self.slopes)):
+            last = i + 1 == len(knots)
             c2 = 0.0 if last else (self.slopes[i + 1] - slope) / (root[i + 1] - root[i]) / 1.5
             c1 = slope - 1.5 * c2 * root[i]
             c0 = value - c1 * knot - c2 * knot * root[i]
             self.rows.append((c0, c1, c2))
             if not last:
-                value = c0 + c1 * KNOTS[i + 1] + c2 * KNOTS[i + 1] ** 1.5
+                value = c0 + c1 * knots[i + 1] + c2 * knots[i + 1] ** 1.5
         self.table = np.array(self.rows)
-        index = np.arange(len(KNOTS))
-        pieces = self._antiderivative(KNOTS, index) - self._antiderivative(np.r_[0.0, KNOTS[:-1]], index)
+        index = np.arange(len(knots))
+        pieces = self._antiderivative(knots, index) - self._antiderivative(np.r_[0.0, knots[:-1]], index)
         self.work_before = np.r_[0.0, np.cumsum(pieces)]
 
     def _antiderivative(self, x, index):
@@ -69,22 +81,23 @@ class Chain:
         return c0 * x + c1 * x**2 / 2 + 0.4 * c2 * x**2.5
 
     def __call__(self, x):
-        c0, c1, c2 = self.table[np.searchsorted(KNOTS, x, side="right")].T
+        c0, c1, c2 = self.table[np.searchsorted(self.knots, x, side="right")].T
         return c0 + c1 * x + c2 * x * np.sqrt(x)
 
     def slope(self, x):
-        _, c1, c2 = self.table[np.searchsorted(KNOTS, x, side="right")].T
+        _, c1, c2 = self.table[np.searchsorted(self.knots, x, side="right")].T
         return c1 + 1.5 * c2 * np.sqrt(x)
 
     def work(self, x):
-        index = np.searchsorted(KNOTS, x, side="right")
-        lower = np.r_[0.0, KNOTS][index]
+        index = np.searchsorted(self.knots, x, side="right")
+        lower = np.r_[0.0, self.knots][index]
         return self.work_before[index] + self._antiderivative(x, index) - self._antiderivative(lower, index)
 
 
 class Law:
-    def __init__(self, force_slopes, area_slopes, shape):
-        self.force, self.area, self.shape = Chain(force_slopes, 1.5), Chain(area_slopes, 1), np.asarray(shape)
+    def __init__(self, force_slopes, area_slopes, shape, knots=KNOTS):
+        self.force, self.area = Chain(force_slopes, 1.5, knots), Chain(area_slopes, 1, knots)
+        self.shape = np.asarray(shape)
 
     def lag(self, x):
         return np.maximum(0.0, 1 - self.force(x) / x**1.5)
@@ -121,7 +134,8 @@ class Law:
 
 
 def read_loading(name="loading.csv"):
-    data = np.genfromtxt(TRUTH / name, delimiter=",", names=True)
+    rows = [row for row in (TRUTH / name).read_text().splitlines() if not row.startswith("#")]
+    data = np.genfromtxt(rows, delimiter=",", names=True)
     return data["delta_over_dy"], data["F_over_Fy"], data["a_over_ay"]
 
 
@@ -139,28 +153,34 @@ def read_unloadings(x, f):
 
 
 def force_error(x):
-    """The error of the curves, which weights the fit (see ../truth/README.md)."""
+    """The error of loading.csv, which weights the fit (see ../truth/README.md)."""
     return np.interp(np.log(x), np.log([50, 82.5, 150, 500, 1000]), [0.001, 0.002, 0.004, 0.004, 0.007])
 
 
-def fit_chain(x, y, error, power, last):
-    """Slopes at the knots by least squares of the relative error. The first is Hertz's, the last is given or free."""
-    x, y, weight = x[x > 1], y[x > 1], 1 / (error * y)[x > 1]
-    units = np.eye(len(KNOTS))
-    columns = np.array([Chain(unit, power)(x) - 1 for unit in units]).T * weight[:, None]
-    fixed = {0: float(power), **({} if last is None else {len(KNOTS) - 1: last})}
-    free = [i for i in range(len(KNOTS)) if i not in fixed]
+def deep_force_error(x):
+    """The error of the table up to x = 3000, from its heading."""
+    return np.select([x <= 100, x <= 700, x <= 2700], [0.0015, 0.004, 0.007], 0.01)
+
+
+def fit_chain(x, y, error, power, first, last, knots=KNOTS):
+    """Slopes at the knots by least squares of the relative error: the first are given, the last is given or free."""
+    begin = knots[len(first) - 1]
+    x, y, weight = x[x > begin], y[x > begin], 1 / (error * y)[x > begin]
+    units = np.eye(len(knots))
+    columns = np.array([Chain(unit, power, knots)(x) - 1 for unit in units]).T * weight[:, None]
+    fixed = {**dict(enumerate(map(float, first))), **({} if last is None else {len(knots) - 1: last})}
+    free = [i for i in range(len(knots)) if i not in fixed]
     target = (y - 1) * weight - sum(columns[:, i] * slope for i, slope in fixed.items())
-    slopes = np.zeros(len(KNOTS))
+    slopes = np.zeros(len(knots))
     slopes[free] = np.linalg.lstsq(columns[:, free], target)[0]
     slopes[list(fixed)] = list(fixed.values())
     return slopes.round(DECIMALS)
 
 
-def fit_shape(force_slopes, area_slopes, truth):
+def fit_shape(force_slopes, area_slopes, truth, knots):
     """height and onset of g, from recovery (0.3 %), recovered work (0.15 %) and the whole path (0.3 % of F_m)."""
     def residuals(shape):
-        law, out = Law(force_slopes, area_slopes, shape), []
+        law, out = Law(force_slopes, area_slopes, shape, knots), []
         for x_m, t in truth.items():
             path = (law.unloading(x_m, t["x"]) - t["f"]) / t["f"][-1] / 0.003
             out += [(law.recovery(x_m) / t["r"] - 1) / 0.003, (law.recovered_work(x_m) / t["w_rec"] - 1) / 0.0015,
@@ -177,18 +197,25 @@ def unloading_errors(law, x_m, t):
             100 * (np.sqrt(w_rec / w / (t["w_rec"] / t["w"])) - 1), 100 * np.abs(path).max() / t["f"][-1]]
 
 
-def report(law, x, f, a, truth):
+def report_loading(law, x, f, a, borders):
     print("force error in % (rms, worst), radius error in % (rms, worst)")
-    for low, high in ((0, 1), (1, 5), (5, 30), (30, 100), (100, 500), (500, 1000)):
+    for low, high in zip(borders, borders[1:]):
         part = (x > low) & (x <= high)
         e, ea = 100 * (law.force(x) / f - 1)[part], 100 * (np.sqrt(law.area(x)) / a - 1)[part]
         print(f"  {low:4} < x <= {high:4}  {np.sqrt(np.mean(e**2)):.3f} {np.abs(e).max():.3f}"
               f"   {np.sqrt(np.mean(ea**2)):.3f} {np.abs(ea).max():.3f}")
+
+
+def report(law, near, x, f, a, deep, truth):
+    report_loading(law, x, f, a, (0, 1, 5, 30, 100, 500, 1000))
+    print(f"against {DEEP}:")
+    report_loading(law, *deep, (1, 30, 100, 500, 1000, 2000, 2600, 3000))
     title = "errors in %: recovery, dissipated energy, restitution, worst of the path (% of F_m)"
     print(f"{title}\n  x_m      fitted to all depths            this depth left out of the fit")
     for x_m, t in truth.items():
         others = {depth: data for depth, data in truth.items() if depth != x_m}
-        without = Law(law.force.slopes, law.area.slopes, fit_shape(law.force.slopes, law.area.slopes, others))
+        shape = fit_shape(near.force.slopes, near.area.slopes, others, near.force.knots)
+        without = Law(law.force.slopes, law.area.slopes, shape)
         both = unloading_errors(law, x_m, t), unloading_errors(without, x_m, t)
         print(f"  {x_m:5}  " + "     ".join("".join(f"{e:+7.2f}" for e in errors) for errors in both))
     print("large deformation: force of this law above the truth, in %")
@@ -227,7 +254,7 @@ def check(law):
     assert min(gap) > 0
 
 
-def plot(law, x, f, a, truth):
+def plot(law, x, f, a, deep, truth):
     import matplotlib
     matplotlib.use("Agg")
     matplotlib.rcParams.update({"svg.hashsalt": "brinell", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
@@ -238,11 +265,15 @@ def plot(law, x, f, a, truth):
     loading.fill_between(x, -100 * force_error(x), 100 * force_error(x), color="0.6", alpha=0.4, lw=0,
                          label="the truth's own error")
     loading.plot(x, 100 * (law.force(x) / f - 1), color="tab:blue", lw=1.2, label="law / truth − 1")
+    x_deep, f_deep, a_deep = (column[deep[0] > NEAR[-1]] for column in deep)
+    loading.plot(x_deep, 100 * (law.force(x_deep) / f_deep - 1), color="tab:orange", lw=1.2, label="the table to x = 3000")
     loading.set(xscale="log", ylim=(-1.3, 1.3), title="Loading force", xlabel="x = d / d_y", ylabel="error [%]")
     radius.axhspan(-0.5, 0.5, color="0.6", alpha=0.4, lw=0, label="the truth's own error")
     known = x >= 0.8
     error = 100 * (np.sqrt(law.area(x)) / a - 1)
     radius.plot(x[known], error[known], color="tab:blue", lw=1, label="law / truth − 1")
+    error_deep = 100 * (np.sqrt(law.area(x_deep)) / a_deep - 1)
+    radius.plot(x_deep, error_deep, color="tab:orange", lw=1, label="the table to x = 3000")
     radius.set(xscale="log", ylim=(-1.3, 1.3), title="Contact radius", xlabel="x = d / d_y", ylabel="error [%]")
     errors = np.array([unloading_errors(law, x_m, t) for x_m, t in truth.items()])
     for x_m, t in truth.items():
@@ -275,30 +306,46 @@ def print_numbers(law):
     for lower, cf, ca in zip(np.r_[0, KNOTS], law.force.rows, law.area.rows):
         print(f"  x >= {lower:6g}  " + "  |  ".join(" ".join(f"{c: .10e}" for c in row) for row in (cf, ca)))
     print("test numbers: x | f | w | a/a_y | p_m/S | x_f | g | W_rec/W")
-    for x in (0.5, 0.95, 1, 1.5, 2, 3, 5, 10, 13.93, 30, 82.5, 200, 500, 1000, 1e4, 1e6):
+    for x in (0.5, 0.95, 1, 1.5, 2, 3, 5, 10, 13.93, 30, 82.5, 200, 500, 1000, 2600, 1e4, 1e6):
         x = np.float64(x)
         row = (law.force(x), law.force.work(x), np.sqrt(law.area(x)), law.pressure(x), x - law.recovery(x), law.g(x),
                law.recovered_work(x) / law.force.work(x))
         print(f"  {x:8g} " + " ".join(f"{max(v, 0.0) if abs(v) < 1e-14 else v:.9e}" for v in row))
 
 
+def fit_near(x, f, a, truth):
+    """The law from loading.csv alone: its slopes up to x = 250 and its unloading are final."""
+    knots = np.r_[NEAR, NEAR_END]
+    force_slopes = fit_chain(x, f, force_error(x), 1.5, [1.5], NEAR_SLOPE, knots)
+    area_slopes = fit_chain(x, a**2, 0.01 + 0 * x, 1, [1], PLASTIC_AREA, knots)
+    return Law(force_slopes, area_slopes, fit_shape(force_slopes, area_slopes, truth, knots), knots)
+
+
+def fit_far(near, x, f, a, deep):
+    """The law with the slope at x = 1000 from both tables, and the last slopes of force and area if they are free."""
+    x_all, f_all, a_all = (np.r_[one, other] for one, other in zip((x, f, a), deep))
+    errors = np.r_[force_error(x), deep_force_error(deep[0])], np.r_[0.01 + 0 * x, 0.008 + 0 * deep[0]]
+    both = [(f_all, errors[0], 1.5, near.force.slopes[:len(NEAR)], PLASTIC_SLOPE),
+            (a_all**2, errors[1], 1, near.area.slopes[:len(NEAR)], PLASTIC_AREA)]
+    law = Law(*(fit_chain(x_all, *arguments) for arguments in both), near.shape)
+    return law, [fit_chain(x_all, *arguments, None)[-1] for *arguments, _ in both]
+
+
 def main():
     x, f, a = read_loading()
+    deep = read_loading(DEEP)
     truth = read_unloadings(x, f)
-    free = fit_chain(x, f, force_error(x), 1.5, None)
-    force_slopes = fit_chain(x, f, force_error(x), 1.5, PLASTIC_SLOPE)
-    area_slopes = fit_chain(x, a**2, 0.01 + 0 * x, 1, PLASTIC_AREA)
-    law = Law(force_slopes, area_slopes, fit_shape(force_slopes, area_slopes, truth))
-    free_area = fit_chain(x, a**2, 0.01 + 0 * x, 1, None)
-    print(f"last force slope {PLASTIC_SLOPE:.4f}, left free {free[-1]:.4f}; "
-          f"last area slope {PLASTIC_AREA:.4f}, left free {free_area[-1]:.4f}")
+    near = fit_near(x, f, a, truth)
+    law, free = fit_far(near, x, f, a, deep)
+    print(f"last force slope {PLASTIC_SLOPE:.4f}, left free {free[0]:.4f}; "
+          f"last area slope {PLASTIC_AREA:.4f}, left free {free[1]:.4f}")
     print("force slopes", *law.force.slopes, "\narea slopes", *law.area.slopes)
     print("g: height, onset, decline", *law.shape, DECLINE)
     write(law)
-    report(law, x, f, a, truth)
+    report(law, near, x, f, a, deep, truth)
     check(law)
     print_numbers(law)
-    plot(law, x, f, a, truth)
+    plot(law, x, f, a, deep, truth)
 
 
 if __name__ == "__main__":

@@ -5,11 +5,15 @@ use brinell_contact::Loading;
 use std::fs;
 use std::path::Path;
 
-/// The rows of a finite-element table, without its heading.
+/// The rows of a finite-element table, without comments and its heading.
 fn truth(name: &str) -> Vec<Vec<String>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/truth").join(name);
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    text.lines().skip(1).map(|line| line.split(',').map(str::to_string).collect()).collect()
+    text.lines()
+        .filter(|line| !line.starts_with('#'))
+        .skip(1)
+        .map(|line| line.split(',').map(str::to_string).collect())
+        .collect()
 }
 
 fn number(text: &str) -> f64 {
@@ -35,15 +39,15 @@ fn unloading(depth: &str) -> Vec<(f64, f64)> {
 const DEPTHS: [&str; 5] = ["3", "10", "30", "82.5", "200"];
 
 #[test]
-fn the_loading_force_is_within_half_a_percent_of_the_truth_up_to_a_thousand_yield_indentations() {
+fn the_loading_force_is_within_a_third_of_a_percent_of_the_truth_up_to_a_thousand_yield_indentations() {
     let model = fitted();
     let rows = truth("loading.csv");
     assert!(rows.len() > 300 && number(&rows[rows.len() - 1][0]) >= 999.0, "the truth is complete");
     for row in rows {
         let (x, expected) = (number(&row[0]), number(&row[2]));
         let error = force(&model, x) / expected - 1.0;
-        // the requirement is 1 %; the fit reaches 0.46 % at the last point
-        assert!(error.abs() < 5e-3, "x = {x}: {:.3} %", 100.0 * error);
+        // the requirement is 1 %; the fit reaches 0.29 % at x = 700
+        assert!(error.abs() < 3e-3, "x = {x}: {:.3} %", 100.0 * error);
     }
 }
 
@@ -56,6 +60,34 @@ fn the_contact_radius_follows_the_truth_within_its_own_sawtooth() {
         let radius = model.loading.contact_radius(&model.pair, x * unit.indentation);
         let error = radius / (model.pair.radius * unit.indentation).sqrt() / expected - 1.0;
         assert!(error.abs() < 6e-3, "x = {x}: {:.3} %", 100.0 * error);
+    }
+}
+
+/// Force within 0.25 % up to 100 yield indentations, 0.52 % up to 1000 and 0.41 % beyond; contact radius within 0.2 %; mean
+/// pressure within 0.5 %. The table's own errors are 0.15 %, 0.4 to 0.7 % and 0.7 to 1 % in force, and 0.4 % in radius.
+#[test]
+fn force_and_radius_follow_the_deep_table_up_to_three_thousand_yield_indentations() {
+    let model = fitted();
+    let unit = unit(&model.pair);
+    let a_y = (model.pair.radius * unit.indentation).sqrt();
+    let rows = truth("pairs/one_body_loading_to_3000.csv");
+    assert!(rows.len() > 300 && number(&rows[rows.len() - 1][0]) == 3000.0, "the table is complete");
+    for row in rows {
+        let [x, expected_force, expected_radius, expected_pressure] = [0, 2, 3, 4].map(|column| number(&row[column]));
+        if x < 1.0 {
+            continue; // Hertz's law, which the other table shows better
+        }
+        let (force, radius) = (force(&model, x), model.loading.contact_radius(&model.pair, x * unit.indentation) / a_y);
+        let pressure = 1.1 * force / radius.powi(2);
+        let force_error = if x < 100.0 { 2.5e-3 } else { 5.2e-3 };
+        for (name, got, expected, largest) in [
+            ("force", force, expected_force, if x < 1000.0 { force_error } else { 4.1e-3 }),
+            ("radius", radius, expected_radius, 2e-3),
+            ("mean pressure", pressure, expected_pressure, 5e-3),
+        ] {
+            let error = got / expected - 1.0;
+            assert!(error.abs() < largest, "{name} at x = {x}: {:.3} %", 100.0 * error);
+        }
     }
 }
 
@@ -109,7 +141,7 @@ fn recovery_dissipation_and_restitution_are_within_one_percent_of_the_truth() {
 fn force_and_slope_are_continuous_at_every_knot() {
     let model = fitted();
     let d_y = unit(&model.pair).indentation;
-    for knot in [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 2000.0] {
+    for knot in [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 1000.0, 10000.0] {
         let border = knot * d_y;
         let below = model.loading.segment(&model.pair, border.next_down().next_down());
         let above = model.loading.segment(&model.pair, border.next_up());
@@ -131,8 +163,9 @@ fn the_law_equals_the_fitted_one() {
         [3.0, 4.915419414, 6.058482873, 1.797973109, 4.836589017e-1, 8.491201469e-1],
         [13.93, 3.888394521e1, 2.328807896e2, 4.374982569, 6.368542259, 5.426943839e-1],
         [82.5, 3.550391077e2, 1.318443741e4, 1.195582352e1, 5.786152996e1, 2.879914814e-1],
-        [1000.0, 6.293250698e3, 2.960400567e6, 4.811868663e1, 8.871130178e2, 1.025590375e-1],
-        [1e6, 7.798138337e6, 3.898139374e12, 1.690953220e3, 9.957189973e5, 3.548435505e-3],
+        [1000.0, 6.303786569e3, 2.963192573e6, 4.799608370e1, 8.866456973e2, 1.030626782e-1],
+        [2600.0, 1.782914020e4, 2.221828284e7, 8.037350331e1, 2.404629176e3, 6.645017758e-2],
+        [1e6, 7.925182863e6, 3.960195562e12, 1.690648301e3, 9.956487354e5, 3.608094901e-3],
     ];
     let model = fitted();
     let unit = unit(&model.pair);
