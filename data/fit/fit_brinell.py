@@ -15,8 +15,8 @@ plastic regime.
 The origin of all segments is x = 0. With z = x - knot, the curvature would be infinite just above every knot, and the
 force would rise above Hertz's just after yield, so that the law would not be passive.
 The slopes up to x = 250 and the unloading are fitted to loading.csv and its unloadings alone, in a chain that ends at
-NEAR_END. The slope at 1000 is fitted to loading.csv and to the table up to x = 3000 (DEEP), with the near slopes held:
-that table has larger elements, and must not move the curve where loading.csv is better.
+NEAR_END. The slopes beyond are fitted to loading.csv and to the table up to x = 3000 (DEEP) together, with the near slopes
+held: that table has larger elements, and must not move the curve where loading.csv is better.
 
 Unloading from x_m. f = f_m ((1+g) s^1.5 - g s^2), s = (x - x_f)/r, r = x_m - x_f. The initial slope is the elastic
 2 E* a_m, hence r = (1 - g/3) f_m / radius_m. g depends on the lag behind Hertz, psi = 1 - f_m/x_m^1.5:
@@ -36,20 +36,15 @@ DEPTHS = ("3", "10", "30", "82.5", "200")
 DEEP = "pairs/one_body_loading_to_3000.csv"
 
 YIELD_PRESSURE = 1.1      # mean pressure / S at x = 1: the normalisation of the curves
-# Limit of mean pressure / S. The finite-element curves have 3.01 at x = 1000, 3.03 at 2000 and 3.04 at 3000, where the
-# pressure still rises slowly, as the elastic part of the indentation fades.
-PLASTIC_PRESSURE = 3.05
-PLASTIC_AREA = 2.86       # a^2/(R d) of the rigid, perfectly plastic similarity solution, 2 c^2 with c^2 = 1.43
-# Both determine the last slope of the force, 7.93. A fit with both slopes free gives 7.62 and 2.75 (printed): the same
-# mean pressure, 3.05 S.
-PLASTIC_SLOPE = PLASTIC_PRESSURE * PLASTIC_AREA / YIELD_PRESSURE
 # Hertz's law ends at x = 1: von Mises' first yield is at 0.956, but the curves stay within 0.02 % of Hertz's up to 1.05.
-# More knots than these would fit the numerical error of the curves. At the last one the slopes reach the plastic ones: with
-# 5000 instead of 10000, the force would exceed the deep table by up to 0.9 % instead of 0.4 %.
+# More knots than these would fit the numerical error of the curves. The last one is that of the law for other materials
+# (fit_materials.py), so that both go on from it in straight lines. The last slopes follow from the tables, and with them the
+# limit of the mean pressure (printed), 3.06 S: the curves have 3.01 S at x = 1000, 3.03 at 2000 and 3.04 at 3000. The area
+# then grows by 2.62 R d, where a rigid, perfectly plastic body has 2.86 R d (similarity solution, 2 c^2 with c^2 = 1.43).
 NEAR = np.array([1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0])
-KNOTS = np.r_[NEAR, 1000.0, 10000.0]
-# The end of the chain of the near slopes, where the mean pressure tends to 3.0 S: that of loading.csv at x = 1000.
-NEAR_END, NEAR_SLOPE = 2000.0, 3.0 * PLASTIC_AREA / YIELD_PRESSURE
+KNOTS = np.r_[NEAR, 700.0, 2000.0]
+# The last knot of the near chain, with the slopes of the force and the area there: 2.86 and a mean pressure of 3.0 S.
+NEAR_END, NEAR_SLOPES = 2000.0, (7.8, 2.86)
 # g decreases again for deep dents, where unloading causes reverse yielding. Only x_m = 200 shows this, so the constant is
 # fixed and not fitted (0.6 to 0.8 work as well). A fit would worsen the interpolation between the depths and near yield.
 DECLINE = 0.7
@@ -162,13 +157,11 @@ def deep_force_error(x):
     return np.select([x <= 100, x <= 700, x <= 2700], [0.0015, 0.004, 0.007], 0.01)
 
 
-def fit_chain(x, y, error, power, first, last, knots=KNOTS):
-    """Slopes at the knots by least squares of the relative error: the first are given, the last is given or free."""
-    begin = knots[len(first) - 1]
-    x, y, weight = x[x > begin], y[x > begin], 1 / (error * y)[x > begin]
+def fit_chain(x, y, error, power, fixed, knots=KNOTS):
+    """Slopes at the knots by least squares of the relative error. The fixed ones are given by number of the knot."""
+    x, y, weight = x[x > 1], y[x > 1], 1 / (error * y)[x > 1]
     units = np.eye(len(knots))
     columns = np.array([Chain(unit, power, knots)(x) - 1 for unit in units]).T * weight[:, None]
-    fixed = {**dict(enumerate(map(float, first))), **({} if last is None else {len(knots) - 1: last})}
     free = [i for i in range(len(knots)) if i not in fixed]
     target = (y - 1) * weight - sum(columns[:, i] * slope for i, slope in fixed.items())
     slopes = np.zeros(len(knots))
@@ -297,7 +290,7 @@ def write(law):
     height, onset = map(float, law.shape)
     constants = dict(knots=KNOTS.tolist(), force_slopes=law.force.slopes.tolist(), area_slopes=law.area.slopes.tolist(),
                      unloading_height=height, unloading_onset=onset, unloading_decline=DECLINE,
-                     yield_pressure=YIELD_PRESSURE, plastic_pressure=PLASTIC_PRESSURE, plastic_area=PLASTIC_AREA)
+                     yield_pressure=YIELD_PRESSURE)
     (HERE / "brinell_law.json").write_text(json.dumps(constants, indent=2) + "\n")
 
 
@@ -315,20 +308,19 @@ def print_numbers(law):
 
 def fit_near(x, f, a, truth):
     """The law from loading.csv alone: its slopes up to x = 250 and its unloading are final."""
-    knots = np.r_[NEAR, NEAR_END]
-    force_slopes = fit_chain(x, f, force_error(x), 1.5, [1.5], NEAR_SLOPE, knots)
-    area_slopes = fit_chain(x, a**2, 0.01 + 0 * x, 1, [1], PLASTIC_AREA, knots)
+    knots, (force_slope, area_slope) = np.r_[NEAR, NEAR_END], NEAR_SLOPES
+    force_slopes = fit_chain(x, f, force_error(x), 1.5, {0: 1.5, len(NEAR): force_slope}, knots)
+    area_slopes = fit_chain(x, a**2, 0.01 + 0 * x, 1, {0: 1.0, len(NEAR): area_slope}, knots)
     return Law(force_slopes, area_slopes, fit_shape(force_slopes, area_slopes, truth, knots), knots)
 
 
 def fit_far(near, x, f, a, deep):
-    """The law with the slope at x = 1000 from both tables, and the last slopes of force and area if they are free."""
-    x_all, f_all, a_all = (np.r_[one, other] for one, other in zip((x, f, a), deep))
-    errors = np.r_[force_error(x), deep_force_error(deep[0])], np.r_[0.01 + 0 * x, 0.008 + 0 * deep[0]]
-    both = [(f_all, errors[0], 1.5, near.force.slopes[:len(NEAR)], PLASTIC_SLOPE),
-            (a_all**2, errors[1], 1, near.area.slopes[:len(NEAR)], PLASTIC_AREA)]
-    law = Law(*(fit_chain(x_all, *arguments) for arguments in both), near.shape)
-    return law, [fit_chain(x_all, *arguments, None)[-1] for *arguments, _ in both]
+    """The law, with the slopes beyond x = 250 from both tables."""
+    force_slopes, area_slopes = (dict(enumerate(chain.slopes[:len(NEAR)])) for chain in (near.force, near.area))
+    force_errors = np.r_[force_error(x), deep_force_error(deep[0])]
+    area_errors = np.r_[0.01 + 0 * x, 0.008 + 0 * deep[0]]
+    x, f, a = (np.r_[column, deep_column] for column, deep_column in zip((x, f, a), deep))
+    return Law(fit_chain(x, f, force_errors, 1.5, force_slopes), fit_chain(x, a**2, area_errors, 1, area_slopes), near.shape)
 
 
 def main():
@@ -336,10 +328,9 @@ def main():
     deep = read_loading(DEEP)
     truth = read_unloadings(x, f)
     near = fit_near(x, f, a, truth)
-    law, free = fit_far(near, x, f, a, deep)
-    print(f"last force slope {PLASTIC_SLOPE:.4f}, left free {free[0]:.4f}; "
-          f"last area slope {PLASTIC_AREA:.4f}, left free {free[1]:.4f}")
+    law = fit_far(near, x, f, a, deep)
     print("force slopes", *law.force.slopes, "\narea slopes", *law.area.slopes)
+    print(f"limit of mean pressure / S {YIELD_PRESSURE * law.force.slopes[-1] / law.area.slopes[-1]:.4f}")
     print("g: height, onset, decline", *law.shape, DECLINE)
     write(law)
     report(law, near, x, f, a, deep, truth)

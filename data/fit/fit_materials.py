@@ -60,6 +60,13 @@ def law_itself():
 LAW = law_itself()
 
 
+def near_law():
+    """The law without its far end, to which the constants are fitted. The curves end at k = 500, and both laws are the same up
+    to 250. With the far end, the constants would be up to 4 % different, but the errors of the force only 0.03 %."""
+    x, f, a = plain.read_loading()
+    return plain.fit_near(x, f, a, plain.read_unloadings(x, f))
+
+
 def strength_at_yield():
     """a1 and a2 of s0, from the theoretical first yields."""
     shift = np.array([ratio - 0.3 for ratio in FIRST_YIELD])
@@ -281,8 +288,11 @@ def plot(curves, constants):
 
 
 def main():
+    global LAW
     curves = [Curve(name) for name in (*HARDENING, *RATIOS)]
+    itself, LAW = LAW, near_law()
     constants = rounded(fit(curves, START))
+    LAW = itself
     print(dict(zip(NAMES, constants)), "growth", *GROWTH)
     written = dict(zip(NAMES, constants)) | {"growth": GROWTH.tolist(), "knots": KNOTS.tolist(), "largest_g": LARGEST_G}
     (HERE / "materials_law.json").write_text(json.dumps(written, indent=2) + "\n")

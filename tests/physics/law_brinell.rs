@@ -46,8 +46,8 @@ fn the_loading_force_is_within_a_third_of_a_percent_of_the_truth_up_to_a_thousan
     for row in rows {
         let (x, expected) = (number(&row[0]), number(&row[2]));
         let error = force(&model, x) / expected - 1.0;
-        // the requirement is 1 %; the fit reaches 0.29 % at x = 700
-        assert!(error.abs() < 3e-3, "x = {x}: {:.3} %", 100.0 * error);
+        // the requirement is 1 %; the fit reaches 0.31 % at x = 1000
+        assert!(error.abs() < 3.2e-3, "x = {x}: {:.3} %", 100.0 * error);
     }
 }
 
@@ -63,8 +63,8 @@ fn the_contact_radius_follows_the_truth_within_its_own_sawtooth() {
     }
 }
 
-/// Force within 0.25 % up to 100 yield indentations, 0.52 % up to 1000 and 0.41 % beyond; contact radius within 0.2 %; mean
-/// pressure within 0.5 %. The table's own errors are 0.15 %, 0.4 to 0.7 % and 0.7 to 1 % in force, and 0.4 % in radius.
+/// Force within 0.25 % up to 100 yield indentations, 0.52 % up to 1000 and 0.23 % beyond; contact radius within 0.2 %; mean
+/// pressure within 0.4 %. The table's own errors are 0.15 %, 0.4 to 0.7 % and 0.7 to 1 % in force, and 0.4 % in radius.
 #[test]
 fn force_and_radius_follow_the_deep_table_up_to_three_thousand_yield_indentations() {
     let model = fitted();
@@ -81,9 +81,9 @@ fn force_and_radius_follow_the_deep_table_up_to_three_thousand_yield_indentation
         let pressure = 1.1 * force / radius.powi(2);
         let force_error = if x < 100.0 { 2.5e-3 } else { 5.2e-3 };
         for (name, got, expected, largest) in [
-            ("force", force, expected_force, if x < 1000.0 { force_error } else { 4.1e-3 }),
+            ("force", force, expected_force, if x < 1000.0 { force_error } else { 2.3e-3 }),
             ("radius", radius, expected_radius, 2e-3),
-            ("mean pressure", pressure, expected_pressure, 5e-3),
+            ("mean pressure", pressure, expected_pressure, 4e-3),
         ] {
             let error = got / expected - 1.0;
             assert!(error.abs() < largest, "{name} at x = {x}: {:.3} %", 100.0 * error);
@@ -141,7 +141,7 @@ fn recovery_dissipation_and_restitution_are_within_one_percent_of_the_truth() {
 fn force_and_slope_are_continuous_at_every_knot() {
     let model = fitted();
     let d_y = unit(&model.pair).indentation;
-    for knot in [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 1000.0, 10000.0] {
+    for knot in [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 700.0, 2000.0] {
         let border = knot * d_y;
         let below = model.loading.segment(&model.pair, border.next_down().next_down());
         let above = model.loading.segment(&model.pair, border.next_up());
@@ -163,9 +163,9 @@ fn the_law_equals_the_fitted_one() {
         [3.0, 4.915419414, 6.058482873, 1.797973109, 4.836589017e-1, 8.491201469e-1],
         [13.93, 3.888394521e1, 2.328807896e2, 4.374982569, 6.368542259, 5.426943839e-1],
         [82.5, 3.550391077e2, 1.318443741e4, 1.195582352e1, 5.786152996e1, 2.879914814e-1],
-        [1000.0, 6.303786569e3, 2.963192573e6, 4.799608370e1, 8.866456973e2, 1.030626782e-1],
-        [2600.0, 1.782914020e4, 2.221828284e7, 8.037350331e1, 2.404629176e3, 6.645017758e-2],
-        [1e6, 7.925182863e6, 3.960195562e12, 1.690648301e3, 9.956487354e5, 3.608094901e-3],
+        [1000.0, 6.302415723e3, 2.967661770e6, 4.803253210e1, 8.867549794e2, 1.027854009e-1],
+        [2600.0, 1.780911972e4, 2.217962300e7, 8.031035012e1, 2.404684866e3, 6.647085443e-2],
+        [1e6, 7.292046800e6, 3.645447327e12, 1.618683555e3, 9.958170755e5, 3.466480933e-3],
     ];
     let model = fitted();
     let unit = unit(&model.pair);
