@@ -1,4 +1,4 @@
-//! Integrals of smooth functions that may have a fractional power at an end.
+//! Work and time of laws without closed form: Gauss's rule on panels, for functions that may have a fractional power at an end.
 
 use libm::{exp, fabs, log};
 

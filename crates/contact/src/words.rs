@@ -1,4 +1,4 @@
-//! Numbers as words for saved states, and back. Everything that is saved uses this loop.
+//! Numbers as 64-bit words for saved states, and back. Everything that is saved uses this loop.
 
 /// Passes each of `numbers` to `store`.
 #[inline(never)]

@@ -1,4 +1,4 @@
-//! Selection of laws by name.
+//! The models of a scene's bodies with laws chosen by name, as commands compare them. `scene/laws.rs` checks those of the scene.
 
 use crate::model::{AnyModel, Dampings, strengthened};
 use crate::nearest::unknown;

@@ -1,4 +1,4 @@
-//! Mistakes in a scene, each with its place, and the ranges of numbers.
+//! Mistakes in a scene, each with its place; the check of numbers against their ranges.
 
 use crate::layout::shown;
 use crate::numbers::{in_message, out_of_range};

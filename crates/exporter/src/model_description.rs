@@ -1,4 +1,4 @@
-//! `modelDescription.xml`.
+//! `modelDescription.xml`: capabilities of the FMU, units, variables, and the structure of the model.
 
 use crate::constants;
 use crate::interface::{Entry, is_tunable};

@@ -1,4 +1,4 @@
-//! Formatting of numbers for people.
+//! Numbers in words for people: digits, ranges, and what is out of its range.
 
 use std::ops::RangeInclusive;
 

@@ -1,4 +1,4 @@
-//! Numbers written with a unit.
+//! Numbers of the command line that are written with a unit, such as `5mm`.
 
 /// A kind of quantity: its SI unit, its name, and other units with their sizes.
 struct Dimension {

@@ -1,4 +1,4 @@
-//! The tangential state of a contact, and its step along one elastic curve.
+//! The tangential state of a contact, and its step along one elastic curve: partial slip within Coulomb's bound.
 
 use super::{List, SAME, Vertex, Way, growth};
 use crate::path::Sum;

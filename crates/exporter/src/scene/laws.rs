@@ -1,4 +1,4 @@
-//! The laws of a scene, and checks whether they suit its bodies.
+//! The laws of a scene: what is wrong with their names, and whether they suit its bodies and each other.
 
 use super::Scene;
 use super::contacts::Contacts;

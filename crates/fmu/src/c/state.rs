@@ -1,4 +1,4 @@
-//! FMU states: as a copy in memory, and as bytes that another process can read.
+//! FMU states: as a copy in memory, and as bytes with a checksum that another process can read.
 
 use super::complaint::Complaint;
 use super::handle::Handle;
