@@ -19,7 +19,9 @@ Loading.  phi = t^3 Phi(k/t^2) with one effective strength t = t_nu t_H:
     D(k; scale, power) = w/(1 + w), w = s0^decay_shift (k^power - 1)/scale
 The law has the values and slopes of this form at the knots, and is c0 + c1 k + c2 k^1.5 + c3 k^2 between them. Beyond
 the last knot it is a straight line.
-Contact radius.  alpha = A(k) (phi/Phi(k))^-radius_power.
+Contact radius.  alpha = phi_nu (Phi(k)/A(k))^-b (phi/phi_nu)^-radius_power with the force phi_nu without hardening; alpha >= k as
+by Hertz. b = 1 - ln s0/ln p, where p is the mean pressure of deep dents over that at first yield for nu = 0.3: the mean pressure
+phi/alpha then rises with k to that of deep dents for each nu.
 Dent.  k_f = (k - u^2 recovery(k/u^2))/(1 + dent_fall h) with the strength
 u = 1 + (1/s0 - 1) D(k; dent_decay_scale, dent_decay_power) and the recovery of the law itself.
 Unloading.  The form of the law, (1 + g) s^1.5 - g s^2 with the initial slope 2 E* a: g = 3 (1 - recovery sqrt(beta)/phi),
@@ -137,7 +139,11 @@ class Material:
         return self.before[index] + self._antiderivative(k, index) - self._antiderivative(np.r_[0, KNOTS][index], index)
 
     def area(self, k):
-        return LAW.area(k) * (self.force(k) / LAW.force(k)) ** -self.radius_power
+        t, _ = self.fading(k, self.decay_scale, self.decay_power)
+        soft = np.where(k < 1, k**1.5, t**3 * LAW.force(k / t**2))  # the force without hardening
+        exponent = 1 - np.log(self.s0) / np.log(LAW.force.slopes[-1] / LAW.area.slopes[-1])
+        area = soft * (LAW.force(k) / LAW.area(k)) ** -exponent * (self.force(k) / soft) ** -self.radius_power
+        return np.maximum(area, k)
 
     def dent_strength(self, k):
         return self.fading(k, self.dent_decay_scale, self.dent_decay_power)[0]

@@ -5,6 +5,7 @@ use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};
 use crate::master::Needs;
 use crate::{package, parallel};
+use brinell_contact::rate::Factors;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform;
 use brinell_exporter::scene::{Body, Both, Coupling, Group, Parameter, Scene};
@@ -90,7 +91,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         outputs: OUTPUTS.iter().chain(more).map(|name| (*name).to_string()).collect(),
         power_laws,
         quasi_static: vec![scene.quasi_static[0]],
-        factors: vec![1.0],
+        factors: vec![Factors::SLOW],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
         directions: usize::from(friction),
         impact: scene.impact_of(0),

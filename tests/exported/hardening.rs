@@ -54,7 +54,7 @@ fn an_fmu_that_hardens_agrees_with_the_prediction() {
 }
 
 #[test]
-fn only_an_fmu_that_needs_it_has_the_form_for_other_materials() {
+fn only_an_fmu_that_needs_it_has_the_form_for_two_bodies() {
     let fixed = "parameters = [\"target.yield_strength\"]";
     for (target, law, fmu, has) in [
         ("poissons_ratio = 0.3", BRINELL, fixed, false),
@@ -64,11 +64,11 @@ fn only_an_fmu_that_needs_it_has_the_form_for_other_materials() {
         ("poissons_ratio = 0.3\nhardening_modulus = 0.0", BRINELL, fixed, true),
     ] {
         let rust = constants(&scene(target, law, fmu));
-        let forms = rust.matches("strengthened").count();
+        let forms = rust.matches("paired").count();
         assert_eq!(forms, if has { 2 } else { 0 }, "{target}, {law}, {fmu}:\n{rust}");
     }
     let other = constants(&scene("poissons_ratio = 0.4", "loading = \"brinell\"\nunloading = \"thornton\"", ""));
-    assert!(other.contains("strengthened Brinell") && other.contains("plain Thornton"), "{other}");
+    assert!(other.contains("paired Brinell") && other.contains("plain Thornton"), "{other}");
 }
 
 #[test]

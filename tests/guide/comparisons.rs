@@ -7,7 +7,7 @@ use brinell_contact::impact::{Impact, Prediction, predict};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::{Rate, STEPS, TABOR};
 use brinell_contact::regime::LARGEST_INDENTATION;
-use brinell_contact::{Body, Loading, Model, Pair, Surface};
+use brinell_contact::{Body, Loading, Model, Pair, Surface, TwoBodies};
 use brinell_testing::laws::{entries, entry, says, text};
 use std::fs;
 use std::path::Path;
@@ -20,10 +20,11 @@ fn yielding() -> impl Iterator<Item = &'static str> {
 /// A loading law on `pair` with the unloading law of scenes that name none, in the form for other materials.
 fn model(name: &str, pair: Pair, hardening_modulus: f64) -> AnyModel {
     let (loading, unloading) = (physics::loading(name), physics::unloading(partner(name)));
+    let bodies = TwoBodies { hardening_modulus, other: physics::elastic_partner(&pair) };
     Model {
         pair,
-        loading: loading.strengthened(hardening_modulus).unwrap_or(loading),
-        unloading: unloading.strengthened(hardening_modulus).unwrap_or(unloading),
+        loading: loading.paired(bodies).unwrap_or(loading),
+        unloading: unloading.paired(bodies).unwrap_or(unloading),
         surface: Surface::Dented,
     }
 }

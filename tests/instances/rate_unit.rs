@@ -4,7 +4,7 @@ use crate::masters::{MASS, Master, choice};
 use crate::physics::{AnyModel, all_models, mild, model};
 use crate::scenes::{self, Chosen, Rated, outputs, words};
 use brinell_contact::impact::{self, Impact, Prediction};
-use brinell_contact::rate::{Model, Rate};
+use brinell_contact::rate::{Factors, Model, Rate};
 use brinell_contact::{Loading, Surface};
 use brinell_fmu::instance::Instance;
 use brinell_fmu::scene::{Absent, Coupled, Present, Real, Scene};
@@ -19,9 +19,9 @@ const SPEEDS: [f64; 5] = [0.01, 0.1, 1.0, 10.0, 100.0];
 
 /// The strength and the prediction of an impact, which the instance must agree with.
 fn predicted(slow: &AnyModel, rate: Rate, speed: f64) -> (f64, Prediction) {
-    let (model, impact) = (Model { slow: *slow, rate }, Impact { mass: MASS, speed });
-    let factor = model.in_impact(&impact).expect("within range").factor;
-    (factor, impact::predict(&model.at(factor), &impact).expect("within range"))
+    let (model, impact) = (Model { slow: *slow, rate, harder: Rate::NONE }, Impact { mass: MASS, speed });
+    let factors = model.in_impact(&impact).expect("within range").factors;
+    (factors.softer, impact::predict(&model.at(factors), &impact).expect("within range"))
 }
 
 /// An importer with bodies at this closing speed and gap [m].
@@ -107,7 +107,7 @@ fn a_dent_keeps_its_strength_and_a_fresh_surface_has_that_of_each_impact() {
             for speeds in [[3.0, 0.3, 8.0], [0.3, 3.0, 3.0]] {
                 let mut master = master::<Serial>(&slow, rate, surface, 1e-6, speeds[0], 0);
                 let (factor, first) = predicted(&slow, rate, speeds[0]);
-                let dented = Model { slow, rate }.at(factor);
+                let dented = Model { slow, rate, harder: Rate::NONE }.at(Factors { softer: factor, harder: 1.0 });
                 let mut deepest = 0.0f64;
                 for speed in speeds {
                     // away beyond the original surface, and back
@@ -183,7 +183,7 @@ fn the_predicted_force_is_that_of_the_coming_impact() {
     for rate in RATES {
         for speed in SPEEDS {
             let (factor, expected) = predicted(&slow, rate, speed);
-            let strong = Model { slow, rate }.at(factor);
+            let strong = Model { slow, rate, harder: Rate::NONE }.at(Factors { softer: factor, harder: 1.0 });
             let way = 0.8 * expected.max_indentation;
             let mut ball = master::<Serial>(&slow, rate, Surface::Dented, 1.5 * way, speed, 0);
             ball.step(way / speed);

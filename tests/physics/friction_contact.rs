@@ -181,7 +181,10 @@ fn a_contact_without_friction_has_no_tangential_quantities_whatever_its_law() {
     }
     let slow = plastic().normal;
     check::<_, History>("elastoplastic", &slow);
-    check::<_, rate::History>("rate", &rate::Model { slow, rate: rate::Rate::CowperSymonds { d: 40.4, q: 5.0 } });
+    check::<_, rate::History>(
+        "rate",
+        &rate::Model { slow, rate: rate::Rate::CowperSymonds { d: 40.4, q: 5.0 }, harder: rate::Rate::NONE },
+    );
     let loss = losses::Fitted { restitution: 0.9 };
     check::<_, losses::History<_>>("losses", &losses::Model { plastic: slow, loss });
     for (name, law) in damped::AnyDamped::ALL {

@@ -2,7 +2,7 @@
 //! (`data/truth/both/`), the theory of first yield, and the limits of hard and deep. The law assumes that the two effects are factors
 //! of one strength; nothing here was used in its fit.
 
-use crate::law_strengthened::{force, on_steel, read};
+use crate::law_materials::{force, on_steel, read};
 use crate::physics::{AnyModel, corners, logarithmic, unit};
 use brinell_contact::{Loading, Pair};
 

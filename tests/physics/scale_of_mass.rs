@@ -72,7 +72,11 @@ fn a_ball_of_any_mass_has_the_same_losses_and_comes_to_the_same_rest() {
 fn a_ball_of_any_mass_meets_the_same_strength_if_the_rates_are_as_much_slower() {
     for (loading, unloading) in LAWS {
         let slow = model(loading, unloading);
-        let of = |k: f64| rate::Model { slow, rate: rate::Rate::CowperSymonds { d: 40.4 / k, q: 5.0 } };
+        let of = |k: f64| rate::Model {
+            slow,
+            rate: rate::Rate::CowperSymonds { d: 40.4 / k, q: 5.0 },
+            harder: rate::Rate::NONE,
+        };
         check(loading, of, rate::follow);
     }
 }

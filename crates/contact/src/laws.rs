@@ -3,7 +3,7 @@
 /// Makes the laws of a kind public, and an enum of them for programs that choose a law while they run.
 ///
 /// An entry has the module and the type of a law, its name in scenes, and its reference constants; one type can be several laws.
-/// After the entries come the laws with the passivity guard, and those with a form for targets that harden, each with the variant
+/// After the entries come the laws with the passivity guard, and those with a form for two bodies, each with the variant
 /// of that form.
 macro_rules! laws {
     (
@@ -12,7 +12,7 @@ macro_rules! laws {
             $($module:ident::$law:ident { $($name:literal = $reference:expr),+ $(,)? })+
         }
         $(guarded { $($bare:ident as $guarded:ident),+ $(,)? })?
-        $(strengthened { $($plain:ident as $strengthened:ident),+ $(,)? })?
+        $(paired { $($plain:ident as $paired:ident),+ $(,)? })?
     ) => {
         $(pub use $module::$law;)+
 
@@ -22,7 +22,7 @@ macro_rules! laws {
         pub enum $any {
             $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)+
             $($(#[doc = "See [`Guarded`]."] $guarded(Guarded<$bare>),)+)?
-            $($(#[doc = "See [`Strengthened`]."] $strengthened(Strengthened),)+)?
+            $($(#[doc = "See [`Paired`]."] $paired(Paired),)+)?
         }
 
         impl $any {
@@ -33,7 +33,7 @@ macro_rules! laws {
                 match self {
                     $($any::$law(law) => law,)+
                     $($($any::$guarded(law) => law,)+)?
-                    $($($any::$strengthened(law) => law,)+)?
+                    $($($any::$paired(law) => law,)+)?
                 }
             }
         }
@@ -54,22 +54,19 @@ macro_rules! laws {
 
         $(
             impl $any {
-                /// The law with the Poisson's ratio of the target and this hardening modulus \[Pa\]; `None` for a law that has no
-                /// such form.
-                pub fn strengthened(self, hardening_modulus: f64) -> Option<$any> {
+                /// The law for these two bodies, with their Poisson's ratios; `None` for a law that has no such form.
+                pub fn paired(self, bodies: TwoBodies) -> Option<$any> {
                     match self {
-                        $($any::$plain(law) => Some($any::$strengthened(Strengthened { law, hardening_modulus })),)+
-                        $($any::$strengthened(form) => {
-                            Some($any::$strengthened(Strengthened { hardening_modulus, ..form }))
-                        })+
+                        $($any::$plain(law) => Some($any::$paired(Paired { law, bodies })),)+
+                        $($any::$paired(form) => Some($any::$paired(Paired { bodies, ..form })),)+
                         _ => None,
                     }
                 }
 
-                /// The law with its form for targets that harden changed, if it is one.
-                fn with_form(self, change: impl Fn(Strengthened) -> Strengthened) -> $any {
+                /// The law with its form for two bodies changed, if it is one.
+                fn with_form(self, change: impl Fn(Paired) -> Paired) -> $any {
                     match self {
-                        $($any::$strengthened(form) => $any::$strengthened(change(form)),)+
+                        $($any::$paired(form) => $any::$paired(change(form)),)+
                         law => law,
                     }
                 }

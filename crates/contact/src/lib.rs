@@ -63,6 +63,7 @@
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 //! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
 //! | [`rate`] | strain rate: the strength of an impact from its closing speed |
+//! | [`two_bodies`] | two bodies pressed together, from the law `brinell` of each |
 //! | [`strength`] | hardening and Poisson's ratio as one effective strength |
 //! | [`tangential`] | friction: the tangential force of a contact |
 //! | [`validity`] | the range in which the laws are valid |
@@ -100,6 +101,7 @@ mod runge_kutta;
 pub mod segment;
 pub mod strength;
 pub mod tangential;
+pub mod two_bodies;
 pub mod unloading;
 pub mod validity;
 pub mod words;
@@ -110,6 +112,7 @@ pub use loading::Loading;
 pub use material::{Body, Pair, YieldPoint};
 pub use regime::{Regime, TooDeep};
 pub use segment::Segment;
+pub use two_bodies::{OtherBody, TwoBodies};
 pub use unloading::{Peak, Unloading};
 
 /// The surface that a new contact meets after the bodies have separated.

@@ -91,16 +91,15 @@ impl Pair {
         self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)
     }
 
-    /// Radius \[m\] of the rigid sphere that presses the yielding body as the other body does: `R E_y/E*`, with the
-    /// [modulus](Pair::yielding_modulus) `E_y` of the yielding body.
+    /// The part of the gap's curvature `1/R` that the body which yields takes on by Hertz's law: `E*/E_y`, with the
+    /// [modulus](Pair::yielding_modulus) `E_y` of this body. It sees a rigid sphere of the radius `R` over this part.
     ///
-    /// It is `R` if the other body is rigid, and `2 R` for two equal bodies: by symmetry the plane between them stays flat. In
-    /// general it is Hertz's radius: the depths of elastic bodies, and so the curvatures that they take on, are as `1/E`. An
-    /// elastic body under one that has yielded far takes on less curvature; the radius then comes nearer to `R`.
+    /// It is 1 if the other body is rigid, and 1/2 for two equal bodies: by symmetry the plane between them stays flat. The depths of
+    /// elastic bodies, and so the curvatures that they take on, are as `1/E`.
     ///
     /// Reference: Johnson 1985, section 4.2.
-    pub fn indenter_radius(&self) -> f64 {
-        self.radius * (self.yielding_modulus() / self.modulus)
+    pub fn share(&self) -> f64 {
+        self.modulus / self.yielding_modulus()
     }
 
     /// `K_h = (4/3) E* sqrt(R)` \[N/m^1.5\], the constant of Hertz's law `F = K_h d^1.5`.

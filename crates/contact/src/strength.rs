@@ -3,30 +3,26 @@
 //! Lengths are in units of the yield indentation `d_Y` of the material, forces in units of its yield force `F_Y`:
 //! `k = d/d_Y`, `phi = F/F_Y`. `Phi` and `A` are the force and the area of the law `brinell` itself.
 
-use super::material::{Pair, YieldPoint};
-use libm::{exp, pow, sqrt};
+use libm::{exp, pow};
 
 /// Poisson's ratio of the fit of the law `brinell`.
 pub const POISSONS_RATIO: f64 = 0.3;
 
 // The constants from `data/fit/fit_materials.py`. A test compares them with the file that it writes.
 const GROWTH: [f64; 2] = [0.741, 0.097];
-const DECAY_SCALE: f64 = 21.26;
-const DECAY_POWER: f64 = 0.5854;
-const DECAY_SHIFT: f64 = 2.944;
+const DECAY_SCALE: f64 = 20.36;
+const DECAY_POWER: f64 = 0.5777;
+const DECAY_SHIFT: f64 = 2.931;
 const RISE: f64 = 0.9452;
 const RISE_POWER: f64 = 0.3895;
 const SATURATION: f64 = 1.318;
-const RADIUS_POWER: f64 = 0.8647;
+/// Power by which a contact area falls with the force.
+pub(crate) const RADIUS_POWER: f64 = 0.8509;
 const DENT_FALL: f64 = 1.584;
-const DENT_DECAY_SCALE: f64 = 7.392;
-const DENT_DECAY_POWER: f64 = 0.5016;
+const DENT_DECAY_SCALE: f64 = 7.405;
+const DENT_DECAY_POWER: f64 = 0.5019;
 const SLOPE_POWER: f64 = 1.111;
 const LARGEST_SHAPE: f64 = 0.75;
-
-/// Indentations \[d_Y\] at which the loading curve of a hardening material, or of one with another Poisson's ratio,
-/// has value and slope of its form.
-pub const KNOTS: [f64; 11] = [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500.0, 1000.0, 2000.0];
 
 /// The effective strength of a material, relative to its strength at first yield.
 ///
@@ -37,7 +33,7 @@ pub const KNOTS: [f64; 11] = [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500
 /// - at first yield, relative to `nu = 0.3`: `s0 = exp(0.741 (nu - 0.3) + 0.097 (nu - 0.3)^2)`. The contact yields at
 ///   `s0^2 d_y` (theory: 0.825, 0.955, 1.110, 1.198 for `nu = 0.2, 0.3, 0.4, 0.45`; K. L. Johnson, *Contact
 ///   Mechanics*, Cambridge 1985, section 6.2);
-/// - `t_nu = 1 + (1/s0 - 1) w/(1 + w)` with `w = s0^2.944 (k^0.5854 - 1)/21.26`;
+/// - `t_nu = 1 + (1/s0 - 1) w/(1 + w)` with `w = s0^2.931 (k^0.5777 - 1)/20.36`;
 /// - `t_H = 1 + 0.9452 h s0^0.779 (k^0.3895 - 1)` with `h = eta/(1 + 1.318 eta)` and
 ///   `eta = (1 - nu^2) H/E`.
 ///
@@ -54,7 +50,7 @@ pub struct Strength {
     at_yield: f64,
     /// `1/s0 - 1`.
     ease: f64,
-    /// `s0^2.944`.
+    /// `s0^2.931`.
     shift: f64,
     /// `h`.
     hardening: f64,
@@ -63,20 +59,20 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// The strength of the target of `pair` with this `hardening_modulus` \[Pa\]; `None` if the target is one that
-    /// the law `brinell` describes by itself.
-    pub fn of(pair: &Pair, hardening_modulus: f64) -> Option<Strength> {
-        let differs = pair.poissons_ratio != POISSONS_RATIO || hardening_modulus != 0.0;
-        differs.then(|| Strength::new(pair, hardening_modulus))
+    /// The strength of a body with this plane-strain `modulus` \[Pa\], Poisson's ratio and `hardening_modulus` \[Pa\]; `None` if the
+    /// law `brinell` describes it by itself.
+    pub fn of(modulus: f64, poissons_ratio: f64, hardening_modulus: f64) -> Option<Strength> {
+        let differs = poissons_ratio != POISSONS_RATIO || hardening_modulus != 0.0;
+        differs.then(|| Strength::new(modulus, poissons_ratio, hardening_modulus))
     }
 
     #[inline(never)]
-    fn new(pair: &Pair, hardening_modulus: f64) -> Strength {
+    fn new(modulus: f64, poissons_ratio: f64, hardening_modulus: f64) -> Strength {
         let [first, second] = GROWTH;
-        let more = pair.poissons_ratio - POISSONS_RATIO;
+        let more = poissons_ratio - POISSONS_RATIO;
         let logarithm = more * (first + second * more);
         // this quotient does not overflow; one with a soft body in the denominator may
-        let hardening = hardening_modulus / (pair.yielding_modulus() + SATURATION * hardening_modulus);
+        let hardening = hardening_modulus / (modulus + SATURATION * hardening_modulus);
         Strength {
             at_yield: exp(logarithm),
             ease: exp(-logarithm) - 1.0,
@@ -86,10 +82,9 @@ impl Strength {
         }
     }
 
-    /// The yield point of the material; `standard` is that for `nu = 0.3`.
-    pub fn yield_point(&self, pair: &Pair, standard: &YieldPoint) -> YieldPoint {
-        let indentation = self.at_yield * self.at_yield * standard.indentation;
-        YieldPoint { indentation, force: pair.hertz_stiffness() * (indentation * sqrt(indentation)) }
+    /// Mean pressure at first yield relative to that for `nu = 0.3`: `s0`.
+    pub fn at_yield(&self) -> f64 {
+        self.at_yield
     }
 
     /// `1 + (1/s0 - 1) w/(1 + w)`, and its derivative with respect to `k`.
@@ -100,9 +95,14 @@ impl Strength {
         (1.0 + self.ease * w / (1.0 + w), self.ease * slope / ((1.0 + w) * (1.0 + w)))
     }
 
+    /// The part of `t` that the Poisson's ratio has, at `k >= 1`, and its slope.
+    pub fn of_poissons_ratio(&self, k: f64) -> (f64, f64) {
+        self.fading(k, DECAY_SCALE, DECAY_POWER)
+    }
+
     /// `t` at `k >= 1`, and its slope.
     pub fn at(&self, k: f64) -> (f64, f64) {
-        let (one, one_slope) = self.fading(k, DECAY_SCALE, DECAY_POWER);
+        let (one, one_slope) = self.of_poissons_ratio(k);
         let raised = pow(k, RISE_POWER);
         let (other, other_slope) = (1.0 + self.rise * (raised - 1.0), self.rise * RISE_POWER * raised / k);
         (one * other, one_slope * other + one * other_slope)

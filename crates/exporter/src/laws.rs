@@ -1,6 +1,6 @@
 //! The models of a scene's bodies with laws chosen by name, as commands compare them. `scene/laws.rs` checks those of the scene.
 
-use crate::model::{AnyModel, Dampings, strengthened};
+use crate::model::{AnyModel, Dampings, paired};
 use crate::nearest::unknown;
 use crate::pairing::{self, unloading_of};
 use crate::scene::Scene;
@@ -132,7 +132,7 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let yield_strength = scene.yield_strength.ok_or_else(|| UnknownLaw::NoYieldStrength(name.into()))?;
     let pair = Pair { yield_strength, ..scene.model().pair };
     let model = Model { pair, loading, unloading, surface: scene.contacts[0].surface };
-    let model = strengthened(&model, scene.hardening_modulus(0));
+    let model = paired(&model, scene.two_bodies(0));
     let laws = format!("{loading_name}/{chosen}");
     Ok(Choice { name: name.into(), laws, model: scene.with_loss(0, model) })
 }

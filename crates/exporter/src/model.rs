@@ -8,7 +8,7 @@ use brinell_contact::impact::{self, Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Loading, Model, Pair};
+use brinell_contact::{Loading, Model, Pair, TwoBodies};
 
 // number of predictions that this thread has made
 #[cfg(test)]
@@ -113,10 +113,10 @@ impl AnyModel {
         }
     }
 
-    /// The model with a target of this hardening modulus \[Pa\]; `None` if its law has none.
-    pub fn with_hardening(&self, hardening_modulus: f64) -> Option<AnyModel> {
-        let model = self.elastoplastic().filter(|model| model.loading.strengthened(hardening_modulus).is_some())?;
-        Some(self.with_plastic(strengthened(model, hardening_modulus)))
+    /// The model with what its law needs to know of these bodies; `None` if it needs nothing beside their pair.
+    pub fn with_bodies(&self, bodies: TwoBodies) -> Option<AnyModel> {
+        let model = self.elastoplastic().filter(|model| model.loading.paired(bodies).is_some())?;
+        Some(self.with_plastic(paired(model, bodies)))
     }
 
     /// The stiffness of the way back from `indentation` \[m\]; of a rate-dependent law that of its elastic part \[N/m\].
@@ -176,13 +176,10 @@ impl AnyModel {
     }
 }
 
-/// The model with the form of its laws for targets of this hardening modulus \[Pa\] and any Poisson's ratio, if they have one.
-pub fn strengthened(
-    model: &Model<AnyLoading, AnyUnloading>,
-    hardening_modulus: f64,
-) -> Model<AnyLoading, AnyUnloading> {
-    let Some(loading) = model.loading.strengthened(hardening_modulus) else { return *model };
-    let unloading = model.unloading.strengthened(hardening_modulus).unwrap_or(model.unloading);
+/// The model with the form of its laws for these two bodies, if they have one.
+pub fn paired(model: &Model<AnyLoading, AnyUnloading>, bodies: TwoBodies) -> Model<AnyLoading, AnyUnloading> {
+    let Some(loading) = model.loading.paired(bodies) else { return *model };
+    let unloading = model.unloading.paired(bodies).unwrap_or(model.unloading);
     Model { loading, unloading, ..*model }
 }
 

@@ -14,9 +14,9 @@ pub fn section(page: &mut String, scene: &Scene) -> std::fmt::Result {
         }
         Rate::CowperSymonds { d, q } => format!("1 + (rate/({d} 1/s))^(1/{q}) (Cowper and Symonds 1957)"),
     };
-    let found = scene.in_impact(0, &scene.impact_of(0));
-    let found = found.map(|found| cell(found.factor, 1.0)).unwrap_or_default();
-    let (body, radius) = (scene.softer(0).name(), quantity(scene.model().pair.indenter_radius(), "m"));
+    let Some(found) = scene.in_impact(0, &scene.impact_of(0)) else { return Ok(()) };
+    let (body, radius) = (scene.softer(0).name(), quantity(found.indenter_radius, "m"));
+    let found = cell(found.factor, 1.0);
     let what = format!(
         "The strength of the {body} is its strength under a slow load times {model}. The rate is the mean strain rate of the \
          loading: 0.2 a/R at the largest contact radius a, over the time from first contact to that radius. R is {radius}, the \

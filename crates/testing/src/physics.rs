@@ -4,7 +4,7 @@ use crate::laws;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::material::YieldPoint;
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Body, History, Loading, Model, Pair, Surface};
+use brinell_contact::{Body, History, Loading, Model, OtherBody, Pair, Surface, TwoBodies};
 use std::f64::consts::PI;
 use std::mem::discriminant;
 
@@ -38,6 +38,23 @@ pub fn pair_of(radius: f64, modulus: f64, yield_strength: f64) -> Pair {
     let poissons_ratio = 0.3;
     let youngs_modulus = modulus * (1.0 - poissons_ratio * poissons_ratio);
     Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio }
+}
+
+/// The elastic body beside the one that yields: what the moduli of the pair leave for it, rigid if nothing is left.
+pub fn elastic_partner(pair: &Pair) -> OtherBody {
+    let rest = 1.0 / pair.modulus - 1.0 / pair.yielding_modulus();
+    let modulus = if rest * pair.modulus > 1e-12 { 1.0 / rest } else { f64::INFINITY };
+    OtherBody { modulus, poissons_ratio: 0.3, ..OtherBody::RIGID }
+}
+
+/// The law `brinell` for `pair` and what it needs to know beside that.
+pub fn brinell(pair: Pair, bodies: TwoBodies) -> AnyModel {
+    let plain = AnyModel { pair, ..model("brinell", "brinell") };
+    AnyModel {
+        loading: plain.loading.paired(bodies).expect("brinell has such a form"),
+        unloading: plain.unloading.paired(bodies).expect("brinell has such a form"),
+        ..plain
+    }
 }
 
 /// The unit of indentation and force of every table: the point where the mean pressure reaches 1.1 S.

@@ -43,11 +43,15 @@ impl Loading for AnyLoading {
         self.law().regime(pair, indentation)
     }
 
+    fn share(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.law().share(pair, indentation)
+    }
+
     fn derived(&self, name: &str) -> Option<f64> {
         self.law().derived(name)
     }
 
-    fn strengthened_by(self, factor: f64) -> AnyLoading {
-        self.with_form(|form| form.strengthened_by(factor))
+    fn strengthened_by(self, factor: f64, others: f64) -> AnyLoading {
+        self.with_form(|form| form.strengthened_by(factor, others))
     }
 }

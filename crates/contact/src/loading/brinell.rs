@@ -24,7 +24,7 @@ const PIECES: usize = 9;
 ///
 /// Within 0.32 % of the first table from first contact to `x = 1000` (0.11 % rms). Of the second one within 0.52 % to `x = 1000`
 /// and 0.23 % from there to 3000 (0.18 % rms in all). These are also the errors of the tables. Contact radius within 0.6 %
-/// and 0.2 %. Deeper, the curve is extrapolated. Small strain, nu = 0.3, no hardening; [`Strengthened`](super::Strengthened)
+/// and 0.2 %. Deeper, the curve is extrapolated. Small strain, nu = 0.3, no hardening; [`Paired`](super::Paired)
 /// covers hardening and other Poisson's ratios. Large deformation differs by 0.5 % up to `x = 200` at `E*/S = 1000`,
 /// by 1 % at `x = 82.5` and 7 % at `x = 200` at `E*/S = 100`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +65,7 @@ impl Piece {
 
 impl Brinell {
     /// The constants from `data/fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
-    /// the pair has. An FMU has [`Strengthened`](super::Strengthened) for any other ratio.
+    /// the pair has. An FMU has [`Paired`](super::Paired) for any other ratio.
     ///
     /// The last slopes correspond to a mean pressure of 3.06 S; the finite-element results have 3.01 S at `x = 1000` and 3.04 S at
     /// 3000. The area grows by `2.62 R d` there. A rigid, perfectly plastic solid has `2.86 R d` (B. Storåkers, S. Biwa,
@@ -100,15 +100,21 @@ impl Brinell {
         piece
     }
 
+    /// Mean pressure of deep dents, over that at yield.
+    pub(crate) fn plastic_pressure(&self) -> f64 {
+        self.force_slopes[PIECES - 1] / self.area_slopes[PIECES - 1]
+    }
+
     /// Force and slope at `x >= 1` \[F_y, F_y/d_y\].
     pub(crate) fn force_and_slope(&self, x: f64) -> (f64, f64) {
         let piece = self.piece(&self.force_slopes, x);
         (piece.value(x), piece.slope(x))
     }
 
-    /// Contact area at `x >= 1`: `a^2/(R d_y)`.
-    pub(crate) fn area(&self, x: f64) -> f64 {
-        self.piece(&self.area_slopes, x).value(x)
+    /// Contact area at `x >= 1`, `a^2/(R d_y)`, and its slope.
+    pub(crate) fn area_and_slope(&self, x: f64) -> (f64, f64) {
+        let piece = self.piece(&self.area_slopes, x);
+        (piece.value(x), piece.slope(x))
     }
 
     /// The regime at `indentation` \[m\] of a contact that yields at `d_y` \[m\].

@@ -13,8 +13,8 @@ pub mod johnson;
 pub mod kogut_etsion;
 pub mod luding;
 pub mod ma_liu;
+pub mod paired;
 pub mod power;
-pub mod strengthened;
 pub mod stronge;
 pub mod thornton;
 pub mod vu_quoc_zhang;
@@ -22,12 +22,13 @@ pub mod walton_braun;
 pub mod yigit_christoforou;
 pub mod zhao_maietta_chang;
 
-pub use strengthened::Strengthened;
+pub use paired::Paired;
 
 use super::laws::laws;
 use super::material::{Pair, YieldPoint};
 use super::regime::{LARGEST_INDENTATION, Regime};
 use super::segment::Segment;
+use super::two_bodies::TwoBodies;
 
 laws! {
     /// A loading law chosen while a program runs. In an FMU the scene names the law.
@@ -55,7 +56,7 @@ laws! {
         johnson::Johnson { "johnson" = Johnson::REFERENCE }
         luding::Luding { "luding" = Luding::REFERENCE }
     }
-    strengthened { Brinell as StrengthenedBrinell }
+    paired { Brinell as PairedBrinell }
 }
 
 /// A loading law: its constants, without the bodies.
@@ -121,14 +122,21 @@ pub trait Loading {
         self.contact_radius(pair, indentation)
     }
 
+    /// The part of the gap's curvature `1/R` that the softer body takes on at `indentation`: it sees a rigid sphere of the radius `R`
+    /// over this part. The default is Hertz's, [`Pair::share`].
+    fn share(&self, pair: &Pair, _indentation: f64) -> f64 {
+        pair.share()
+    }
+
     /// A number that follows from the constants, under the name that the table of laws uses for it; `None` if there is no such
     /// name.
     fn derived(&self, _name: &str) -> Option<f64> {
         None
     }
 
-    /// The law for a target whose hardening modulus is `factor` times as large. The yield strength is not part of a law.
-    fn strengthened_by(self, _factor: f64) -> Self
+    /// The law for bodies of other strengths: hardening of the softer one `factor` times as large, strength and hardening of the harder
+    /// one `others` times. The yield strength of the softer one is not part of a law.
+    fn strengthened_by(self, _factor: f64, _others: f64) -> Self
     where
         Self: Sized,
     {
@@ -155,7 +163,7 @@ fn first_above<const CORNERS: usize>(indentation: f64, corners: [f64; CORNERS]) 
 }
 
 /// More segments than a loading curve has.
-const MOST_SEGMENTS: u32 = 64;
+const MOST_SEGMENTS: u32 = 128;
 
 /// Work of a curve made of segments, from first contact to `indentation` \[J\]: the complete segments below it plus the last,
 /// partial one.

@@ -1,6 +1,6 @@
 //! A contact whose strength depends on the impact as a [`Contact`].
 
-use super::{History, Model, is_factor};
+use super::{Factors, History, Model, are_factors};
 use crate::behaviour::Contact;
 use crate::history;
 use crate::impact::Impact;
@@ -17,7 +17,7 @@ type Plastic<L, U> = crate::Model<L, U>;
 impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
     const FOLLOWS_RATE: bool = false;
     const DERIVATIVES: i32 = <history::History as Contact<Plastic<L, U>>>::DERIVATIVES;
-    const WORDS: usize = <history::History as Contact<Plastic<L, U>>>::WORDS + 3;
+    const WORDS: usize = <history::History as Contact<Plastic<L, U>>>::WORDS + 4;
 
     const FINDS_STRENGTH: bool = true;
 
@@ -45,16 +45,16 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<f64, TooDeep> {
-        let factor = self.factor;
-        self.plastic.step(course, step, || model().borrow().at(factor))
+        let factors = self.factors;
+        self.plastic.step(course, step, || model().borrow().at(factors))
     }
 
     fn step_held(&mut self, rate: f64, step: f64, (): &(), model: impl Fn() -> Model<L, U>) -> Result<(), TooDeep> {
-        self.plastic.advance(&model().at(self.factor), rate * step)
+        self.plastic.advance(&model().at(self.factors), rate * step)
     }
 
     fn mean_force(&self, model: &Model<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {
-        self.plastic.mean_force(&model.at(self.factor), rate, step)
+        self.plastic.mean_force(&model.at(self.factors), rate, step)
     }
 
     fn stays_within(&mut self, depth: f64) -> bool {
@@ -70,7 +70,7 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
     }
 
     fn residual_indentation(&self, model: &Model<L, U>) -> f64 {
-        self.plastic.residual_indentation(&model.at(self.factor))
+        self.plastic.residual_indentation(&model.at(self.factors))
     }
 
     fn regime(&self) -> Regime {
@@ -90,27 +90,27 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
     }
 
     fn curvature(&self, model: &Model<L, U>, _rate: f64) -> f64 {
-        self.plastic.curvature(&model.at(self.factor))
+        self.plastic.curvature(&model.at(self.factors))
     }
 
     fn contact_radius(&self, model: &Model<L, U>) -> f64 {
-        self.plastic.contact_radius(&model.at(self.factor))
+        self.plastic.contact_radius(&model.at(self.factors))
     }
 
     fn elastic_energy(&self, model: &Model<L, U>) -> f64 {
-        self.plastic.elastic_energy(&model.at(self.factor))
+        self.plastic.elastic_energy(&model.at(self.factors))
     }
 
     fn dissipated_energy(&self, model: &Model<L, U>) -> f64 {
-        self.plastic.dissipated_energy(&model.at(self.factor))
+        self.plastic.dissipated_energy(&model.at(self.factors))
     }
 
     fn smooth_piece(&self, model: &Model<L, U>) -> (f64, f64) {
-        self.plastic.smooth_piece(&model.at(self.factor))
+        self.plastic.smooth_piece(&model.at(self.factors))
     }
 
     fn moved_to(&self, model: &Model<L, U>, indentation: f64) -> History {
-        History { plastic: self.plastic.moved_to(&model.at(self.factor), indentation), ..*self }
+        History { plastic: self.plastic.moved_to(&model.at(self.factors), indentation), ..*self }
     }
 
     fn meet(&mut self, model: &Model<L, U>, mass: f64, rate: f64) {
@@ -128,12 +128,13 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
 
     fn save(&self, store: &mut impl FnMut(u64)) {
         Contact::<Plastic<L, U>>::save(&self.plastic, store);
-        store_numbers(&[self.factor, self.speed, self.mass], store);
+        store_numbers(&[self.factors.softer, self.factors.harder, self.speed, self.mass], store);
     }
 
     fn load(words: &mut impl Iterator<Item = u64>, model: &Model<L, U>) -> Option<History> {
         let plastic = <history::History as Contact<Plastic<L, U>>>::load(words, &model.slow)?;
-        let [factor, speed, mass] = load_numbers(words)?;
-        is_factor(factor).then_some(History { plastic, factor, speed, mass })
+        let [softer, harder, speed, mass] = load_numbers(words)?;
+        let factors = Factors { softer, harder };
+        are_factors(factors).then_some(History { plastic, factors, speed, mass })
     }
 }

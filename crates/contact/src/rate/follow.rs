@@ -1,6 +1,6 @@
 //! The motion of bodies of known mass: each first touch of a surface without a dent finds its strength.
 
-use super::{History, Model, is_factor};
+use super::{Factors, History, Model, are_factors};
 use crate::impact::Impact;
 use crate::loading::Loading;
 use crate::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow_to_touch};
@@ -35,7 +35,7 @@ pub fn follow<L: Loading + Copy, U: Unloading + Copy>(
     let mut whole = Outcome { speed, taken: 0.0, evaluations: 0, deepest: 0.0 };
     let mut left = step;
     for _ in 0..MOST_IMPACTS {
-        let present = model.at(history.factor);
+        let present = model.at(history.factors);
         let (known_speed, known_mass) = (history.speed, history.mass);
         let is_new =
             |speed: f64| drive.mass != known_mass || fabs(speed - known_speed) > SAME * largest(speed, known_speed);
@@ -60,7 +60,7 @@ impl History {
     /// dent. Where there is none, the strength does not change.
     pub(super) fn meet<L: Loading + Copy, U: Unloading + Copy>(&mut self, model: &Model<L, U>, impact: &Impact) {
         let is_apart = self.plastic.regime() == Regime::Apart && impact.speed > 0.0;
-        if is_apart && model.at(self.factor).is_elastic_at(self.plastic.max_indentation()) {
+        if is_apart && model.at(self.factors).is_elastic_at(self.plastic.max_indentation()) {
             let before = *self;
             if self.strengthen(model, impact).is_err() {
                 *self = before;
@@ -75,16 +75,16 @@ impl History {
         impact: &Impact,
     ) -> Result<u32, TooDeep> {
         let energy = 0.5 * impact.mass * impact.speed * impact.speed;
-        let (factor, predictions) = match model.in_impact(impact) {
-            Some(found) => (found.factor, found.steps),
+        let (factors, predictions) = match model.in_impact(impact) {
+            Some(found) => (found.factors, found.steps),
             // an energy without its full precision: the impact is slower than any reference rate
-            None if energy < f64::MIN_POSITIVE => (1.0, 1),
+            None if energy < f64::MIN_POSITIVE => (Factors::SLOW, 1),
             None => return Err(TooDeep { indentation: f64::INFINITY }),
         };
-        if !is_factor(factor) {
+        if !are_factors(factors) {
             return Err(TooDeep { indentation: f64::INFINITY });
         }
-        self.factor = factor;
+        self.factors = factors;
         (self.speed, self.mass) = (impact.speed, impact.mass);
         // what another strength took elastically may be beyond the yield point of this one
         self.plastic.forget_elastic();

@@ -1,6 +1,6 @@
 //! The state of a contact whose strength depends on the impact.
 
-use super::Model;
+use super::{Factors, Model};
 use crate::history;
 use crate::loading::Loading;
 use crate::regime::TooDeep;
@@ -12,9 +12,9 @@ use crate::unloading::Unloading;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct History {
     pub(super) plastic: history::History,
-    /// Strength relative to the quasi-static one.
-    pub(super) factor: f64,
-    /// The closing speed \[m/s\] and the mass \[kg\] that the factor belongs to; zero before the first impact.
+    /// Strengths relative to the quasi-static ones.
+    pub(super) factors: Factors,
+    /// The closing speed \[m/s\] and the mass \[kg\] that the factors belong to; zero before the first impact.
     pub(super) speed: f64,
     pub(super) mass: f64,
 }
@@ -26,7 +26,7 @@ impl History {
     /// [`TooDeep`] as for the [elastoplastic](history::History::start) contact.
     pub fn start<L: Loading + Copy, U: Unloading + Copy>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         let plastic = history::History::start(&model.slow, gap)?;
-        Ok(History { plastic, factor: 1.0, speed: 0.0, mass: 0.0 })
+        Ok(History { plastic, factors: Factors::SLOW, speed: 0.0, mass: 0.0 })
     }
 
     /// The contact with constant strength.
@@ -34,13 +34,13 @@ impl History {
         &self.plastic
     }
 
-    /// Strength relative to the quasi-static one.
-    pub fn factor(&self) -> f64 {
-        self.factor
+    /// Strengths relative to the quasi-static ones.
+    pub fn factors(&self) -> Factors {
+        self.factors
     }
 
     /// Whether the passivity guard shortens the unloading path of the present dent.
     pub fn is_held_back<L: Loading + Copy, U: Unloading + Copy>(&self, model: &Model<L, U>) -> bool {
-        self.plastic.is_held_back(&model.at(self.factor))
+        self.plastic.is_held_back(&model.at(self.factors))
     }
 }

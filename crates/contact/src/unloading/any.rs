@@ -67,7 +67,7 @@ impl Unloading for AnyUnloading {
         self.law().work(pair, peak, path, indentation)
     }
 
-    fn strengthened_by(self, factor: f64) -> AnyUnloading {
-        self.with_form(|form| form.strengthened_by(factor))
+    fn strengthened_by(self, factor: f64, others: f64) -> AnyUnloading {
+        self.with_form(|form| form.strengthened_by(factor, others))
     }
 }

@@ -28,11 +28,11 @@ pub struct Brinell {
 
 impl Brinell {
     /// The constants from `data/fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
-    /// the pair has: [`Strengthened`](super::Strengthened) takes account of both. `decline` is chosen by judgement, since only one depth depends on it.
+    /// the pair has: [`Paired`](super::Paired) takes account of both. `decline` is chosen by judgement, since only one depth depends on it.
     pub const REFERENCE: Brinell = Brinell { height: 0.6976, onset: 0.0313, decline: 0.7 };
 
     /// The shape `g` of the path from `peak`.
-    fn shape(&self, pair: &Pair, peak: &Peak) -> f64 {
+    pub(super) fn shape(&self, pair: &Pair, peak: &Peak) -> f64 {
         let hertz_force = pair.hertz_stiffness() * (peak.indentation * sqrt(peak.indentation));
         let lag = 1.0 - peak.force / hertz_force;
         // just above yield the two forces differ only by rounding

@@ -13,17 +13,18 @@ pub mod hertz_shift;
 pub mod jackson;
 pub mod luding;
 pub mod original_radius;
-pub mod strengthened;
+pub mod paired;
 pub mod thornton;
 pub mod vu_quoc_zhang;
 pub mod walton_braun;
 
 pub use guarded::Guarded;
-pub use strengthened::Strengthened;
+pub use paired::Paired;
 
 use super::laws::laws;
 use super::material::Pair;
 use super::segment::Segment;
+use super::two_bodies::TwoBodies;
 use libm::sqrt;
 
 laws! {
@@ -47,7 +48,7 @@ laws! {
         OriginalRadius as GuardedOriginalRadius,
         DeformedRadius as GuardedDeformedRadius,
     }
-    strengthened { Brinell as StrengthenedBrinell }
+    paired { Brinell as PairedBrinell }
 }
 
 /// The point of the loading curve where unloading begins.
@@ -102,8 +103,9 @@ pub trait Unloading {
         path.work(indentation)
     }
 
-    /// The law for a target whose hardening modulus is `factor` times as large. The yield strength is not part of a law.
-    fn strengthened_by(self, _factor: f64) -> Self
+    /// The law for bodies of other strengths: hardening of the softer one `factor` times as large, strength and hardening of the harder
+    /// one `others` times. The yield strength of the softer one is not part of a law.
+    fn strengthened_by(self, _factor: f64, _others: f64) -> Self
     where
         Self: Sized,
     {

@@ -2,6 +2,7 @@
 
 use super::literal;
 use crate::scene::{Loss, Rate, Scene};
+use brinell_contact::TwoBodies;
 use std::fmt::Debug;
 
 /// Number of segments in which the springs of a contact with friction in one direction remember its past.
@@ -24,9 +25,10 @@ pub fn of(scene: &Scene) -> String {
         None => "plain".into(),
     };
     let unloading = scene.plain_unloading();
-    // the forms for targets that harden, and for their Poisson's ratio
-    let of_loading = if scene.is_strengthened() { "strengthened" } else { "plain" };
-    let of_unloading = if unloading.strengthened(0.0).is_some() { of_loading } else { "plain" };
+    // the forms for two bodies
+    let of_loading = if scene.is_paired() { "paired" } else { "plain" };
+    let has_form = unloading.paired(TwoBodies::under_rigid(0.0)).is_some();
+    let of_unloading = if has_form { of_loading } else { "plain" };
     // an elastic contact never unloads by another law; the compiler leaves out whatever is here
     let unloading = scene.unloading.map_or("ContactRadius {}".into(), |_| value_of(&unloading));
     let (of_unloading, unloading) = match unloading.strip_prefix("Guarded(") {
@@ -47,12 +49,9 @@ fn friction(scene: &Scene) -> String {
     }
 }
 
-/// The same strength at any strain rate.
-const NO_RATE: Rate = Rate::JohnsonCook { c: 0.0, reference_rate: 1.0 };
-
 /// The models of the strain rate: of the target, and of the impactor if it may be the softer body.
 fn rate(scene: &Scene) -> String {
-    let of = |rate: Option<Rate>| match rate.unwrap_or(NO_RATE) {
+    let of = |rate: Option<Rate>| match rate.unwrap_or(Rate::NONE) {
         Rate::JohnsonCook { c, reference_rate } => {
             format!("JohnsonCook {{ c: {}, reference_rate: {} }}", literal(c), literal(reference_rate))
         }

@@ -186,15 +186,12 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
     if let (AnyModel::Lossy(lossy), Some(loss)) = (&mut model, scene.loss_with(0, bodies)) {
         lossy.loss = loss;
     }
-    // a strength may make the other body the softer one, which hardens by another modulus
-    let name = scene.softer_with(0, bodies).hardening_modulus();
-    match bodies.iter().find(|(known, _)| *known == name) {
-        Some((_, modulus)) => model.with_hardening(*modulus).ok_or_else(|| missing(name)),
-        None if strength.is_some() && scene.has_two_strengths() => {
-            let modulus = scene.group_value(0, name).unwrap_or(0.0);
-            Ok(model.with_hardening(modulus).unwrap_or(model))
-        }
-        None => Ok(model),
+    match model.with_bodies(scene.two_bodies_with(0, bodies)) {
+        Some(model) => Ok(model),
+        None => match bodies.iter().find(|(name, _)| Body::ALL.iter().any(|body| body.hardening_modulus() == *name)) {
+            Some((name, _)) => Err(missing(name)),
+            None => Ok(model),
+        },
     }
 }
 

@@ -51,10 +51,9 @@ fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
     let mut notes = Vec::new();
     if let (Some(law), Some(line)) = (scene.power_law(0), found.line) {
         let restitution = |part: f64| {
-            let prediction = scene.predict_with_strain(impact, part * line.strain, found.factor);
+            let prediction = scene.predict_with_strain(impact, &found, part);
             prediction.map_or("unknown".into(), |prediction| cell(prediction.restitution, 1.0))
         };
-        let radius = scene.model().pair.indenter_radius();
         notes.push(format!(
             "The power law {} eps^{} is taken as linear hardening up to a plastic strain of {}, Tabor's 0.2 a/R of this impact, with the \
              largest contact radius a and R = {}, the radius of the rigid sphere that would press the {} in the same way: S = {}, H = {}. At that strain the flow stress is {} % off; with half or twice the strain the restitution would be {} or {} by \
@@ -62,7 +61,7 @@ fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
             quantity(law.coefficient, "Pa"),
             law.exponent,
             cell(line.strain, 1.0),
-            quantity(radius, "m"),
+            quantity(found.indenter_radius, "m"),
             scene.softer(0).name(),
             quantity(line.yield_strength, "Pa"),
             quantity(line.hardening_modulus, "Pa"),

@@ -2,9 +2,10 @@
 
 use super::Scene;
 use crate::numbers::{cell, quantity};
-use brinell_contact::Pair;
 use brinell_contact::impact::Prediction;
 use brinell_contact::losses::Loss;
+use brinell_contact::rate::Factors;
+use brinell_contact::{OtherBody, Pair, TwoBodies};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
@@ -121,10 +122,37 @@ impl Scene {
         let [impactor, target] = self.bodies_with(group, values);
         let softer = self.softer_with(group, values);
         let other = values.iter().find(|(known, _)| *known == softer.yield_strength()).map(|(_, value)| *value);
-        let own = || self.group_value(group, softer.yield_strength()).map(|strength| strength * self.factors[group]);
+        let factor = self.factors[group].softer;
+        let own = || self.group_value(group, softer.yield_strength()).map(|strength| strength * factor);
         let strength = other.or_else(own).unwrap_or(f64::INFINITY);
         let pair = Pair::new(&impactor, &target, strength)?;
         Some(if softer == Body::Impactor { pair.yielding_in(&impactor, strength) } else { pair })
+    }
+
+    /// What the law `brinell` needs to know of the bodies of `group` beside their pair.
+    pub fn two_bodies(&self, group: usize) -> TwoBodies {
+        self.two_bodies_with(group, &[])
+    }
+
+    /// The same bodies with other values for some of their parameters.
+    pub fn two_bodies_with(&self, group: usize, values: &[(&str, f64)]) -> TwoBodies {
+        let Factors { softer: factor, harder: others } = self.factors[group];
+        let value = |name: &str, without: f64, factor: f64| {
+            let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
+            other.or_else(|| self.group_value(group, name).map(|own| own * factor)).unwrap_or(without)
+        };
+        let softer = self.softer_with(group, values);
+        let [impactor, target] = self.bodies_with(group, values);
+        let body = if softer == Body::Impactor { target } else { impactor };
+        TwoBodies {
+            hardening_modulus: value(softer.hardening_modulus(), 0.0, factor),
+            other: OtherBody {
+                modulus: body.plane_strain_modulus(),
+                poissons_ratio: body.poissons_ratio,
+                yield_strength: value(softer.other().yield_strength(), f64::INFINITY, others),
+                hardening_modulus: value(softer.other().hardening_modulus(), 0.0, others),
+            },
+        }
     }
 
     /// Impactor and target of `group`, with other values for some of their parameters. An impactor without moduli is rigid, a target
@@ -157,9 +185,11 @@ impl Scene {
                     let restitution = self.group_value(group, "restitution").unwrap_or(f64::NAN);
                     // it follows from the density, which the pair doesn't know
                     let loss = self.loss_with(group, &[]).map_or(f64::NAN, |loss| loss.factor());
-                    let [mass, hardening] = [self.impact_of(group).mass, self.hardening_modulus(group)];
-                    let pair = [radius, modulus, yield_strength, youngs_modulus, poissons_ratio];
-                    (pair.map(f64::to_bits), [hardening, restitution, loss, mass].map(f64::to_bits))
+                    let TwoBodies { hardening_modulus, other } = self.two_bodies(group);
+                    let softer = [yield_strength, youngs_modulus, poissons_ratio, hardening_modulus];
+                    let harder = [other.yield_strength, other.modulus, other.poissons_ratio, other.hardening_modulus];
+                    let rest = [radius, modulus, restitution, loss, self.impact_of(group).mass];
+                    (softer.map(f64::to_bits), harder.map(f64::to_bits), rest.map(f64::to_bits))
                 });
                 known.entry(bodies).or_insert_with(|| of(group)).clone()
             })

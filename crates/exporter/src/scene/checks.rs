@@ -16,6 +16,7 @@ use crate::table::VARIABLES;
 use brinell_contact::damped::Damped;
 use brinell_contact::hardening::Hardening;
 use brinell_contact::impact::Impact;
+use brinell_contact::rate::Factors;
 use std::f64::consts::PI;
 use std::ops::Range;
 use toml::Spanned;
@@ -31,6 +32,9 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let mut contacts = Contacts::of(&file)?;
     let laws = SceneLaws::of(&file.law, &contacts)?;
     let SceneLaws { damped, loading, unloading, passivity_guard } = laws;
+    if laws.takes_both_bodies() {
+        contacts.let_both_yield();
+    }
     let yield_strength = contacts.yield_strength(0);
     if laws.has_no_strength() {
         contacts.forget_strength();
@@ -68,7 +72,7 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
             outputs.push(name.into());
         }
     }
-    let factors = vec![1.0; groups.len()];
+    let factors = vec![Factors::SLOW; groups.len()];
     let mut scene = Scene {
         name,
         description,

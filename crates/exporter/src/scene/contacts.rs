@@ -9,8 +9,8 @@ use crate::mistake::{Mistake, check_limits, check_range};
 use crate::nearest::unknown;
 use crate::numbers::in_message;
 use crate::table::{self, MATERIALS, VARIABLES};
-use brinell_contact::Surface;
 use brinell_contact::loading::AnyLoading;
+use brinell_contact::{Surface, TwoBodies};
 use std::collections::HashSet;
 use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
@@ -397,7 +397,7 @@ impl Contacts {
         };
         let given = [Body::Target, Body::Impactor].into_iter().find_map(of);
         let Some((body, index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
-        let laws = AnyLoading::ALL.iter().filter(|(_, law)| law.strengthened(0.0).is_some());
+        let laws = AnyLoading::ALL.iter().filter(|(_, law)| law.paired(TwoBodies::under_rigid(0.0)).is_some());
         let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
         let message = format!(
             "the hardening of the {} has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"",
@@ -526,11 +526,27 @@ impl Contacts {
         let target = number(Body::Target.yield_strength());
         let is_softer = target.is_some_and(|target| strength.get_ref() < target.get_ref());
         if modulus.is_some() && (given || is_softer) {
-            let own = self.all[index].own.get(Body::Impactor.yield_strength()).is_some();
-            let level = if own { &mut self.all[index].own } else { &mut self.shared };
-            level.impactor_may_yield = true;
+            self.let_impactor_yield(index);
         }
         Ok(())
+    }
+
+    /// Makes the strength of the impactor of a contact a parameter.
+    fn let_impactor_yield(&mut self, index: usize) {
+        let own = self.all[index].own.get(Body::Impactor.yield_strength()).is_some();
+        let level = if own { &mut self.all[index].own } else { &mut self.shared };
+        level.impactor_may_yield = true;
+    }
+
+    /// For a law that takes each body for itself: the strength of a harder impactor is a parameter, too.
+    pub fn let_both_yield(&mut self) {
+        for index in 0..self.all.len() {
+            let knows = |name| self.number(index, name).is_some();
+            let strengths = Body::ALL.iter().all(|body| knows(body.yield_strength()));
+            if strengths && knows(Body::Impactor.youngs_modulus()) {
+                self.let_impactor_yield(index);
+            }
+        }
     }
 }
 

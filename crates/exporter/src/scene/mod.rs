@@ -16,14 +16,15 @@ pub mod plausible;
 mod strength;
 
 use crate::mistake::{self, Mistake, SceneError};
-use crate::model::{AnyModel, strengthened};
-use brinell_contact::Model;
+use crate::model::{AnyModel, paired};
 use brinell_contact::damped::{self, AnyDamped};
 use brinell_contact::hardening::Hardening;
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
+use brinell_contact::rate::Factors;
 use brinell_contact::strength::POISSONS_RATIO;
 use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Model, TwoBodies};
 use std::path::Path;
 use toml::Spanned;
 
@@ -71,9 +72,9 @@ pub struct Scene {
     pub rates: Both<Option<Rate>>,
     /// The hardening that the scene gives for the bodies of each group; a power law or a rate puts another in its place.
     pub quasi_static: Vec<Both<Hardening>>,
-    /// Factor on the strength of the softer body of each group in the scene's impact, if the unit
-    /// [finds it](Scene::finds_strength); then it isn't part of the parameters.
-    pub factors: Vec<f64>,
+    /// Factors on the strengths of the bodies of each group in the scene's impact, if the unit
+    /// [finds them](Scene::finds_strength); then they aren't part of the parameters.
+    pub factors: Vec<Factors>,
     /// How the unit moves the bodies through a step by their mass, if it does.
     pub coupling: Option<Coupling>,
     /// Number of tangential directions, zero without friction.
@@ -203,7 +204,7 @@ impl Scene {
         let pair = self.pair_of(group).expect("a checked scene has bodies that fit");
         let unloading = self.plain_unloading();
         let model = Model { pair, loading: self.loading.1, unloading, surface: self.contacts[group].surface };
-        strengthened(&model, self.hardening_modulus(group))
+        paired(&model, self.two_bodies(group))
     }
 
     /// The unloading law as it is for a target that doesn't harden.
@@ -213,22 +214,14 @@ impl Scene {
         guarded.unwrap_or(unloading)
     }
 
-    /// Hardening modulus of the softer body of `group` in the scene's impact \[Pa\].
-    pub fn hardening_modulus(&self, group: usize) -> f64 {
-        self.group_value(group, self.softer(group).hardening_modulus()).unwrap_or(0.0) * self.factors[group]
-    }
-
-    /// Whether the FMU needs the form of its laws for targets that harden and for their Poisson's ratio: it has a hardening modulus,
-    /// or a Poisson's ratio that is another than that of the laws, or may be.
-    pub fn is_strengthened(&self) -> bool {
-        let form = self.damped.is_none() && self.loading.1.strengthened(0.0).is_some();
+    /// Whether the FMU needs the form of its laws for two bodies: the impactor is not rigid, a body hardens, or the target has a
+    /// Poisson's ratio that is another than that of the laws, or may be.
+    pub fn is_paired(&self) -> bool {
+        let form = self.damped.is_none() && self.loading.1.paired(TwoBodies::under_rigid(0.0)).is_some();
         let mut all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
-        let impactor_may_yield = self.has_two_strengths();
-        let is_other = |parameter: &Parameter| parameter.settable || parameter.value != POISSONS_RATIO;
         let needs = |parameter: &Parameter| match parameter.name {
-            "target.hardening_modulus" | "impactor.hardening_modulus" => true,
-            "target.poissons_ratio" => is_other(parameter),
-            "impactor.poissons_ratio" => impactor_may_yield && is_other(parameter),
+            "target.hardening_modulus" | "impactor.youngs_modulus" => true,
+            "target.poissons_ratio" => parameter.settable || parameter.value != POISSONS_RATIO,
             _ => false,
         };
         form && all.any(needs)

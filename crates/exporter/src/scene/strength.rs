@@ -4,13 +4,15 @@ use super::Scene;
 use super::bodies::{Body, Both};
 use super::file::{BodyTable, PowerLawTable, RateTable};
 use crate::mistake::{Mistake, check_range};
-use crate::model::{AnyModel, strengthened};
+use crate::model::paired;
 use crate::nearest::unknown;
 use crate::numbers::in_message;
 use brinell_contact::hardening::{Hardening, StraightLine, modulus_of_tangent};
 use brinell_contact::impact::{Impact, Prediction};
-use brinell_contact::rate::{self, FIRST_STRAIN};
-use brinell_contact::{Model, Pair};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::rate::{self, FIRST_STRAIN, Factors, Strains};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Model, OtherBody, Pair, TwoBodies};
 use serde::Serialize;
 use toml::Spanned;
 
@@ -145,13 +147,19 @@ pub struct InImpact {
     pub hardening_modulus: f64,
     /// The straight line that approximates a power law, without the factor.
     pub line: Option<StraightLine>,
-    /// Tabor's strain.
-    #[serde(skip)]
-    pub strain: f64,
-    /// Mean strain rate of the loading [1/s].
+    /// Mean strain rate of the softer body while loading [1/s].
     pub strain_rate: f64,
-    /// Flow stress relative to the quasi-static one.
+    /// Flow stress of the softer body relative to the quasi-static one.
     pub factor: f64,
+    /// The same of both bodies.
+    #[serde(skip)]
+    pub factors: Factors,
+    /// Tabor's strains of both bodies.
+    #[serde(skip)]
+    pub strains: Strains,
+    /// Radius of the rigid sphere that the softer body sees \[m\].
+    #[serde(skip)]
+    pub indenter_radius: f64,
 }
 
 impl Scene {
@@ -182,32 +190,57 @@ impl Scene {
     }
 
     /// The strength of the softer body of `group` in an `impact`. It is a fixed point, since depth and duration of the
-    /// impact depend on the strength. The strain is Tabor's, `0.2 a/R_y` at the largest contact radius. The strain rate
+    /// impact depend on the strength. The strain of each body is Tabor's, `0.2 a/R_i` at the largest contact radius. The strain rate
     /// is this strain over the loading time. `None` beyond the range of the law.
     pub fn in_impact(&self, group: usize, impact: &Impact) -> Option<InImpact> {
-        let (given, rate) = (self.quasi_static(group), self.rate(group));
-        let line = |strain: f64| self.power_law(group).map(|law| law.up_to(strain));
-        let hardening = |strain| line(strain).map_or(given, |line| line.hardening());
-        let predict = |strain, factor| self.with_strength(group, hardening(strain), factor).predict(impact);
-        let radius = self.pair_of(group)?.indenter_radius();
-        let found = rate::in_impact(rate.as_ref(), radius, predict)?;
-        let rate::InImpact { strain, strain_rate, factor, .. } = found;
-        let Hardening { yield_strength, hardening_modulus } = hardening(strain).times(factor);
-        Some(InImpact { yield_strength, hardening_modulus, line: line(strain), strain, strain_rate, factor })
+        let softer = self.softer(group);
+        let predict = |strains, factors| {
+            let model = self.with_strengths_at(group, strains, factors);
+            let prediction = self.with_loss(group, model).predict(impact)?;
+            Some((prediction, rate::strains(&model, &prediction)))
+        };
+        let rates = [softer, softer.other()].map(|body| self.rates.of(body).as_ref());
+        let found = rate::in_impact(rates, predict)?;
+        let rate::InImpact { strains, factors, .. } = found;
+        let line = self.power_law(group).map(|law| law.up_to(strains.softer));
+        let Hardening { yield_strength, hardening_modulus } =
+            self.flow_at(group, softer, strains.softer).times(factors.softer);
+        let share = strains.softer / (strains.softer + strains.harder);
+        Some(InImpact {
+            yield_strength,
+            hardening_modulus,
+            line,
+            strain_rate: found.strain_rate(),
+            factor: factors.softer,
+            factors,
+            strains,
+            indenter_radius: self.pair_of(group)?.radius / share,
+        })
     }
 
-    /// The contacts of `group` with `factor` times a quasi-static hardening.
-    fn with_strength(&self, group: usize, hardening: Hardening, factor: f64) -> AnyModel {
-        let Hardening { yield_strength, hardening_modulus } = hardening.times(factor);
+    /// The hardening of a `body` of `group` under a slow load: the line up to this `strain` for a power law, or what the scene gives.
+    fn flow_at(&self, group: usize, body: Body, strain: f64) -> Hardening {
+        let line = self.power_law_of(group, body).map(|law| law.up_to(strain).hardening());
+        line.unwrap_or(*self.quasi_static[group].of(body))
+    }
+
+    /// The contacts of `group` with the hardening of their bodies for these strains, and these factors on it.
+    fn with_strengths_at(&self, group: usize, strains: Strains, factors: Factors) -> Model<AnyLoading, AnyUnloading> {
+        let softer = self.softer(group);
+        let own = self.flow_at(group, softer, strains.softer).times(factors.softer);
+        let other = self.flow_at(group, softer.other(), strains.harder).times(factors.harder);
         let model = self.model_of(group);
-        let pair = Pair { yield_strength, ..model.pair };
-        self.with_loss(group, strengthened(&Model { pair, ..model }, hardening_modulus))
+        let pair = Pair { yield_strength: own.yield_strength, ..model.pair };
+        let Hardening { yield_strength, hardening_modulus } = other;
+        let other = OtherBody { yield_strength, hardening_modulus, ..self.two_bodies(group).other };
+        paired(&Model { pair, ..model }, TwoBodies { hardening_modulus: own.hardening_modulus, other })
     }
 
-    /// The prediction of `impact` on the first contact with the straight line for another `strain`.
-    pub fn predict_with_strain(&self, impact: &Impact, strain: f64, factor: f64) -> Option<Prediction> {
-        let line = self.power_law(0).map(|law| law.up_to(strain).hardening());
-        self.with_strength(0, line.unwrap_or(self.quasi_static(0)), factor).predict(impact)
+    /// The prediction of `impact` on the first contact with the straight lines for `part` of the strains `found`.
+    pub fn predict_with_strain(&self, impact: &Impact, found: &InImpact, part: f64) -> Option<Prediction> {
+        let Strains { softer, harder } = found.strains;
+        let strains = Strains { softer: part * softer, harder: part * harder };
+        self.with_loss(0, self.with_strengths_at(0, strains, found.factors)).predict(impact)
     }
 
     /// The scene with the strengths that its softer bodies have in its own impact, or all of them in the given one. `None`
@@ -232,7 +265,8 @@ impl Scene {
             let found = self.in_impact(group, &self.impact_of(group))?;
             let hardening = found.line.map_or(self.quasi_static(group), |line| line.hardening());
             let Hardening { yield_strength, hardening_modulus } = hardening;
-            Some(InImpact { yield_strength, hardening_modulus, factor: 1.0, strain_rate: 0.0, ..found })
+            let factors = Factors::SLOW;
+            Some(InImpact { yield_strength, hardening_modulus, factor: 1.0, factors, strain_rate: 0.0, ..found })
         };
         let found: Vec<InImpact> = self.by_bodies(slow).into_iter().collect::<Option<_>>()?;
         Some(self.with_strengths(&found))
@@ -259,7 +293,7 @@ impl Scene {
             set(&mut contacts.own, flow);
         }
         if finds {
-            self.factors = found.iter().map(|found| found.factor).collect();
+            self.factors = found.iter().map(|found| found.factors).collect();
         }
         self.yield_strength = Some(found[0].yield_strength);
         self
@@ -268,14 +302,11 @@ impl Scene {
     /// Yield strength and hardening modulus of a `body` of `group` as parameters of the unit, for the strain and the strain rate
     /// `found` in the impact.
     fn flow_in(&self, group: usize, body: Body, found: &InImpact) -> Hardening {
-        let line = self.power_law_of(group, body).map(|law| law.up_to(found.strain).hardening());
-        let factor = match self.rates.of(body) {
-            Some(_) if self.finds_strength() => 1.0,
-            Some(_) if body == self.softer(group) => found.factor,
-            Some(rate) => rate.factor(found.strain_rate),
-            None => 1.0,
+        let (strain, factor) = match body == self.softer(group) {
+            true => (found.strains.softer, found.factors.softer),
+            false => (found.strains.harder, found.factors.harder),
         };
-        line.unwrap_or(*self.quasi_static[group].of(body)).times(factor)
+        self.flow_at(group, body, strain).times(if self.finds_strength() { 1.0 } else { factor })
     }
 
     /// Whether the unit finds the strength of its bodies by itself, at the first touch of each impact: it knows the mass and

@@ -60,23 +60,20 @@ fn target(value: impl Fn(Parameter) -> f64, density: f64) -> Solid {
     Solid { density, youngs_modulus, poissons_ratio }
 }
 
-/// The type of a law in one of its forms, or its value, which is a constant so that it is copied as a whole. `hardening` is the
-/// hardening modulus of the body that yields \[Pa\].
+/// The type of a law in one of its forms, or its value, which is a constant so that it is copied as a whole. `bodies` are what the
+/// form for two bodies knows of them.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __law {
     (type $kind:ident plain $law:ident) => { $crate::contact::$kind::$law };
     (type $kind:ident guarded $law:ident) => { $crate::contact::$kind::Guarded<$crate::contact::$kind::$law> };
-    (type $kind:ident strengthened $law:ident) => { $crate::contact::$kind::Strengthened };
-    (value $kind:ident plain $law:ident $fields:tt $hardening:ident) => { const { $crate::contact::$kind::$law $fields } };
-    (value $kind:ident guarded $law:ident $fields:tt $hardening:ident) => {
+    (type $kind:ident paired $law:ident) => { $crate::contact::$kind::Paired };
+    (value $kind:ident plain $law:ident $fields:tt $bodies:ident) => { const { $crate::contact::$kind::$law $fields } };
+    (value $kind:ident guarded $law:ident $fields:tt $bodies:ident) => {
         const { $crate::contact::$kind::Guarded($crate::contact::$kind::$law $fields) }
     };
-    (value $kind:ident strengthened $law:ident $fields:tt $hardening:ident) => {
-        $crate::contact::$kind::Strengthened {
-            law: const { $crate::contact::$kind::$law $fields },
-            hardening_modulus: $hardening,
-        }
+    (value $kind:ident paired $law:ident $fields:tt $bodies:ident) => {
+        $crate::contact::$kind::Paired { law: const { $crate::contact::$kind::$law $fields }, bodies: $bodies }
     };
 }
 
@@ -153,37 +150,36 @@ macro_rules! __laws {
         $crate::contact::rate::Model {
             slow: $crate::__laws!(plastic $pair $surface $value; $($laws)+),
             rate: $crate::contact::rate::Rate::$of_target $target,
+            harder: $crate::contact::rate::Rate::NONE,
         }
     };
     (model $pair:ident $surface:ident $value:ident $density:ident;
      (rate $of_target:ident $target:tt $of_impactor:ident $impactor:tt) $($laws:tt)+) => {{
-        let impactor_yields = $value($crate::scene::Parameter::ImpactorYieldStrength)
-            < $value($crate::scene::Parameter::TargetYieldStrength);
+        let [target, impactor] =
+            [$crate::contact::rate::Rate::$of_target $target, $crate::contact::rate::Rate::$of_impactor $impactor];
+        let impactor_yields = $crate::scene::impactor_yields(&$value);
         $crate::contact::rate::Model {
             slow: $crate::__laws!(plastic $pair $surface $value; $($laws)+),
-            rate: if impactor_yields {
-                $crate::contact::rate::Rate::$of_impactor $impactor
-            } else {
-                $crate::contact::rate::Rate::$of_target $target
-            },
+            rate: if impactor_yields { impactor } else { target },
+            harder: if impactor_yields { target } else { impactor },
         }
     }};
     (model $pair:ident $surface:ident $value:ident $density:ident; (friction $($contact:tt)+) $($laws:tt)+) => {
         $crate::scene::with_friction($crate::__laws!(plastic $pair $surface $value; $($laws)+), $value)
     };
-    (plastic $pair:ident $surface:ident $value:ident; strengthened $($laws:tt)+) => {{
-        let hardening = $value($crate::scene::Parameter::TargetHardeningModulus);
-        $crate::__laws!(bodies $pair $surface hardening; strengthened $($laws)+)
+    (plastic $pair:ident $surface:ident $value:ident; paired $($laws:tt)+) => {{
+        let bodies = $crate::scene::two_bodies(&$value);
+        $crate::__laws!(bodies $pair $surface bodies; paired $($laws)+)
     }};
     (plastic $pair:ident $surface:ident $value:ident; $($laws:tt)+) => {
         $crate::__laws!(bodies $pair $surface none; $($laws)+)
     };
-    (bodies $pair:ident $surface:ident $hardening:ident;
+    (bodies $pair:ident $surface:ident $bodies:ident;
      $form:ident $loading:ident $of_loading:tt, $to:ident $unloading:ident $of_unloading:tt) => {
         $crate::contact::Model {
             pair: $pair,
-            loading: $crate::__law!(value loading $form $loading $of_loading $hardening),
-            unloading: $crate::__law!(value unloading $to $unloading $of_unloading $hardening),
+            loading: $crate::__law!(value loading $form $loading $of_loading $bodies),
+            unloading: $crate::__law!(value unloading $to $unloading $of_unloading $bodies),
             surface: $surface,
         }
     };
@@ -361,11 +357,7 @@ macro_rules! __scene {
             }
 
             fn model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model {
-                let value = |parameter| match parameter {
-                    // of the body that yields
-                    Parameter::TargetHardeningModulus => Self::hardening_modulus(group, values),
-                    _ => Self::parameter(parameter, group, values),
-                };
+                let value = |parameter| Self::parameter(parameter, group, values);
                 let surface = of_table(&[$(Surface::$surface),+], table_of(group));
                 let density = Self::density(group).unwrap_or(f64::NAN);
                 $crate::__laws!(model pair surface value density; $kind $($laws)+)

@@ -17,7 +17,7 @@ pub use variable::{Integer, Parameter, Real, Settable};
 
 use brinell_contact::motion::Follow;
 use brinell_contact::tangential::{Friction, RoughModel};
-use brinell_contact::{Body, Contact, Model, Pair};
+use brinell_contact::{Body, Contact, Model, OtherBody, Pair, TwoBodies};
 
 /// A scene: `CONTACTS` contacts in groups of equal contacts, with their parameters and variables.
 ///
@@ -93,22 +93,10 @@ pub trait Scene: Sized {
     /// the scene does not have, it is the value without effect.
     fn parameter(parameter: Parameter, group: usize, values: &Self::Values) -> f64;
 
-    /// Whether the impactor of a group is the softer body, which yields. Of equally strong bodies the target counts as the one
-    /// that does: force over indentation is the same.
+    /// Whether the [impactor yields](impactor_yields) in a group.
     #[inline(always)]
     fn impactor_yields(group: usize, values: &Self::Values) -> bool {
-        let strength = |body| Self::parameter(body, group, values);
-        strength(Parameter::ImpactorYieldStrength) < strength(Parameter::TargetYieldStrength)
-    }
-
-    /// Hardening modulus of the body of a group that yields \[Pa\].
-    #[inline(always)]
-    fn hardening_modulus(group: usize, values: &Self::Values) -> f64 {
-        let modulus = match Self::impactor_yields(group, values) {
-            true => Parameter::ImpactorHardeningModulus,
-            false => Parameter::TargetHardeningModulus,
-        };
-        Self::parameter(modulus, group, values)
+        impactor_yields(|parameter| Self::parameter(parameter, group, values))
     }
 
     /// The bodies of a group with the laws of the scene.
@@ -161,6 +149,38 @@ pub fn with_friction<L, U>(normal: Model<L, U>, value: impl Fn(Parameter) -> f64
     let coefficient = value(Parameter::FrictionCoefficient);
     let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
     RoughModel { normal, friction }
+}
+
+/// Whether the impactor is the softer body, which a [`Pair`] describes; `value` gives the parameters of the scene. Of equally strong
+/// bodies it is the target.
+#[inline(always)]
+pub fn impactor_yields(value: impl Fn(Parameter) -> f64) -> bool {
+    value(Parameter::ImpactorYieldStrength) < value(Parameter::TargetYieldStrength)
+}
+
+/// What the law `brinell` needs to know of the bodies beside their [`Pair`]; `value` gives the parameters of the scene.
+#[inline(always)]
+pub fn two_bodies(value: impl Fn(Parameter) -> f64) -> TwoBodies {
+    let target = [
+        Parameter::TargetYoungsModulus,
+        Parameter::TargetPoissonsRatio,
+        Parameter::TargetYieldStrength,
+        Parameter::TargetHardeningModulus,
+    ];
+    let impactor = [
+        Parameter::ImpactorYoungsModulus,
+        Parameter::ImpactorPoissonsRatio,
+        Parameter::ImpactorYieldStrength,
+        Parameter::ImpactorHardeningModulus,
+    ];
+    let (softer, harder) = if impactor_yields(&value) { (impactor, target) } else { (target, impactor) };
+    let [youngs_modulus, poissons_ratio, yield_strength, hardening_modulus] = harder.map(&value);
+    let body = Body { radius: f64::INFINITY, youngs_modulus, poissons_ratio };
+    let modulus = body.plane_strain_modulus();
+    TwoBodies {
+        hardening_modulus: value(softer[3]),
+        other: OtherBody { modulus, poissons_ratio, yield_strength, hardening_modulus },
+    }
 }
 
 /// The passivity guard of a scene.

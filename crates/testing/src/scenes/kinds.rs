@@ -82,7 +82,7 @@ impl<C: Coupling> Kind for Rated<C> {
     type Watch = Absent;
     const FOLLOW: Option<Follow<rate::History, Self::Model>> = Some(rate::follow);
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
-        rate::Model { slow: elastoplastic(pair), rate: chosen().rate }
+        rate::Model { slow: elastoplastic(pair), rate: chosen().rate, harder: rate::Rate::NONE }
     }
 }
 

@@ -134,10 +134,7 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
 
     fn model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model {
         let surface = if B::block().data.has(Flag::Fresh) { Surface::Fresh } else { Surface::Dented };
-        K::model(pair, surface, |parameter| match parameter {
-            Parameter::TargetHardeningModulus => Self::hardening_modulus(group, values),
-            _ => Self::parameter(parameter, group, values),
-        })
+        K::model(pair, surface, |parameter| Self::parameter(parameter, group, values))
     }
 
     fn density(_group: usize) -> Option<f64> {
