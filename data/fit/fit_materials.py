@@ -40,7 +40,7 @@ MATERIALS = HERE.parent / "truth" / "materials"
 # Theoretical first yield for these Poisson's ratios over that for 0.3.
 FIRST_YIELD = {0.2: 0.825 / 0.955, 0.4: 1.110 / 0.955, 0.45: 1.198 / 0.955}
 # The knots of the law and additional ones, because the strength also changes between the knots.
-KNOTS = np.array([1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500.0, 1000.0, 2000.0])
+KNOTS = np.array([1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500.0, 700.0, 1000.0, 2000.0])
 HARDENING = {"H0.005": 0.005, "H0.02": 0.02, "H0.05": 0.05, "H0.1": 0.1}
 RATIOS = {"nu0.2": 0.2, "nu0.4": 0.4, "nu0.45": 0.45}
 NAMES = ["decay_scale", "decay_power", "decay_shift", "rise", "rise_power", "saturation", "radius_power", "dent_fall",

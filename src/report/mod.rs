@@ -24,7 +24,7 @@ use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::{digits, quantity, significant};
 use brinell_exporter::plot::{Picture, View};
 use brinell_exporter::scene::Scene;
-use brinell_exporter::scene::bodies::beside_elastic;
+use brinell_exporter::scene::bodies::accuracy;
 use brinell_exporter::validity;
 use card::Fact;
 use laws::Laws;
@@ -221,7 +221,7 @@ impl Report {
                 significant(ratio, 2)
             ));
         }
-        law.extend(beside_elastic(&alone).filter(|_| prediction.residual_indentation > 0.0));
+        law.extend(accuracy(&alone, &prediction));
         let warnings = validity::warnings(&model.pair(), alone.contacts[0].density, &prediction, impact.speed);
         let mut coupling = choice::sentences(&ways);
         coupling.extend(stability.sentence());

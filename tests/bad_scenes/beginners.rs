@@ -382,7 +382,7 @@ fn an_impactor_takes_a_material_and_a_density() {
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let by_name = predicted("material = \"mild steel\"", "[impact]\nspeed = 2.0");
     let by_numbers = predicted(
-        "youngs_modulus = 206e9\npoissons_ratio = 0.3",
+        "youngs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 300e6",
         &format!("[impact]\nspeed = 2.0\nmass = {}", by_name["mass"]),
     );
     assert_eq!(by_name["laws"], by_numbers["laws"]);

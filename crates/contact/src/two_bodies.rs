@@ -23,9 +23,9 @@ use libm::{exp, fabs, log, pow, sqrt};
 
 /// Depths `k` of each body at which the curve of two bodies has value and slope of the construction. They go
 /// on geometrically far beyond everything that bodies reach, so that hard ones come near Hertz's law everywhere.
-pub const KNOTS: [f64; 52] = {
-    let first = [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500.0, 1000.0, 2000.0];
-    let mut knots = [0.0; 52];
+pub const KNOTS: [f64; 53] = {
+    let first = [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500.0, 700.0, 1000.0, 2000.0];
+    let mut knots = [0.0; 53];
     let mut place = 0;
     while place < knots.len() {
         knots[place] = if place < first.len() { first[place] } else { 2.5 * knots[place - 1] };
@@ -177,6 +177,7 @@ impl Yielding {
     /// - area `phi_nu (Phi(k)/A(k))^-b (phi/phi_nu)^-0.8509`. The mean pressure `phi_nu^.../area` rises with the depth from the one at first
     ///   yield to that of the law itself, which is the same for all Poisson's ratios; a harder body has a smaller contact, but not a
     ///   smaller one than Hertz's.
+    #[inline(never)]
     pub fn curve(&self, law: &Brinell, k: f64) -> OwnCurve {
         let ((plain, plain_slope), (area, area_slope)) = (law.force_and_slope(k), law.area_and_slope(k));
         let Some(strength) = &self.strength else {
@@ -216,6 +217,7 @@ impl Yielding {
 
     /// The shape at this mean `pressure` \[Pa\] and its growth, probably at about the depth `like`; `None` for a pressure that the
     /// body never reaches.
+    #[inline(never)]
     fn follow(&self, law: &Brinell, (pressure, growth): (f64, Growth), like: f64) -> Option<Shape> {
         if pressure <= self.pressure {
             let part = pressure / self.pressure;
@@ -341,6 +343,7 @@ impl<'a> Construction<'a> {
 
     /// The point where the body with the larger depth is at `k >= 1` yield depths of its own: at the same `k`, the body with the lower
     /// mean pressure leads. So the point is a continuous function of `k` for any two bodies.
+    #[inline(never)]
     fn at(&self, k: f64) -> Together {
         let mean = |body: &Yielding| body.mean_pressure(k, &body.curve(self.law, k)).0;
         let lead = match &self.hard {
@@ -403,7 +406,8 @@ impl<'a> Construction<'a> {
             (log(point.indentation / indentation), point.growth)
         });
         let point = self.at(k);
-        if k < LAST { point } else { self.at(LAST * (indentation / point.indentation)) }
+        let is_within = k < LAST * (1.0 - 1e-9);
+        if is_within { point } else { self.at(LAST * (indentation / point.indentation)) }
     }
 }
 

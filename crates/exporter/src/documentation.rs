@@ -10,6 +10,7 @@ use crate::numbers::{digits, in_message};
 use crate::parameters::{self, LawConstant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
+use crate::scene::bodies::accuracy;
 use crate::scene::{Loss, Parameter, Scene};
 use crate::strength_text;
 use crate::table::{self, Causality};
@@ -205,6 +206,9 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(page, "</table>")?;
     for warning in &plan.warnings {
         writeln!(page, "<p><strong>Beyond the validity of the law:</strong> {warning}.</p>")?;
+    }
+    if let Some(accuracy) = accuracy(scene, prediction) {
+        writeln!(page, "<p>{}</p>", escape(&accuracy))?;
     }
     if let Some(shared) = plan.shared_bodies {
         writeln!(page, "<p><strong>Bodies:</strong> {shared}.</p>")?;

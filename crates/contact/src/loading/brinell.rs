@@ -80,6 +80,7 @@ impl Brinell {
     };
 
     /// The piece for `x >= 1` of the chain with these slopes, which begins at the value 1.
+    #[inline(never)]
     fn piece(&self, slopes: &[f64; PIECES], x: f64) -> Piece {
         let begins = self.knots.iter().zip(slopes);
         let ends = begins.clone().skip(1).map(|(&knot, &slope)| (knot, Some(slope)));

@@ -37,7 +37,7 @@ struct Knot {
 }
 
 /// Knots of the two bodies are not closer than this, as a ratio of their indentations.
-const NEAREST: f64 = 1.03;
+const NEAREST: f64 = 1.08;
 
 /// The construction on the bodies of a pair.
 struct Curve<'a> {
@@ -48,6 +48,7 @@ struct Curve<'a> {
 
 impl Curve<'_> {
     /// The knot with this index of one of the bodies; `None` if it is never reached.
+    #[inline(never)]
     fn knot(&self, lead: Lead, index: usize) -> Option<Knot> {
         if index == 0 && lead == self.construction.first_to_yield() {
             // exactly where Hertz's law ends
@@ -181,6 +182,13 @@ fn stands_apart(knot: &Knot, below: &Knot, above: Option<&Knot>) -> bool {
 }
 
 impl Paired {
+    /// Whether the harder body yields, too, before `indentation` \[m\].
+    pub fn harder_yields(&self, pair: &Pair, indentation: f64) -> bool {
+        let curve = self.curve(pair).filter(|curve| indentation > curve.point.indentation);
+        let hard = curve.and_then(|curve| curve.construction.along(indentation / pair.radius).depths[1]);
+        hard.is_some_and(|k| k > 1.0)
+    }
+
     /// The curve of the bodies of `pair`; `None` if it is that of the law itself.
     fn curve(&self, pair: &Pair) -> Option<Curve<'_>> {
         let construction = Construction::of(&self.law, pair, &self.bodies)?;
