@@ -67,9 +67,10 @@ impl Brinell {
     /// The constants from `data/fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
     /// the pair has. An FMU has [`Paired`](super::Paired) for any other ratio.
     ///
-    /// The last slopes correspond to a mean pressure of 3.06 S; the finite-element results have 3.01 S at `x = 1000` and 3.04 S at
-    /// 3000. The area grows by `2.62 R d` there. A rigid, perfectly plastic solid has `2.86 R d` (B. Storåkers, S. Biwa,
-    /// P.-L. Larsson, *Int. J. Solids Struct.* 34 (1997) 3061-3083): far beyond the tables, force and area are up to 8 % too low.
+    /// The last slopes correspond to a mean pressure of 3.06 S; the finite-element results have 3.01 S at `x = 1000` and 3.04 S
+    /// at 3000. The area grows by `2.62 R d` there. A rigid, perfectly plastic solid has `2.86 R d` (B. Storåkers, S. Biwa,
+    /// P.-L. Larsson, *Int. J. Solids Struct.* 34 (1997) 3061-3083): far beyond the tables, force and area are up to 8.4 %
+    /// below that.
     pub const REFERENCE: Brinell = Brinell {
         yield_pressure_factor: 1.1,
         knots: [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 700.0, 2000.0],
