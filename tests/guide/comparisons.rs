@@ -381,13 +381,13 @@ fn the_rebounds_of_two_laws_are_those_of_an_independent_computation() {
         assert!(found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < error), "{found:?}");
     };
     near(HARDNESSES.map(measured), [0.574, 0.759, 0.845], 1e-3);
-    near(Rebounds::by("brinell").restitution, [0.517, 0.684, 0.759], 2e-3);
+    near(Rebounds::by("brinell").restitution, [0.5281, 0.7001, 0.7755], 2e-4);
     near(Rebounds::by("big-alabo").restitution, [0.562, 0.808, 0.867], 2e-3);
-    near(Rebounds::by("brinell").factor.map(|factor| factor.expect("one does")), [1.29, 1.33, 1.39], 0.02);
+    near(Rebounds::by("brinell").factor.map(|factor| factor.expect("one does")), [1.209, 1.254, 1.313], 2e-3);
     // one constant for all hardnesses, and what the literature has
     let rates = rates(fitted());
     assert!(rates[2].1.worst.abs() < 0.05);
-    for ((name, rate), [low, high]) in rates.iter().zip([[1.09, 1.13], [2.9, 3.6], [1.25, 1.45]]) {
+    for ((name, rate), [low, high]) in rates.iter().zip([[1.09, 1.13], [2.9, 3.6], [1.2, 1.3]]) {
         assert!(rate.factor.iter().flatten().all(|factor| (low..high).contains(factor)), "{name}");
     }
 }

@@ -78,9 +78,10 @@ impl Curve<'_> {
         let mut count = KNOTS.partition_point(|&knot| knot <= k);
         let is_below = |index: usize| self.knot(lead, index).is_some_and(|knot| knot.indentation <= indentation);
         // the depth is known to rounding
-        if count > 0 && !is_below(count - 1) {
+        while count > 0 && !is_below(count - 1) {
             count -= 1;
-        } else if is_below(count) {
+        }
+        while is_below(count) {
             count += 1;
         }
         count
