@@ -84,7 +84,7 @@ impl Summary<'_> {
             .collect();
         let mut object = json!({
             "fmu": exported.path.to_string_lossy(), "guid": exported.guid, "size": exported.size, "library_size": exported.library_size(),
-            "imports": exported.imports(), "libraries": libraries, "made": exported.origin.as_ref().map(Origin::json), "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
+            "imports": exported.imports(), "libraries": libraries, "made": exported.origin.as_ref().map(Origin::json), "warnings": warnings, "rods": self.plan.waves, "shared_bodies": self.plan.shared_bodies,
             "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
             "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),
             "constants": constants.iter().map(|constant| &constant.name).collect::<Vec<_>>(),
@@ -132,6 +132,9 @@ impl Summary<'_> {
         }
         for warning in warnings.iter().map(String::as_str).chain(self.plan.shared_bodies) {
             line("warning", warning);
+        }
+        if let Some(note) = self.plan.waves_note() {
+            line("rods", &note);
         }
         if scene.contacts[0].name.is_some() {
             line("contacts", &scene.contact_count().to_string());

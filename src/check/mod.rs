@@ -217,7 +217,8 @@ fn write_some(f: &mut Formatter<'_>, items: &[String], line: impl Fn(&str) -> St
 impl std::fmt::Display for Outcome {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let ImpactNumbers { mass, speed } = self.impact;
-        let assumed = if self.impact_is_assumed { " (the scene names no impact: a solid ball is assumed)" } else { "" };
+        let assumed =
+            if self.impact_is_assumed { " (the scene names no impact: a solid impactor is assumed)" } else { "" };
         writeln!(f, "{}", shown(&self.fmu))?;
         let platforms = without_middle(&self.platforms.join(", "));
         writeln!(f, "  platforms: {platforms}; {} variables", self.variables)?;

@@ -190,7 +190,8 @@ impl Question<'_> {
             let prediction = one(&choice, &impact)?;
             let regime = ("regime", f64::from(prediction.regime as i32), "");
             let quantities = quantities(&prediction).into_iter().chain([regime]).collect();
-            Ok((quantities, beyond(scene, &choice, &impact, &prediction)))
+            let named: Vec<_> = values.iter().map(|(axis, value)| (axis.name, *value)).collect();
+            Ok((quantities, beyond(scene, &choice.model.pair(), impact.speed, &prediction, &named)))
         };
         let oblique = |setting| {
             move |choice: &Choice, values: &[(&Axis, f64)]| {

@@ -7,8 +7,9 @@ use brinell_exporter::layout::{paragraph, table};
 use brinell_exporter::numbers::{Prefixed, cell, prefixed, quantity};
 use brinell_exporter::predict::{PredictError, beyond, energy_lost, methods, notes, one, onsets, quantities};
 use brinell_exporter::regime;
+use brinell_exporter::rods::Waves;
 use brinell_exporter::scene::{InImpact, Scene};
-use brinell_exporter::validity;
+use brinell_exporter::validity::{self, Beyond};
 use serde_json::{Value, json};
 
 /// Predictions of one impact with several laws.
@@ -40,9 +41,14 @@ impl Answer<'_> {
         self.choices.iter().zip(&self.predictions)
     }
 
+    /// The limits of the law that its prediction exceeds.
+    fn beyond(&self, choice: &Choice, prediction: &Prediction) -> Vec<Beyond> {
+        beyond(self.scene, &choice.model.pair(), self.impact.speed, prediction, &[])
+    }
+
     /// The quantities outside the validity of the law, in words.
     fn warnings(&self, choice: &Choice, prediction: &Prediction) -> Vec<String> {
-        beyond(self.scene, choice, &self.impact, prediction).into_iter().map(validity::words).collect()
+        self.beyond(choice, prediction).into_iter().map(validity::words).collect()
     }
 
     /// The warnings for people: one warning for several laws.
@@ -50,22 +56,19 @@ impl Answer<'_> {
         if let ([choice], [prediction]) = (self.choices, self.predictions.as_slice()) {
             return self.warnings(choice, prediction);
         }
-        let beyond = |choice, prediction| beyond(self.scene, choice, &self.impact, prediction);
         let wide = self.laws().filter(|(choice, prediction)| {
-            beyond(choice, prediction).iter().any(|limit| matches!(limit, validity::Beyond::Width(_)))
+            self.beyond(choice, prediction).iter().any(|limit| matches!(limit, Beyond::Width(_)))
         });
         let wide: Vec<_> = wide.map(|(choice, _)| choice.laws.as_str()).collect();
         let mut warnings = Vec::new();
         if !wide.is_empty() {
             warnings.push(validity::too_wide(&wide));
         }
-        // the speed is the same for every law
-        let fast = self.laws().find_map(|(choice, prediction)| {
-            let limits = beyond(choice, prediction);
-            let is_fast = |limit: &validity::Beyond| matches!(limit, validity::Beyond::Speed { .. });
-            limits.into_iter().find(is_fast).map(validity::words)
-        });
-        warnings.extend(fast);
+        // speed and waves are the same for every law, and the time is that of the first
+        let limits = self.laws().flat_map(|(choice, prediction)| self.beyond(choice, prediction));
+        let limits: Vec<_> = limits.filter(|limit| !matches!(limit, Beyond::Width(_))).collect();
+        let first = (0..Beyond::KINDS).filter_map(|kind| limits.iter().copied().find(|limit| limit.rank().0 == kind));
+        warnings.extend(first.map(validity::words));
         warnings
     }
 
@@ -89,7 +92,7 @@ impl Answer<'_> {
             _ => String::new(),
         };
         let assumed =
-            if self.scene.impact_is_assumed { "; the scene names no impact: a solid ball is assumed" } else { "" };
+            if self.scene.impact_is_assumed { "; the scene names no impact: a solid impactor is assumed" } else { "" };
         let heading = format!("impact of {mass} at {speed}{fall}: {by}predicted {}{assumed}", methods(self.choices));
         let mut text = paragraph("", &heading);
         text.push('\n');
@@ -195,7 +198,7 @@ impl Answer<'_> {
         json!({
             "mass": mass, "speed": speed, "drop_height": self.fall, "laws": self.laws().map(law).collect::<Vec<_>>(),
             "notes": notes::of(self.scene, &self.impact, self.choices, &self.predictions),
-            "strength": self.strength(),
+            "strength": self.strength(), "rods": Waves::of(self.scene, self.impact.speed, &[]),
         })
     }
 }

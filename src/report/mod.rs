@@ -23,6 +23,7 @@ use brinell_exporter::layout::{json_line, paragraph, shown};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::{digits, quantity, significant};
 use brinell_exporter::plot::{Picture, View};
+use brinell_exporter::predict::beyond;
 use brinell_exporter::scene::Scene;
 use brinell_exporter::scene::bodies::accuracy;
 use brinell_exporter::validity;
@@ -222,7 +223,7 @@ impl Report {
             ));
         }
         law.extend(accuracy(&alone, &prediction));
-        let warnings = validity::warnings(&model.pair(), alone.contacts[0].density, &prediction, impact.speed);
+        let warnings = beyond(&alone, &model.pair(), impact.speed, &prediction, &[]).into_iter().map(validity::words);
         let mut coupling = choice::sentences(&ways);
         coupling.extend(stability.sentence());
         coupling.extend(oblique.as_ref().and_then(|oblique| oblique.advice.clone()));
@@ -242,7 +243,7 @@ impl Report {
                 bodies: card::facts(&alone),
                 outcome: card::outcome(&alone, &prediction),
                 law,
-                warnings: warnings.iter().map(|words| format!("Outside the law's validity: {words}.")).collect(),
+                warnings: warnings.map(|words| format!("Outside the law's validity: {words}.")).collect(),
                 coupling,
                 extremes: extremes::words(&extremes),
             },

@@ -297,6 +297,12 @@ fn an_implausible_number_causes_a_question() {
         ),
         ("speed = 1.0", "speed = 5000.0", "impact.speed = 5000 m/s; did you mean 5?"),
         ("5e-3", "5e-3\ndensity = 7.85", "impactor.density = 7.85 kg/m^3; did you mean 7850?"),
+        ("[target]", "[target]\ndensity = 7850\nlength = 500\narea = 1e-4", "target.length = 500 m; did you mean 0.5?"),
+        (
+            "[target]",
+            "[target]\ndensity = 7850\nlength = 0.5\narea = 7854",
+            "target.area = 7854 m^2; did you mean 7.854e-3?",
+        ),
     ] {
         let doubted = doubted(&with_impact().replacen(from, to, 1));
         assert!(doubted.starts_with("brinell: warning: scene.toml:"), "{doubted}");

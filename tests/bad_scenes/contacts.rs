@@ -159,6 +159,15 @@ fn half_an_elastic_impactor_of_a_contact_is_refused() {
 }
 
 #[test]
+fn half_a_rod_of_a_contact_is_refused() {
+    let needs = ["contact `left`", "target.length = 0.1 needs target.area"];
+    refused_in_left("target = { length = §0.1 }", &needs);
+    let needs = ["contact `left`", "impactor.length = 0.1 needs impactor.youngs_modulus"];
+    refused_in_left("impactor = { length = §0.1, area = 1e-4 }", &needs);
+    refused_in_left("target = { length = 0.1, area = §0 }", &["left.target.area = 0 ", "out of range"]);
+}
+
+#[test]
 fn a_target_that_the_impactor_of_a_contact_does_not_fit_is_refused() {
     let said = ["contact `left`", "target.radius = -0.004 does not fit impactor.radius = 0.005", "wider"];
     refused_in_left("target = { radius = §-4e-3 }", &said);

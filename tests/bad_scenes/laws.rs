@@ -92,8 +92,36 @@ fn losses_below_yield_that_cannot_be_are_refused() {
     refused("yield_strength = 300e6\n", &plate("plate_thickness = §0.01"), &["plate_thickness needs target.density"]);
     let curved = plate("density = 7850.0\nradius = §0.1\nplate_thickness = 0.01");
     refused("yield_strength = 300e6\n", &curved, &["target.radius = 0.1", "a plate is flat"]);
+    let rod = plate("density = 7850.0\nlength = §0.1\narea = 1e-4\nplate_thickness = 0.01");
+    refused("yield_strength = 300e6\n", &rod, &["target.length = 0.1 and target.plate_thickness", "a plate is no rod"]);
     let both = plate("density = 7850.0\nplate_thickness = §0.01\n[law]\nelastic_restitution = 0.9");
     refused("yield_strength = 300e6\n", &both, &["plate_thickness", "elastic_restitution", "one of them"]);
+}
+
+#[test]
+fn half_a_rod_and_a_rod_without_a_wave_are_refused() {
+    let steel = "5e-3\nmaterial = \"mild steel\"\n";
+    for (key, other) in [("length", "area"), ("area", "length")] {
+        let needs = [&*format!("impactor.{key} = 0.1 needs impactor.{other}"), "a rod has both"];
+        refused("5e-3", &format!("{steel}{key} = §0.1"), &needs);
+        let needs = [&*format!("target.{key} = 0.1 needs target.{other}"), "a rod has both"];
+        refused("[target]", &format!("[target]\ndensity = 7850\n{key} = §0.1"), &needs);
+    }
+    let rod = "length = §0.1\narea = 1e-4\n";
+    let needs = ["impactor.length = 0.1 needs impactor.youngs_modulus and poissons_ratio, or a material"];
+    refused("5e-3", &format!("5e-3\ndensity = 7850\n{rod}"), &needs);
+    let needs = ["target.length = 0.1 needs target.density, or a material"];
+    refused("[target]", &format!("[target]\n{rod}"), &needs);
+    for (value, said) in [("0", "0"), ("-0.1", "-0.1"), ("nan", "NaN"), ("inf", "inf"), ("1e7", "10000000")] {
+        let key = format!("impactor.length = {said} ");
+        refused("5e-3", &format!("{steel}length = §{value}\narea = 1e-4"), &[&key, "allowed is 1e-9 to 1000000 m"]);
+    }
+    for (value, said) in [("0", "0"), ("-1e-4", "-0.0001"), ("nan", "NaN"), ("inf", "inf"), ("1e13", "1e13")] {
+        let key = format!("impactor.area = {said} ");
+        refused("5e-3", &format!("{steel}length = 0.1\narea = §{value}"), &[&key, "allowed is 1e-18 to 1e12 m^2"]);
+    }
+    refused("5e-3", &format!("{steel}area = §\"5 mm2\""), &["area", "a number"]);
+    refused("5e-3", &format!("{steel}length = §5mm"), &["length = 5mm: metres, a number without unit: 5e-3"]);
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod isolation;
 mod report;
 mod report_page;
 mod report_peers;
+mod rods;
 mod strangers;
 mod two_bodies_that_yield;
 mod writing;

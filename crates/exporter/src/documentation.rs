@@ -180,7 +180,7 @@ fn coupling(scene: &Scene) -> String {
 fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     let Plan { scene, experiment, .. } = plan;
     let prediction = plan.prediction();
-    let assumed = if scene.impact_is_assumed { " (the scene gives none; a solid steel ball is assumed)" } else { "" };
+    let assumed = if scene.impact_is_assumed { " (the scene gives none; a solid impactor is assumed)" } else { "" };
     writeln!(
         page,
         "<p>{} kg at {} m/s{assumed}{}; {}:</p>\n<table>",
@@ -209,6 +209,9 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     }
     if let Some(accuracy) = accuracy(scene, prediction) {
         writeln!(page, "<p>{}</p>", escape(&accuracy))?;
+    }
+    if let Some(note) = plan.waves_note() {
+        writeln!(page, "<p>{note}</p>")?;
     }
     if let Some(shared) = plan.shared_bodies {
         writeln!(page, "<p><strong>Bodies:</strong> {shared}.</p>")?;

@@ -6,7 +6,7 @@
 //! | [`table`], [`regime`] | variables, units, materials and laws, from the folder `modelDescription` |
 //! | [`model`], [`parameters`], [`pairing`], [`law_check`], [`law_text`], [`validity`] | laws by name: their constants, which go together, where they hold |
 //! | [`scene`] | a checked scene |
-//! | [`bodies`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
+//! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
 //! | [`predict`], [`hardness`] | what an impact or a hardness test of a scene will do |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
 //! | [`constants`], [`model_description`], [`documentation`] | these files |
@@ -66,6 +66,7 @@ pub mod plot;
 pub mod prebuilt;
 pub mod predict;
 pub mod regime;
+pub mod rods;
 pub mod scene;
 pub mod signature;
 mod strength_text;

@@ -4,6 +4,8 @@ use crate::energy::{self, Energy};
 use crate::guard::Guard;
 use crate::interface::{Entry, entries};
 use crate::nominal::{Experiment, experiment};
+use crate::predict;
+use crate::rods::Waves;
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Feature};
 use crate::validity;
@@ -24,6 +26,8 @@ pub struct Plan<'a> {
     pub guard: Option<Guard>,
     /// Warnings about the validity of the law in the scene's impact on the first contact.
     pub warnings: Vec<String>,
+    /// The waves in the rods of the first contact in the scene's impact, if it has rods.
+    pub waves: Option<Waves>,
     /// A note about shared bodies, for an FMU that moves the bodies of several contacts.
     pub shared_bodies: Option<&'static str>,
     /// The limits of validity of the law on the first contact, in words.
@@ -48,6 +52,8 @@ impl Plan<'_> {
     /// The plan of the FMU of `scene`.
     pub fn of(scene: &Scene) -> Plan<'_> {
         let (model, density) = (scene.any_model(), scene.contacts[0].density);
+        let (prediction, speed) = (&scene.predictions[0], scene.impact.speed);
+        let warnings = predict::beyond(scene, &model.pair(), speed, prediction, &[]).into_iter().map(validity::words);
         let energy = energy::of(scene);
         Plan {
             scene,
@@ -56,10 +62,16 @@ impl Plan<'_> {
             makes_energy: matches!(energy, Energy::MayBeMade { .. }),
             experiment: experiment(scene),
             guard: Guard::of(scene),
-            warnings: validity::warnings(&model.pair(), density, &scene.predictions[0], scene.impact.speed),
+            warnings: warnings.collect(),
+            waves: Waves::of(scene, speed, &[]),
             shared_bodies: (scene.coupling.is_some() && scene.contact_count() > 1).then_some(SHARED_BODIES),
             valid: validity::limits(&model.pair(), density, model.valid_depth()),
         }
+    }
+
+    /// A line about the rods of the first contact, if their waves allow the force of the scene's impact.
+    pub fn waves_note(&self) -> Option<String> {
+        self.waves?.note(&self.scene.predictions[..1])
     }
 
     /// The prediction of the scene's impact on its first contact.

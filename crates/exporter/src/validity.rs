@@ -1,8 +1,8 @@
 //! The limits of validity of the laws, in words.
 
 use crate::numbers::{quantity, significant};
+use crate::rods::{self, Waves};
 use brinell_contact::Pair;
-use brinell_contact::impact::Prediction;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
 
 /// Fraction of the energy of an elastic impact that waves take, for this ratio of speed to wave speed.
@@ -19,9 +19,28 @@ pub enum Beyond {
     Width(f64),
     /// Ratio of speed to wave speed, and the fraction of energy that waves take.
     Speed { ratio: f64, waves: f64 },
+    /// The waves in rods, and the ratio of the predicted force to their largest.
+    Waves { waves: Waves, excess: f64 },
+    /// Ratio of the contact time to the time \[s\] in which a wave runs through a rod and back.
+    Short { travels: f64, last_return: f64 },
 }
 
-/// The limits that a contact of the bodies `pair` exceeds at this contact `radius` \[m\] and this closing `speed` \[m/s\]; the
+impl Beyond {
+    /// Number of kinds.
+    pub const KINDS: usize = 4;
+
+    /// The number of its kind, and a measure of how far it is exceeded.
+    pub fn rank(&self) -> (usize, f64) {
+        match *self {
+            Beyond::Width(ratio) => (0, ratio),
+            Beyond::Speed { ratio, .. } => (1, ratio),
+            Beyond::Waves { excess, .. } => (2, excess),
+            Beyond::Short { travels, .. } => (3, -travels),
+        }
+    }
+}
+
+/// The limits known to the FMU that a contact of the bodies `pair` exceeds at this contact `radius` \[m\] and this closing `speed` \[m/s\]; the
 /// `density` \[kg/m^3\] of the target may be unknown.
 pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec<Beyond> {
     let width = radius / pair.radius;
@@ -30,12 +49,6 @@ pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec
     let width = (width > LARGEST_RADIUS_RATIO).then_some(Beyond::Width(width));
     let speed = (ratio > LARGEST_SPEED_RATIO).then_some(Beyond::Speed { ratio, waves });
     width.into_iter().chain(speed).collect()
-}
-
-/// Warnings about a `prediction` for an impact at `speed` \[m/s\] of the bodies `pair`; the `density` \[kg/m^3\] of the target may
-/// be unknown. Empty if the laws are valid.
-pub fn warnings(pair: &Pair, density: Option<f64>, prediction: &Prediction, speed: f64) -> Vec<String> {
-    beyond(pair, density, prediction.max_contact_radius, speed).into_iter().map(words).collect()
 }
 
 /// The limits that each impact of a sweep exceeds, with the values of the varied quantities.
@@ -54,16 +67,13 @@ impl SweepLimits {
 
     /// A warning for each limit that some impacts exceed: how many, in which range, and the worst in words.
     pub fn warnings(&self) -> Vec<String> {
-        [false, true].into_iter().filter_map(|of_speed| self.warning(of_speed)).collect()
+        (0..Beyond::KINDS).filter_map(|kind| self.warning(kind)).collect()
     }
 
-    fn warning(&self, of_speed: bool) -> Option<String> {
-        let size = |beyond: &Beyond| match *beyond {
-            Beyond::Width(ratio) => (!of_speed).then_some(ratio),
-            Beyond::Speed { ratio, .. } => of_speed.then_some(ratio),
-        };
+    fn warning(&self, kind: usize) -> Option<String> {
         let sized = |(values, all): &'_ (Vec<f64>, Vec<Beyond>)| {
-            all.iter().find_map(|beyond| size(beyond).map(|size| (values.clone(), size, *beyond)))
+            let of_kind = all.iter().find(|beyond| beyond.rank().0 == kind)?;
+            Some((values.clone(), of_kind.rank().1, *of_kind))
         };
         let found: Vec<_> = self.impacts.iter().filter_map(sized).collect();
         let (.., worst) = found.iter().max_by(|one, other| one.1.total_cmp(&other.1))?;
@@ -109,6 +119,8 @@ pub fn words(beyond: Beyond) -> String {
                 _ => "most".into(),
             }
         ),
+        Beyond::Waves { waves, .. } => rods::too_strong(&waves),
+        Beyond::Short { travels, last_return } => rods::too_short(travels, last_return),
     }
 }
 

@@ -11,10 +11,12 @@ use crate::layout;
 use crate::model::{NoEnergy, check_energy};
 use crate::numbers::{in_message, out_of_range, quantity, significant};
 use crate::pairing;
+use crate::rods::Waves;
 use crate::scene::Scene;
 use crate::table;
 use crate::validity::{self, Beyond};
 use brinell_contact::Loading;
+use brinell_contact::Pair;
 use brinell_contact::Regime;
 use brinell_contact::impact::{Impact, Prediction};
 use std::error::Error;
@@ -108,10 +110,12 @@ pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
     Ok(layout::paragraph("  law: ", &text))
 }
 
-/// The limits of validity that this impact exceeds on the first contact of `scene`.
-pub fn beyond(scene: &Scene, choice: &Choice, impact: &Impact, prediction: &Prediction) -> Vec<Beyond> {
-    let density = scene.contacts[0].density;
-    validity::beyond(&choice.model.pair(), density, prediction.max_contact_radius, impact.speed)
+/// The limits of validity that this impact at `speed` \[m/s\] exceeds on the first contact of `scene`, which has the bodies
+/// `pair` by these values of some parameters.
+pub fn beyond(scene: &Scene, pair: &Pair, speed: f64, prediction: &Prediction, values: &[(&str, f64)]) -> Vec<Beyond> {
+    let limits = validity::beyond(pair, scene.contacts[0].density, prediction.max_contact_radius, speed);
+    let waves = Waves::of(scene, speed, values).and_then(|waves| waves.beyond(prediction));
+    limits.into_iter().chain(waves).collect()
 }
 
 /// A quantity of an impact: name, value, unit.

@@ -3,6 +3,7 @@
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::numbers::{cell, quantity};
+use crate::rods::Waves;
 use crate::scene::{Loss, Scene, bodies};
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::{AnyLoading, Hertz};
@@ -23,7 +24,9 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
     let keeps = scene.contacts[0].surface == Surface::Dented;
     let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.to_string());
     let softer = predictions.first().map(|prediction| bodies::notes(scene, prediction)).unwrap_or_default();
-    endless.into_iter().chain(loss(scene, impact)).chain(softer).chain(strength(scene, impact)).collect()
+    let rods = Waves::of(scene, impact.speed, &[]).and_then(|waves| waves.note(predictions));
+    let notes = endless.into_iter().chain(loss(scene, impact)).chain(softer).chain(strength(scene, impact));
+    notes.chain(rods).collect()
 }
 
 /// What the loss of the scene takes from an impact.

@@ -158,7 +158,8 @@ pub fn one(
     let rebound = predict(&model, &before).ok_or_else(beyond)?;
     let normal = Impact { mass, speed: before.normal };
     let prediction = choice.model.predict(&normal);
-    let beyond = prediction.map_or(Vec::new(), |prediction| super::beyond(scene, &choice, &normal, &prediction));
+    let limits = |prediction| super::beyond(scene, &choice.model.pair(), normal.speed, &prediction, &named);
+    let beyond = prediction.map_or(Vec::new(), limits);
     Ok(Outcome { setting, friction: model.friction, before, rebound, beyond })
 }
 

@@ -18,21 +18,25 @@ pub enum Body {
 }
 
 /// The properties that a contact may override.
-const IMPACTOR: [&str; 6] = [
+const IMPACTOR: [&str; 8] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
     "impactor.yield_strength",
     "impactor.hardening_modulus",
     "impactor.density",
+    "impactor.length",
+    "impactor.area",
 ];
-const TARGET: [&str; 6] = [
+const TARGET: [&str; 8] = [
     "target.radius",
     "target.youngs_modulus",
     "target.poissons_ratio",
     "target.yield_strength",
     "target.hardening_modulus",
     "target.density",
+    "target.length",
+    "target.area",
 ];
 
 impl Body {
@@ -46,8 +50,8 @@ impl Body {
         }
     }
 
-    /// The names of its properties. Its density, the last one, is not a variable of the FMU.
-    pub const fn properties(self) -> [&'static str; 6] {
+    /// The names of its properties. Density, length and area, the last ones, are not variables of the FMU.
+    pub const fn properties(self) -> [&'static str; 8] {
         match self {
             Body::Impactor => IMPACTOR,
             Body::Target => TARGET,
@@ -76,6 +80,14 @@ impl Body {
 
     pub const fn density(self) -> &'static str {
         self.properties()[5]
+    }
+
+    pub const fn length(self) -> &'static str {
+        self.properties()[6]
+    }
+
+    pub const fn area(self) -> &'static str {
+        self.properties()[7]
     }
 
     pub fn other(self) -> Body {

@@ -167,8 +167,8 @@ fn settle(mut scene: Scene, contacts: &Contacts, place: &Range<usize>) -> Result
 }
 
 /// The impact of the scene, or an impact at 1 m/s. Its mass is the given mass, otherwise the mass that the FMU knows, otherwise
-/// that of a solid ball with the radius and the density of the first contact's impactor. Without an `[impact]`, the density may
-/// be that of steel.
+/// that of the first contact's impactor, a solid ball with its radius and density, or a rod. Without an `[impact]`, the density of
+/// the ball may be that of steel.
 fn check_impact(
     given: Option<&Spanned<ImpactTable>>,
     known: Option<&Spanned<f64>>,
@@ -176,16 +176,20 @@ fn check_impact(
 ) -> Result<Impact, Mistake> {
     let number = |name| contacts.number(0, name).map(|number| *number.get_ref());
     let radius = number("impactor.radius").unwrap_or(f64::NAN);
-    let ball = |density: f64| density * 4.0 / 3.0 * PI * radius * radius * radius;
+    let rod = number(Body::Impactor.length()).zip(number(Body::Impactor.area()));
+    let solid = |density: f64| match rod {
+        Some((length, area)) => density * length * area,
+        None => density * 4.0 / 3.0 * PI * radius * radius * radius,
+    };
     let Some(table) = given else {
         let mass = known.map(|mass| *mass.get_ref());
-        let mass = mass.unwrap_or_else(|| ball(number(Body::Impactor.density()).unwrap_or(STEEL)));
+        let mass = mass.unwrap_or_else(|| solid(number(Body::Impactor.density()).unwrap_or(STEEL)));
         return Ok(Impact { mass, speed: 1.0 });
     };
     let ImpactTable { mass, speed, .. } = table.get_ref();
     let speed = positive("impact.speed", speed)?;
     let Some(given) = mass else {
-        let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(Body::Impactor.density()).map(ball)).ok_or_else(|| {
+        let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(Body::Impactor.density()).map(solid)).ok_or_else(|| {
             let message = "missing field `mass` in [impact]: give it, or the density or material of [impactor], which is then \
                            taken for a solid ball";
             Mistake(table.span(), message.into())

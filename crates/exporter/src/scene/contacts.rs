@@ -8,6 +8,7 @@ use crate::layout::shortened;
 use crate::mistake::{Mistake, check_limits, check_range};
 use crate::nearest::unknown;
 use crate::numbers::in_message;
+use crate::rods::Rod;
 use crate::table::{self, MATERIALS, VARIABLES};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::{Surface, TwoBodies};
@@ -24,6 +25,10 @@ const MOST_VALUES: usize = 10_000;
 
 /// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
 const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
+
+/// Allowed lengths of rods \[m\], and their cross-sections \[m^2\].
+const LENGTHS: RangeInclusive<f64> = 1e-9..=1e6;
+const AREAS: RangeInclusive<f64> = 1e-18..=1e12;
 
 /// A property that the scene gives elsewhere for all contacts.
 const MASS: &str = "effective_mass";
@@ -61,6 +66,8 @@ pub struct Group {
     pub surface: Surface,
     /// Density of the target \[kg/m^3\], if known. It is not a variable; it limits the speeds for which the law is valid.
     pub density: Option<f64>,
+    /// The bodies that are rods. Nothing about them is a variable; they limit the force for which the law is valid.
+    pub rods: Both<Option<Rod>>,
     /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may be the softer body.
     pub impactor_strength: Option<f64>,
 }
@@ -143,21 +150,22 @@ impl Numbers {
 
     /// Rejects a number outside its range. `owner` precedes its name in the message.
     fn check(&self, owner: &str) -> Result<(), Mistake> {
-        let is_density = |name| Body::ALL.iter().any(|body| body.density() == name);
-        self.values.iter().try_for_each(|(name, value)| match is_density(*name) {
-            true => check_range((name, "kg/m^3"), owner, value, DENSITIES),
-            false => check_limits(name, owner, value),
+        self.values.iter().try_for_each(|(name, value)| match name.rsplit('.').next() {
+            Some("density") => check_range((name, "kg/m^3"), owner, value, DENSITIES),
+            Some("length") => check_range((name, "m"), owner, value, LENGTHS),
+            Some("area") => check_range((name, "m^2"), owner, value, AREAS),
+            _ => check_limits(name, owner, value),
         })
     }
 
     /// The numbers that are parameters. The strength of an impactor that never yields is none.
     fn parameters(&self) -> Vec<Parameter> {
-        let [.., strength, hardening, density] = Body::Impactor.properties();
-        let is_parameter = |name| {
-            let never = name == density || name == Body::Target.density();
+        let [strength, hardening] = [Body::Impactor.yield_strength(), Body::Impactor.hardening_modulus()];
+        let is_parameter = |name: &'static str| {
+            let never = Body::ALL.iter().any(|body| [body.density(), body.length(), body.area()].contains(&name));
             !never && (self.impactor_may_yield || (name != strength && name != hardening))
         };
-        let parameters = self.values.iter().filter(|(name, _)| is_parameter(*name));
+        let parameters = self.values.iter().filter(|(name, _)| is_parameter(name));
         parameters.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
     }
 }
@@ -171,7 +179,7 @@ fn numbers_of(
     table: &BodyTable,
     material: Option<&(&table::Material, Range<usize>)>,
     shared: Option<&Numbers>,
-) -> Result<[NamedNumber; 6], Mistake> {
+) -> Result<[NamedNumber; 8], Mistake> {
     let or = |given: Option<Spanned<f64>>, of_material: fn(&table::Material) -> f64| {
         given.or_else(|| material.map(|(material, span)| Spanned::new(span.clone(), of_material(material))))
     };
@@ -185,6 +193,8 @@ fn numbers_of(
         or(yield_strength, |material| material.yield_strength),
         hardening_modulus,
         or(table.density.clone(), |material| material.density),
+        table.length.clone(),
+        table.area.clone(),
     ];
     let mut values = values.into_iter();
     Ok(body.properties().map(|name| (name, values.next().flatten())))
@@ -328,6 +338,7 @@ impl Contacts {
                 None => check_tables(file, &contacts)?,
             }
             contacts.check_impactor(index)?;
+            contacts.check_rods(index)?;
         }
         Ok(contacts)
     }
@@ -368,6 +379,11 @@ impl Contacts {
     fn level_of_impactor(&self, index: usize) -> &Numbers {
         let own = &self.all[index].own;
         if own.get(Body::Impactor.yield_strength()).is_some() { own } else { &self.shared }
+    }
+
+    /// The first contact whose target is a rod, and its length.
+    pub fn target_rod(&self) -> Option<(usize, &Spanned<f64>)> {
+        (0..self.all.len()).find_map(|index| Some((index, self.number(index, Body::Target.length())?)))
     }
 
     /// A contact whose target has no density.
@@ -480,6 +496,10 @@ impl Contacts {
                 own: contact.own.parameters(),
                 surface: contact.surface,
                 density: number(Body::Target.density()),
+                rods: Both::each(|body| {
+                    let [density, length, area] = [body.density(), body.length(), body.area()].map(number);
+                    Some(Rod { density: density?, length: length?, area: area? })
+                }),
                 impactor_strength: number(Body::Impactor.yield_strength()),
             }
         };
@@ -547,6 +567,34 @@ impl Contacts {
                 self.let_impactor_yield(index);
             }
         }
+    }
+
+    /// Rejects a body with one of the two numbers of a rod, and a rod without a wave.
+    fn check_rods(&self, index: usize) -> Result<(), Mistake> {
+        for body in Body::ALL {
+            let number = |name| self.number(index, name);
+            let (name, given, missing) = match (number(body.length()), number(body.area())) {
+                (None, None) => continue,
+                (Some(length), None) => (body.length(), length, format!("{}: a rod has both", body.area())),
+                (None, Some(area)) => (body.area(), area, format!("{}: a rod has both", body.length())),
+                (Some(length), _) => {
+                    let wave = [
+                        (
+                            body.youngs_modulus(),
+                            "youngs_modulus and poissons_ratio, or a material: a rigid rod has no wave",
+                        ),
+                        (body.density(), "density, or a material: the wave's speed is sqrt(E/rho)"),
+                    ];
+                    let Some((_, missing)) = wave.into_iter().find(|(name, _)| number(name).is_none()) else {
+                        continue;
+                    };
+                    (body.length(), length, format!("{}.{missing}", body.name()))
+                }
+            };
+            let message = format!("{name} = {} needs {missing}", in_message(*given.get_ref()));
+            return Err(self.wrong(index, given.span(), &message));
+        }
+        Ok(())
     }
 }
 

@@ -38,6 +38,8 @@ pub struct BodyTable {
     pub power_law: Option<Spanned<PowerLawTable>>,
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
+    pub length: Option<Spanned<f64>>,
+    pub area: Option<Spanned<f64>>,
     pub radius: Option<Spanned<f64>>,
     pub plate_thickness: Option<Spanned<f64>>,
     pub surface: Option<SurfaceName>,
@@ -57,6 +59,8 @@ struct ImpactorKeys {
     pub power_law: Option<Spanned<PowerLawTable>>,
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
+    pub length: Option<Spanned<f64>>,
+    pub area: Option<Spanned<f64>>,
     #[serde(skip)]
     plate_thickness: Option<Spanned<f64>>,
     #[serde(skip)]
@@ -174,7 +178,7 @@ pub enum MasterName {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImpactTable {
-    /// Without a mass, that of a solid ball is used if the impactor has a density.
+    /// Without a mass, that of a solid ball or of the rod is used if the impactor has a density.
     pub mass: Option<Spanned<f64>>,
     pub speed: Spanned<f64>,
     pub watch: Option<bool>,

@@ -54,6 +54,11 @@ pub fn check(file: &SceneFile, contacts: &Contacts, damped: Option<&str>) -> Res
         let message = format!("{key} has no effect on law.loading = \"{name}\", which has a damping of its own");
         return Err(Mistake(span, message));
     }
+    if let (Loss::Plate(_), Some((index, length))) = (loss, contacts.target_rod()) {
+        let message =
+            format!("target.length = {} and target.plate_thickness: a plate is no rod", in_message(*length.get_ref()));
+        return Err(Mistake(length.span(), contacts.said(index, &message)));
+    }
     if loss.needs_density()
         && let Some(index) = contacts.without_density()
     {

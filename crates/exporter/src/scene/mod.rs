@@ -82,7 +82,8 @@ pub struct Scene {
     pub impact: Impact,
     /// The prediction of the impact for the contacts of each group.
     pub predictions: Vec<Prediction>,
-    /// Whether the scene names no impact; a solid steel ball at 1 m/s is then assumed.
+    /// Whether the scene names no impact; a solid impactor at 1 m/s is then assumed, of steel if its density is
+    /// unknown.
     pub impact_is_assumed: bool,
     /// Whether the FMU warns of steps that are unstable with the mass of the impact.
     pub watches: bool,

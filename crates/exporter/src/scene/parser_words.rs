@@ -15,10 +15,7 @@ const UNSUPPORTED: [(&[&str], &str); 7] = [
     ),
     (&["tangential_stiffness", "rolling_friction", "rolling_resistance"], "[friction] has a coefficient only"),
     (&["coating", "layer", "film", "thickness"], "bodies are of one material each, and thick"),
-    (
-        &["cylinder", "shape", "geometry", "length", "cone", "plane", "mesh"],
-        "the bodies are spheres, sockets and flat surfaces",
-    ),
+    (&["cylinder", "shape", "geometry", "cone", "plane", "mesh"], "the bodies are spheres, sockets and flat surfaces"),
     (&["adhesion", "cohesion", "surface_energy", "work_of_adhesion", "stickiness"], "surfaces don't stick"),
     (&["roughness", "asperities"], "surfaces are smooth"),
     (&["temperature", "creep"], "yield strength doesn't depend on temperature"),
@@ -212,6 +209,7 @@ fn unit_of(key: &str) -> Option<&'static str> {
         "density" => return Some("kg/m^3"),
         "mass" => return Some("kg"),
         "speed" => return Some("m/s"),
+        "length" => return Some("m"),
         _ => {}
     }
     let of_key = VARIABLES.iter().find(|variable| variable.name.rsplit('.').next() == Some(key));

@@ -53,6 +53,14 @@ const DENSITY: Expected<'static> = Expected {
     why: "metals have 500 to 23000 kg/m^3, stones and glasses 2000 to 8000, polymers 800 to 2300",
 };
 
+/// From a needle to the longest piles.
+const LENGTH: Expected<'static> =
+    Expected { range: 1e-4..=100.0, unit: "m", factors: &[1e-3, 1e-6], why: "rods have 0.1 mm to 100 m" };
+
+/// From a fibre to the cross-section of a building.
+const AREA: Expected<'static> =
+    Expected { range: 1e-11..=100.0, unit: "m^2", factors: &[1e-6, 1e-4], why: "rods have 4 um to 10 m across" };
+
 /// A yield strength above this fraction of Young's modulus is implausible: no solid with defects has more.
 const STRENGTH_OVER_MODULUS: f64 = 0.2;
 
@@ -102,6 +110,8 @@ fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
         ("hardening_modulus", &table.hardening_modulus, &HARDENING),
         ("tangent_modulus", &table.tangent_modulus, &HARDENING),
         ("density", &table.density, &DENSITY),
+        ("length", &table.length, &LENGTH),
+        ("area", &table.area, &AREA),
     ];
     let name = format!("{owner}{}", body.name());
     // a wide target is nearly flat
