@@ -7,6 +7,7 @@ use brinell_testing::{command, laws, skips, unit};
 mod build_failures;
 mod commands;
 mod isolation;
+mod plates;
 mod report;
 mod report_page;
 mod report_peers;

@@ -1,13 +1,12 @@
 //! Notes that accompany the numbers of a prediction.
 
 use crate::laws::Choice;
-use crate::model::AnyModel;
 use crate::numbers::{cell, quantity};
 use crate::rods::Waves;
-use crate::scene::{Loss, Scene, bodies};
+use crate::scene::{Scene, bodies};
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::{AnyLoading, Hertz};
-use brinell_contact::losses::Loss as _;
+use brinell_contact::losses::{AnyLoss, Loss, Plate};
 use brinell_contact::{Model, Surface};
 
 /// On a surface that keeps its dents, a second impact at the same place is elastic.
@@ -25,19 +24,38 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
     let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.to_string());
     let softer = predictions.first().map(|prediction| bodies::notes(scene, prediction)).unwrap_or_default();
     let rods = Waves::of(scene, impact.speed, &[]).and_then(|waves| waves.note(predictions));
-    let notes = endless.into_iter().chain(loss(scene, impact)).chain(softer).chain(strength(scene, impact));
+    let notes =
+        endless.into_iter().chain(loss(scene, impact, predictions)).chain(softer).chain(strength(scene, impact));
     notes.chain(rods).collect()
 }
 
-/// What the loss of the scene takes from an impact.
-fn loss(scene: &Scene, impact: &Impact) -> Option<String> {
+/// Radius of the disc that has moved with the force, over `sqrt(a t)`: `2 sqrt(x)` with the first root x of `Si(x) = pi/2`.
+const FRONT: f64 = 2.775_930_59;
+
+/// How far bending waves spread in a `plate` during `time` \[s\]: radius \[m\] of the disc that has then moved with the force.
+///
+/// A blow I gives the plate the deflection `I/(4 pi sqrt(D rho h)) (pi/2 - Si(r^2/(4 a t)))`, with the bending stiffness D and
+/// `a = sqrt(D/(rho h))`. In its middle that is `alpha I`, with the mobility `alpha = 1/(8 sqrt(D rho h))` of the loss. An edge
+/// at this radius changes the motion of the middle during the contact by 5 %, one at half of it by 30 %.
+///
+/// Reference: C. Zener, *Physical Review* 59 (1941) 669-673; K. F. Graff, *Wave Motion in Elastic Solids*, 1975, chapter 4.
+fn bending_front(plate: &Plate, time: f64) -> f64 {
+    let spread = 1.0 / (8.0 * plate.factor() * plate.target.density * plate.thickness);
+    FRONT * libm::sqrt(spread * time)
+}
+
+/// What the loss of the scene takes from an impact with these `predictions`.
+fn loss(scene: &Scene, impact: &Impact, predictions: &[Prediction]) -> Option<String> {
     let loss = scene.loss?;
     let elastic = scene.with_loss(0, Model { loading: AnyLoading::Hertz(Hertz), ..scene.model() });
     let restitution = elastic.restitution(impact).map_or("unknown".into(), |restitution| cell(restitution, 1.0));
-    let more = match (loss, elastic) {
-        (Loss::Plate(_), AnyModel::Lossy(model)) => {
-            format!(" The plate gives way at {} m/s per newton.", cell(model.loss.factor(), 1.0))
-        }
+    let more = match scene.loss_with(0, &[]) {
+        Some(AnyLoss::Plate(plate)) => format!(
+            " The plate gives way at {} m/s per newton. Until the bodies part, its bending waves spread to a radius of {}: the \
+             plate must be larger, or they return from its edge during the contact.",
+            cell(plate.factor(), 1.0),
+            quantity(bending_front(&plate, predictions.iter().map(Prediction::contact_time).fold(0.0, f64::max)), "m")
+        ),
         _ => String::new(),
     };
     Some(format!(

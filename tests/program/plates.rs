@@ -1,0 +1,58 @@
+//! What `predict` says about the size of a plate that gives way, against a plate with an edge.
+
+use crate::command::{empty_folder, run};
+use std::f64::consts::PI;
+use std::fs;
+
+/// Number of modes of a plate with an edge.
+const MODES: usize = 3000;
+
+/// The roots of J0, by Newton's method.
+fn roots() -> Vec<f64> {
+    let root = |index: usize| {
+        let guess = (index as f64 + 0.75) * PI;
+        (0..4).fold(guess, |x, _| x + libm::j0(x) / libm::j1(x))
+    };
+    (0..MODES).map(root).collect()
+}
+
+/// How far the middle of a round plate has moved after half a wave of a sine of force, relative to an infinite plate.
+///
+/// The edge is supported and free of the sum of the curvatures, so that the modes are those of a membrane: J0(j r/R). `radius`
+/// is in units of sqrt(a t), with the time t of the contact and a = sqrt(D/(rho h)).
+fn motion_of_the_middle(roots: &[f64], radius: f64) -> f64 {
+    let mode = |root: &f64| {
+        let frequency = (root / radius) * (root / radius);
+        let mass = PI * radius * radius * libm::j1(*root) * libm::j1(*root);
+        PI * libm::sin(frequency) / ((PI * PI - frequency * frequency) * mass * frequency)
+    };
+    // the infinite plate moves by an eighth of the momentum
+    roots.iter().map(mode).sum::<f64>() / (0.125 * 2.0 / PI)
+}
+
+#[test]
+fn a_plate_whose_edge_is_where_predict_says_moves_almost_like_an_infinite_one() {
+    let roots = roots();
+    let (modulus, density, ratio): (f64, f64, f64) = (206e9, 7850.0, 0.3);
+    for (thickness, speed) in [(1e-3, 0.1), (4e-3, 3.0), (10e-3, 10.0)] {
+        let folder = empty_folder();
+        let text = format!(
+            "name = \"unit\"\nimpactor = {{ radius = 5e-3 }}\n\
+             target = {{ material = \"mild steel\", plate_thickness = {thickness:?} }}\n\
+             impact = {{ mass = 4.11e-3, speed = {speed:?} }}\n"
+        );
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        let answer = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
+        let notes = answer["notes"].to_string();
+        let (_, rest) = notes.split_once("bending waves spread to a radius of ").expect("the note");
+        let (number, _) = rest.split_once(" mm: the plate must be larger").expect("a radius in millimetres");
+        let law = &answer["laws"][0];
+        let time = law["loading_time"].as_f64().unwrap() + law["unloading_time"].as_f64().unwrap();
+        let spread = thickness * (modulus / (12.0 * density * (1.0 - ratio * ratio))).sqrt();
+        let front = 1e-3 * number.parse::<f64>().unwrap() / (spread * time).sqrt();
+        let [near, at, far] = [0.5, 1.0, 2.0].map(|part| motion_of_the_middle(&roots, part * front) - 1.0);
+        assert!((near.abs() - 0.3).abs() < 0.02, "an edge at half of the radius: {near}");
+        assert!((at.abs() - 0.05).abs() < 0.005, "an edge at the radius: {at}");
+        assert!(far.abs() < 0.003, "an edge at twice the radius: {far}");
+    }
+}
