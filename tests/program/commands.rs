@@ -347,3 +347,42 @@ fn a_reader_that_leaves_early_is_no_fault() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));
 }
+
+/// Masses of solid balls of 5 and 10 mm radius: 4.11 and 32.9 g; the effective mass of two equal ones is half of one.
+#[test]
+fn a_mass_that_holds_a_ball_which_may_be_free_is_called_so() {
+    let steel = "material = \"mild steel\"\n";
+    let notes = |impactor: &str, target: &str, more: &str| {
+        let folder = empty_folder();
+        let text = format!(
+            "name = \"unit\"\n[impactor]\nradius = 5e-3\n{impactor}[target]\n{target}[impact]\nspeed = 1.0\n{more}"
+        );
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json()["notes"].to_string()
+    };
+    let ball = |radius: &str| format!("radius = {radius}\n{steel}");
+    let numbers = "radius = 5e-3\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n";
+    let rod = "length = 0.1\narea = 1e-4\n";
+    for (impactor, target, more, instead) in [
+        (steel, &*ball("5e-3"), "", "give the effective mass, for solid bodies of this size and density 2.055 g."),
+        (steel, &ball("5e-3"), "mass = 4.11e-3\n", "this size and density 2.055 g."),
+        (steel, &ball("10e-3"), "mass = 4.11e-3\n", "this size and density 3.654 g."),
+        // of the same density, as far as the scene says
+        (steel, numbers, "", "this size and density 2.055 g."),
+        ("", numbers, "mass = 4.11e-3\n", "this size and equal density 0.5 times the impactor's mass."),
+        (&format!("{steel}{rod}"), &format!("{steel}{rod}"), "", "this size and density 39.25 g."),
+    ] {
+        let notes = notes(impactor, target, more);
+        assert!(notes.contains("only if the target is held") && notes.contains(instead), "{instead}: {notes}");
+    }
+    for (target, more) in [
+        (steel.to_string(), ""),
+        (ball("-20e-3"), ""),
+        (ball("20e-3"), ""),
+        (ball("5e-3"), "mass = 2.055e-3\n"),
+        (ball("5e-3"), "[coupling]\neffective_mass = 4.11e-3\n"),
+    ] {
+        let notes = notes(steel, &target, more);
+        assert!(!notes.contains("effective mass"), "{target}{more}: {notes}");
+    }
+}

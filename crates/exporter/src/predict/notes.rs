@@ -26,7 +26,7 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
     let rods = Waves::of(scene, impact.speed, &[]).and_then(|waves| waves.note(predictions));
     let notes =
         endless.into_iter().chain(loss(scene, impact, predictions)).chain(softer).chain(strength(scene, impact));
-    notes.chain(rods).collect()
+    notes.chain(rods).chain(bodies::held(scene, impact.mass)).collect()
 }
 
 /// Radius of the disc that has moved with the force, over `sqrt(a t)`: `2 sqrt(x)` with the first root x of `Si(x) = pi/2`.

@@ -1,7 +1,8 @@
 //! The bodies of each contact, which of the two yields, and values that follow from them alone.
 
-use super::Scene;
+use super::{Group, Scene};
 use crate::numbers::{cell, quantity};
+use crate::rods::Rod;
 use brinell_contact::impact::Prediction;
 use brinell_contact::loading::{AnyLoading, Paired};
 use brinell_contact::losses::Loss;
@@ -237,6 +238,44 @@ pub fn exchanged(softer: Body) -> String {
          (yield_strength) instead of a rate or a power law"
     )
 }
+
+/// A note on an impact of this `mass` \[kg\] whose target is a ball or a rod that may be free to move, unless the mass is the
+/// effective one, or the target is so heavy that this is the impactor's own. The mass of a `[coupling]` is called effective
+/// there.
+pub fn held(scene: &Scene, mass: f64) -> Option<String> {
+    let Group { density, impactor_density, rods, .. } = &scene.contacts[0];
+    let volume = |rod: Option<Rod>, radius: f64| match rod {
+        Some(rod) => rod.length * rod.area,
+        None => 4.0 / 3.0 * PI * radius * radius * radius,
+    };
+    let [impactor, target] = scene.bodies_with(0, &[]);
+    let volumes = [volume(rods.impactor, impactor.radius), volume(rods.target, target.radius)];
+    // a half-space and a socket have no volume
+    if scene.coupling.is_some() || !(volumes[1] > 0.0 && volumes[1] < f64::INFINITY) {
+        return None;
+    }
+    let known = impactor_density.or(*density);
+    let densities = [*impactor_density, *density].map(|density| density.or(known).unwrap_or(1.0));
+    let [own, other] = [0, 1].map(|body| densities[body] * volumes[body]);
+    let (effective, part) = (own * other / (own + other), other / (own + other));
+    if part > HEAVY || known.is_some_and(|_| mass * HEAVY < effective) {
+        return None;
+    }
+    let instead = match known {
+        Some(_) => format!("for solid bodies of this size and density {}", quantity(effective, "kg")),
+        None => {
+            format!("for solid bodies of this size and equal density {} times the impactor's mass", cell(part, 1.0))
+        }
+    };
+    Some(format!(
+        "The mass of {} is taken as the effective mass m1 m2/(m1 + m2) of both bodies: it is that of the impactor only if the \
+         target is held. If the target is free to move, give the effective mass, {instead}.",
+        quantity(mass, "kg")
+    ))
+}
+
+/// Part of the impactor's mass in the effective mass from which on the target counts as held.
+const HEAVY: f64 = 0.95;
 
 /// Mean pressure over yield strength at first yield of the law `brinell`, rounded down: the harder body is elastic below.
 const FIRST_YIELD: f64 = 1.07;

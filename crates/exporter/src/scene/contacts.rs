@@ -66,6 +66,8 @@ pub struct Group {
     pub surface: Surface,
     /// Density of the target \[kg/m^3\], if known. It is not a variable; it limits the speeds for which the law is valid.
     pub density: Option<f64>,
+    /// Density of the impactor \[kg/m^3\], if known. It is not a variable; the mass follows from it.
+    pub impactor_density: Option<f64>,
     /// The bodies that are rods. Nothing about them is a variable; they limit the force for which the law is valid.
     pub rods: Both<Option<Rod>>,
     /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may be the softer body.
@@ -496,6 +498,7 @@ impl Contacts {
                 own: contact.own.parameters(),
                 surface: contact.surface,
                 density: number(Body::Target.density()),
+                impactor_density: number(Body::Impactor.density()),
                 rods: Both::each(|body| {
                     let [density, length, area] = [body.density(), body.length(), body.area()].map(number);
                     Some(Rod { density: density?, length: length?, area: area? })
