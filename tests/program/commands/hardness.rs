@@ -139,3 +139,37 @@ fn a_slow_test_takes_the_strength_under_a_slow_load() {
         }
     }
 }
+
+/// The table of dents near first yield in the guide: a ten-thousandth of the ball's diameter, as in ISO 76.
+#[test]
+fn the_smallest_dents_of_bearings_are_those_of_the_guide() {
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/limits.md")).unwrap();
+    let (_, table) = page.split_once("| strength S of both |").expect("the table");
+    let steel = "youngs_modulus = 206e9\npoissons_ratio = 0.3\n";
+    let (radius, modulus) = (5e-3_f64, 0.5 * 206e9 / (1.0 - 0.3 * 0.3));
+    // Hertz: the load of a largest pressure
+    let load = |pressure: f64| (std::f64::consts::PI * pressure).powi(3) * radius * radius / (6.0 * modulus * modulus);
+    let mut rows = 0;
+    for row in table.lines().skip(2).take_while(|line| line.starts_with('|')) {
+        let numbers: Vec<f64> =
+            row.split('|').filter_map(|cell| cell.split_whitespace().next()?.parse().ok()).collect();
+        let [strength, first, rating, ratio, dent] = numbers[..] else { panic!("{row}") };
+        let of = |strength: f64| {
+            let steel = format!("{steel}yield_strength = {strength}e9\n");
+            format!("name = \"test\"\n[impactor]\nradius = {radius:?}\n{steel}[target]\n{steel}")
+        };
+        let text = of(strength);
+        let under = |pressure: f64| tested(&text, &["--force", &load(1e9 * pressure).to_string()])["laws"][0].clone();
+        let depth = |pressure: f64| number(&under(pressure)["dent_depth"]);
+        assert!(depth(0.98 * first) == 0.0 && depth(1.02 * first) > 0.0, "{row}");
+        assert!(depth(0.98 * rating) < 1e-6 && depth(1.02 * rating) > 1e-6, "{row}: {}", depth(rating));
+        close(1e6 * depth(4.2), dent, 0.03);
+        let at_first_yield = radius * (0.75 * std::f64::consts::PI * 1.1 * strength * 1e9 / modulus).powi(2);
+        close(number(&under(rating)["max_indentation"]) / at_first_yield, ratio, 0.05);
+        let answer = tested(&of(1.01 * strength), &["--force", &load(4.2e9).to_string()]);
+        let change = 1.0 - number(&answer["laws"][0]["dent_depth"]) / depth(4.2);
+        assert!((0.035..0.125).contains(&change), "one percent of the strength changes the dent by {change}");
+        rows += 1;
+    }
+    assert_eq!(rows, 3);
+}
