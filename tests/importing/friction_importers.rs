@@ -76,6 +76,7 @@ fn other_importers_get_the_forces_of_the_c_interface() {
     let importers = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers");
     let expected = reference();
     assert!(expected.iter().any(|[force, ..]| *force == 0.0) && expected.iter().any(|[_, one, _]| *one < 0.0));
+    let most = expected.iter().map(|[force, ..]| *force).fold(0.0, f64::max);
     for tool in ["libcosim", "ecos"] {
         let python = match every_importer::interpreter_of(tool) {
             Ok(python) => python,
@@ -93,12 +94,10 @@ fn other_importers_get_the_forces_of_the_c_interface() {
         let found: Vec<[f64; 3]> = serde_json::from_slice(&fs::read(&result).expect("a result")).expect("forces");
         assert_eq!(found.len(), expected.len(), "{tool}");
         for (step, (found, expected)) in found.into_iter().zip(&expected).enumerate() {
-            for (found, expected) in found.into_iter().zip(expected) {
-                // the clock of a tool may count nanoseconds
-                assert!(
-                    (found - expected).abs() <= 1e-9 * (1.0 + expected.abs()),
-                    "{tool}, step {step}: {found:e} {expected:e}"
-                );
+            for (part, (found, expected)) in found.into_iter().zip(expected).enumerate() {
+                // the clock of a tool may count nanoseconds, and one may decide which of the springs are merged
+                let allowed = if part == 0 { 1e-9 * (1.0 + expected.abs()) } else { 1e-4 * most };
+                assert!((found - expected).abs() <= allowed, "{tool}, step {step}: {found:e} {expected:e}");
             }
         }
     }

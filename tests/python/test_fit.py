@@ -391,10 +391,10 @@ def test_where_a_parameter_would_be_negative_the_others_are_fitted_again_with_ze
     both = brinell.fit(scene(300e6), points, BOTH)
     alone = brinell.fit(scene(300e6), points)
     strength, hardening = both.estimates
-    close(strength.value, 294.3e6, 1e-4)
-    close(strength.interval, (286.36e6, 302.51e6), 1e-4)
-    close(both.rms, 3.867, 2e-4)
-    close(both.rms_of_scene, 6.289, 2e-4)
+    close(strength.value, 294.22e6, 1e-4)
+    close(strength.interval, (286.09e6, 302.57e6), 1e-4)
+    close(both.rms, 3.9295, 2e-4)
+    close(both.rms_of_scene, 6.386, 2e-4)
     assert (hardening.value, hardening.interval) == (0.0, None)
     assert "the best value would be negative" in hardening.doubt
     close(strength.value, alone.estimates[0].value, 1e-6)
@@ -610,12 +610,12 @@ def test_the_record_of_a_machine_is_fitted_with_all_that_is_said_of_it(scene):
     path.write_text(path.read_text().replace("radius = 5e-3", "radius = 0.5e-3"))
     found = brinell.fit(path, RECORD, BOTH)
     strength, hardening = found.estimates
-    close(strength.value, 960.96e6, 1e-4)
-    close(found.rms, 62.84, 1e-3)
+    close(strength.value, 918.27e6, 1e-4)
+    close(found.rms, 60.67, 1e-3)
     assert hardening.value == 0.0 and (found.count, found.left_out) == (18, 36)
     for words in (
         "36 points without a greater depth",
-        "at 16 of 18 points",
-        "Durbin-Watson 0.19",
+        "at 17 of 18 points",
+        "Durbin-Watson 0.20",
     ):
         assert words in str(found)

@@ -274,17 +274,17 @@ impl Loading for Paired {
         }
     }
 
+    /// The body with the larger depth is in its second region, and fully plastic, where its law alone would be.
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
         let Some(curve) = self.curve(pair) else { return self.law.regime(pair, indentation) };
-        // the body with the larger depth is in its second region, and fully plastic, where its law alone would be
+        if indentation < curve.point.indentation {
+            return Regime::Elastic;
+        }
         let [soft, hard] = curve.construction.along(indentation / pair.radius).depths;
         let depth = largest(soft.unwrap_or(0.0), hard.unwrap_or(0.0));
-        let reaches = |k: f64| depth >= k;
-        if indentation < curve.point.indentation {
-            Regime::Elastic
-        } else if !reaches(self.law.second_region) {
+        if depth < self.law.second_region {
             Regime::ElastoplasticFirst
-        } else if !reaches(self.law.fully_plastic) {
+        } else if depth < self.law.fully_plastic {
             Regime::ElastoplasticSecond
         } else {
             Regime::FullyPlastic
