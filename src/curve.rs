@@ -57,6 +57,10 @@ pub struct Arguments {
     pub amplitude: Vec<f64>,
 }
 
+/// The finite elements of `--truth` are those of another pair of bodies.
+const OTHER_BODIES: &str = "the finite elements are those of a rigid body with the effective modulus of this scene: beside an elastic \
+                            impactor the contact is harder (guide: which body yields)";
+
 /// The command: draws or tabulates the curve for these arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let output = arguments.output.as_deref();
@@ -73,6 +77,9 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
     let doubt = arguments.to.and_then(|to| plausible::of_depth("to", to, radius));
     doubt.into_iter().chain(too_wide(&choices, largest)).for_each(|warning| crate::messages::warn(&warning));
+    if arguments.truth && scene.two_bodies(0).other.modulus < f64::INFINITY {
+        crate::messages::warn(OTHER_BODIES);
+    }
     if arguments.tangential {
         return tangential(&scene, &choices, largest, arguments, as_json);
     }

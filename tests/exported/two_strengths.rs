@@ -2,9 +2,10 @@
 
 use crate::command::{empty_folder, run};
 use crate::loaded::{Instance, OK, Unit};
-use crate::physics::Random;
+use crate::physics::{Random, brinell};
 use crate::refusal::refused_text;
 use crate::unit;
+use brinell_contact::{Body, Loading, OtherBody, Pair, TwoBodies};
 use serde_json::Value;
 use std::fs;
 
@@ -103,6 +104,55 @@ fn two_equal_balls_that_harden_have_the_force_of_one_on_a_rigid_plane() {
             two.get(&places[..1], &mut forces[..1]);
             one.get(&places[1..], &mut forces[1..]);
             assert!((forces[0] - forces[1]).abs() <= 1e-9 * forces[0].max(1.0), "{strength} {hardening}: {forces:?}");
+        }
+    }
+}
+
+/// Young's modulus, Poisson's ratio, yield strength and hardening modulus of any metal.
+fn any_metal(random: &mut Random) -> [f64; 4] {
+    let modulus = between(random, 2e10, 6e11);
+    let hardening = if random.next() < 0.3 { 0.0 } else { modulus * between(random, 1e-4, 0.1) };
+    [modulus, 0.2 + 0.25 * random.next(), modulus / between(random, 100.0, 2000.0), hardening]
+}
+
+#[test]
+fn an_fmu_has_the_force_of_the_law_for_any_two_bodies_that_are_set() {
+    let text = |metal: &str| format!("{metal}hardening_modulus = 2e9\n");
+    let unit = load("any_two_bodies", &scene(&text(STEEL), &text(ALUMINIUM), "brinell", ""));
+    let mut random = Random(23);
+    for _ in 0..60 {
+        let metals = [any_metal(&mut random), any_metal(&mut random)];
+        let names = ["youngs_modulus", "poissons_ratio", "yield_strength", "hardening_modulus"];
+        let named: Vec<_> = ["impactor", "target"]
+            .iter()
+            .zip(metals)
+            .flat_map(|(body, metal)| names.map(|name| format!("{body}.{name}")).into_iter().zip(metal))
+            .collect();
+        let values: Vec<_> = named.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let instance = unit.ready_with(&values);
+        let [impactor, target] = [(5e-3, metals[0]), (f64::INFINITY, metals[1])]
+            .map(|(radius, [youngs_modulus, poissons_ratio, ..])| Body { radius, youngs_modulus, poissons_ratio });
+        let (soft, hard) = if metals[0][2] < metals[1][2] { (0, 1) } else { (1, 0) };
+        let bodies = [impactor, target];
+        let pair = Pair::new(&impactor, &target, metals[soft][2]).expect("they touch");
+        let other = OtherBody {
+            modulus: bodies[hard].plane_strain_modulus(),
+            poissons_ratio: bodies[hard].poissons_ratio,
+            yield_strength: metals[hard][2],
+            hardening_modulus: metals[hard][3],
+        };
+        let pair = pair.yielding_in(&bodies[soft], metals[soft][2]);
+        let model = brinell(pair, TwoBodies { hardening_modulus: metals[soft][3], other });
+        let (rate, force) = (instance.real_of("indentation_rate"), instance.real_of("force"));
+        let (mut time, mut depth) = (0.0, 0.0);
+        for _ in 0..20 {
+            let (speed, step) = (between(&mut random, 0.1, 10.0), 1e-7);
+            assert_eq!((instance.set(&[rate], &[speed]), instance.step(time, step)), (OK, OK));
+            (time, depth) = (time + step, depth + speed * step);
+            let mut shown = [0.0];
+            assert_eq!(instance.get(&[force], &mut shown), OK);
+            let expected = model.loading.segment(&pair, depth).force(depth);
+            assert!((shown[0] - expected).abs() <= 1e-11 * expected, "{metals:?} at {depth}: {shown:?} {expected}");
         }
     }
 }
