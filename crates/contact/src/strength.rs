@@ -89,6 +89,9 @@ impl Strength {
 
     /// `1 + (1/s0 - 1) w/(1 + w)`, and its derivative with respect to `k`.
     fn fading(&self, k: f64, scale: f64, power: f64) -> (f64, f64) {
+        if self.ease == 0.0 {
+            return (1.0, 0.0);
+        }
         let (raised, unit) = (pow(k, power), self.shift / scale);
         let w = unit * (raised - 1.0);
         let slope = unit * power * raised / k;

@@ -189,11 +189,16 @@ impl Yielding {
             (t * t * t * force, slope / (t * t * t * force))
         };
         let (force, growth) = of(strength.at(k));
-        let (soft, soft_growth) = of(strength.of_poissons_ratio(k));
-        let exponent = 1.0 - log(strength.at_yield()) / log(law.plastic_pressure());
+        // without an effect of the Poisson's ratio, the law itself
+        let has_ratio = strength.at_yield() != 1.0;
+        let (soft, soft_growth) =
+            if has_ratio { of(strength.of_poissons_ratio(k)) } else { (plain, plain_slope / plain) };
+        let exponent = if has_ratio { 1.0 - log(strength.at_yield()) / log(law.plastic_pressure()) } else { 1.0 };
+        let whole = area / plain;
+        let raised = if has_ratio { pow(whole, exponent) } else { whole };
         let area_growth =
             soft_growth - exponent * (plain_slope / plain - area_slope / area) - RADIUS_POWER * (growth - soft_growth);
-        let area = soft * pow(area / plain, exponent) * area_factor(force / soft);
+        let area = soft * raised * area_factor(force / soft);
         let (area, area_slope) = if area < k { (k, 1.0) } else { (area, area * area_growth) };
         OwnCurve { force, force_slope: force * growth, area, area_slope }
     }
@@ -223,25 +228,27 @@ impl Yielding {
             let part = pressure / self.pressure;
             return Some(Shape { k: Some(part * part), ..elastic_shape(self.modulus, (pressure, growth)) });
         }
-        let at = |k: f64| self.mean_pressure(k, &self.curve(law, k));
-        let there = at(like).0;
+        let at = |k: f64| {
+            let curve = self.curve(law, k);
+            (self.mean_pressure(k, &curve), curve)
+        };
+        let ((there, own), curve) = at(like);
         // equal bodies have the same depth, to the last bit
-        let k = if there == pressure {
-            like
+        let (k, (own, curve)) = if there == pressure {
+            (like, (own, curve))
         } else {
-            let (low, high) = if there > pressure { (1.0, like) } else { (like, LAST) };
-            if there < pressure && at(LAST).0 < pressure {
+            let bounds = if there > pressure { (1.0, like) } else { (like, LAST) };
+            if there < pressure && at(LAST).0.0 < pressure {
                 return None;
             }
             // Hertz's depth for this pressure is below the right one, from where Newton's method does not overshoot
             let part = pressure / self.pressure;
-            search((low, high), part * part, |k| {
-                let (found, growth) = at(k);
-                (log(found / pressure), growth)
+            search(bounds, part * part, |k| {
+                let ((found, growth), curve) = at(k);
+                (log(found / pressure), growth, (growth, curve))
             })
         };
-        let own = at(k).1;
-        Some(self.shape(k, &self.curve(law, k), quotient(growth, own, own > FLAT, 1.0)))
+        Some(self.shape(k, &curve, quotient(growth, own, own > FLAT, 1.0)))
     }
 }
 
@@ -251,16 +258,19 @@ fn elastic_shape(modulus: f64, (pressure, growth): (f64, Growth)) -> Shape {
     Shape { radius: (radius, growth), relative_depth: (radius, growth), k: None }
 }
 
-/// The depth `k` between two bounds at which `excess` is zero. It rises; its value and its growth are asked for. Newton's method over
-/// `ln k` within a bracket, starting at `guess`.
-fn search((low, high): (f64, f64), guess: f64, excess: impl Fn(f64) -> (f64, Growth)) -> f64 {
+/// The depth `k` between two bounds at which `excess` is zero, and what else it gives there. It rises; its value and its growth are
+/// asked for. Newton's method over `ln k` within a bracket, starting at `guess`.
+fn search<T>((low, high): (f64, f64), guess: f64, excess: impl Fn(f64) -> (f64, Growth, T)) -> (f64, T) {
     let (mut low, mut high) = (log(low), log(high));
     let mut guess = largest(low, smallest(log(guess), high));
     let mut last = f64::INFINITY;
-    for _ in 0..GUESSES {
-        let (beyond, slope) = excess(exp(guess));
-        if fabs(beyond) < EXACT {
-            break;
+    let mut left = GUESSES;
+    loop {
+        let k = exp(guess);
+        let (beyond, slope, found) = excess(k);
+        left -= 1;
+        if fabs(beyond) < EXACT || left == 0 {
+            return (k, found);
         }
         *(if beyond < 0.0 { &mut low } else { &mut high }) = guess;
         // no division by a slope whose step would leave the bracket
@@ -270,13 +280,11 @@ fn search((low, high): (f64, f64), guess: f64, excess: impl Fn(f64) -> (f64, Gro
         let halves = fabs(beyond) < 0.5 * last;
         let next = if next > low && next < high && halves { next } else { 0.5 * (low + high) };
         last = fabs(beyond);
-        let change = fabs(next - guess);
-        guess = next;
-        if change < CLOSE {
-            break;
+        if fabs(next - guess) < CLOSE {
+            return (k, found);
         }
+        guess = next;
     }
-    exp(guess)
 }
 
 /// The sum of two terms, each with its growth.
@@ -343,11 +351,11 @@ impl<'a> Construction<'a> {
 
     /// The point where the body with the larger depth is at `k >= 1` yield depths of its own: at the same `k`, the body with the lower
     /// mean pressure leads. So the point is a continuous function of `k` for any two bodies.
-    #[inline(never)]
     fn at(&self, k: f64) -> Together {
         let mean = |body: &Yielding| body.mean_pressure(k, &body.curve(self.law, k)).0;
+        // below its first yield a body does not lead
         let lead = match &self.hard {
-            Some(hard) if mean(hard) < mean(&self.soft) => Lead::Hard,
+            Some(hard) if hard.pressure < mean(&self.soft) && mean(hard) < mean(&self.soft) => Lead::Hard,
             _ => Lead::Soft,
         };
         // the leader has the lower mean pressure, which the other one reaches
@@ -398,14 +406,17 @@ impl<'a> Construction<'a> {
         Together { force, ratio, radius: point.radius * sqrt(area_factor(ratio)), ..point }
     }
 
-    /// The point of the construction at `indentation` over `R`. Beyond the last knot, the larger depth is proportional to it.
+    /// The point of the construction at `indentation` over `R`, at first yield or beyond. Beyond the last knot, the larger depth is
+    /// proportional to it.
+    #[inline(never)]
     pub fn along(&self, indentation: f64) -> Together {
-        let guess = largest(indentation / self.at(1.0).indentation, 1.0);
-        let k = search((1.0, LAST), guess, |k| {
+        // a depth in yield depths of the pair, if it were that of a body
+        let share = self.soft.modulus / self.hard_modulus;
+        let first = self.soft.depth * (1.0 + share) * (1.0 + share);
+        let (k, point) = search((1.0, LAST), largest(indentation / first, 1.0), |k| {
             let point = self.at(k);
-            (log(point.indentation / indentation), point.growth)
+            (log(point.indentation / indentation), point.growth, point)
         });
-        let point = self.at(k);
         let is_within = k < LAST * (1.0 - 1e-9);
         if is_within { point } else { self.at(LAST * (indentation / point.indentation)) }
     }

@@ -73,34 +73,39 @@ impl Curve<'_> {
         })
     }
 
-    /// The number of knots of a body at or below `indentation` \[m\], which is beyond first yield, where its depth is about `k`.
-    fn knots_below(&self, lead: Lead, indentation: f64, k: f64) -> usize {
+    /// The knots of a body at or below and above `indentation` \[m\], which is beyond first yield, and the number of those below. The
+    /// depth of the body there is about `k`.
+    fn neighbours(&self, lead: Lead, indentation: f64, k: f64) -> (Option<Knot>, Option<Knot>, usize) {
         let mut count = KNOTS.partition_point(|&knot| knot <= k);
-        let is_below = |index: usize| self.knot(lead, index).is_some_and(|knot| knot.indentation <= indentation);
+        let is_below = |knot: &Knot| knot.indentation <= indentation;
+        let mut below = count.checked_sub(1).and_then(|index| self.knot(lead, index));
+        let mut above = self.knot(lead, count);
         // the depth is known to rounding
-        while count > 0 && !is_below(count - 1) {
+        while count > 0 && !below.is_some_and(|knot| is_below(&knot)) {
             count -= 1;
+            (above, below) = (below, count.checked_sub(1).and_then(|index| self.knot(lead, index)));
         }
-        while is_below(count) {
+        while above.is_some_and(|knot| is_below(&knot)) {
             count += 1;
+            (below, above) = (above, self.knot(lead, count));
         }
-        count
+        (below, above, count)
     }
 
     /// The knots at or below and above `indentation` \[m\], which is beyond first yield. They are those of the softer body, and between
     /// them those of the harder one that are not too near.
     fn around(&self, indentation: f64) -> (Knot, Option<Knot>) {
         let [soft, hard] = self.construction.along(indentation / self.radius).depths;
-        let count = self.knots_below(Lead::Soft, indentation, soft.unwrap_or(0.0));
-        let below = count.checked_sub(1).and_then(|index| self.knot(Lead::Soft, index));
-        let (below, above) = (below.unwrap_or(self.yield_knot()), self.knot(Lead::Soft, count));
+        let (below, above, _) = self.neighbours(Lead::Soft, indentation, soft.unwrap_or(0.0));
+        let below = below.unwrap_or(self.yield_knot());
         let Some(hard) = hard.filter(|_| above.is_none_or(|above| above.hard_depth > 1.0)) else {
             return (below, above);
         };
-        let count = self.knots_below(Lead::Hard, indentation, hard);
-        let own = |index: usize| self.knot(Lead::Hard, index).filter(|knot| stands_apart(knot, &below, above.as_ref()));
-        let lower = count.checked_sub(1).and_then(own).or_else(|| count.checked_sub(2).and_then(own));
-        let upper = own(count).or_else(|| own(count + 1));
+        let apart = |knot: &Knot| stands_apart(knot, &below, above.as_ref());
+        let (lower, upper, count) = self.neighbours(Lead::Hard, indentation, hard);
+        let own = |index: usize| self.knot(Lead::Hard, index).filter(apart);
+        let lower = lower.filter(apart).or_else(|| count.checked_sub(2).and_then(own));
+        let upper = upper.filter(apart).or_else(|| own(count + 1));
         (lower.unwrap_or(below), upper.or(above))
     }
 
