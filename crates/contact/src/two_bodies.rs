@@ -155,9 +155,9 @@ pub struct Together {
     pub stiffness: f64,
     /// Contact radius over `R`.
     pub radius: f64,
-    /// Depths of the softer and of the harder body in yield depths of their own; `None` for one that stays elastic.
+    /// Depths in yield depths of their own, of the body that yields first and of the other one; `None` for one that stays elastic.
     pub depths: [Option<f64>; 2],
-    /// The part of the gap's curvature `1/R` that the softer body takes on: `R/R_1`.
+    /// The part of the gap's curvature `1/R` that the body of the pair takes on: `R/R_i`.
     pub share: f64,
 }
 
@@ -296,21 +296,23 @@ fn sum((one, one_growth): (f64, Growth), (other, other_growth): (f64, Growth)) -
 /// One of the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lead {
-    /// The softer one.
+    /// The one that yields first.
     Soft,
-    /// The harder one.
+    /// The other one.
     Hard,
 }
 
 /// The construction for a pair.
 pub struct Construction<'a> {
     law: &'a Brinell,
-    /// The softer body.
+    /// The body that yields first.
     pub soft: Yielding,
-    /// Plane-strain modulus of the harder body \[Pa\].
+    /// Plane-strain modulus of the other one \[Pa\].
     pub hard_modulus: f64,
-    /// The harder body, if it may yield.
+    /// The other one, if it may yield.
     pub hard: Option<Yielding>,
+    /// Whether the body that yields first is not the one that the pair describes: it is stronger, but has a lower Poisson's ratio.
+    is_exchanged: bool,
 }
 
 impl<'a> Construction<'a> {
@@ -329,20 +331,18 @@ impl<'a> Construction<'a> {
         let hard = may_yield.then(|| {
             Yielding::new(law, other.modulus, other.poissons_ratio, other.yield_strength, other.hardening_modulus)
         });
-        Some(Construction { law, soft, hard_modulus: other.modulus, hard })
-    }
-
-    /// The body that yields first.
-    pub fn first_to_yield(&self) -> Lead {
-        match self.hard {
-            Some(hard) if hard.pressure < self.soft.pressure => Lead::Hard,
-            _ => Lead::Soft,
-        }
+        // by the pressure and not by the strength: the knots are those of the body that yields first, whatever is set
+        Some(match hard {
+            Some(first) if first.pressure < soft.pressure => {
+                Construction { law, soft: first, hard_modulus: soft.modulus, hard: Some(soft), is_exchanged: true }
+            }
+            _ => Construction { law, soft, hard_modulus: other.modulus, hard, is_exchanged: false },
+        })
     }
 
     /// The yield point of the pair, where the first of the two yields.
     pub fn yield_point(&self, pair: &Pair) -> YieldPoint {
-        let pressure = self.hard.map_or(self.soft.pressure, |hard| smallest(hard.pressure, self.soft.pressure));
+        let pressure = self.soft.pressure;
         let standard = pair.yield_point(self.law.yield_pressure_factor);
         let ratio = pressure / (self.law.yield_pressure_factor * pair.yield_strength);
         let indentation = ratio * ratio * standard.indentation;
@@ -391,7 +391,7 @@ impl<'a> Construction<'a> {
             stiffness: force / indentation * ((pressure_growth + 2.0 * radius_growth) / growth),
             radius,
             depths: [soft.k, hard.k],
-            share: soft.radius.0 / radius,
+            share: if self.is_exchanged { hard.radius.0 / radius } else { soft.radius.0 / radius },
         })
     }
 

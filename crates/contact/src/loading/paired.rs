@@ -32,7 +32,7 @@ struct Knot {
     indentation: f64,
     force: f64,
     stiffness: f64,
-    /// Depth of the harder body in yield depths of its own; zero if it stays elastic.
+    /// Depth of the body that yields second in yield depths of its own; zero if it stays elastic.
     hard_depth: f64,
 }
 
@@ -50,7 +50,7 @@ impl Curve<'_> {
     /// The knot with this index of one of the bodies; `None` if it is never reached.
     #[inline(never)]
     fn knot(&self, lead: Lead, index: usize) -> Option<Knot> {
-        if index == 0 && lead == self.construction.first_to_yield() {
+        if index == 0 && lead == Lead::Soft {
             // exactly where Hertz's law ends
             return Some(self.yield_knot());
         }
@@ -92,8 +92,8 @@ impl Curve<'_> {
         (below, above, count)
     }
 
-    /// The knots at or below and above `indentation` \[m\], which is beyond first yield. They are those of the softer body, and between
-    /// them those of the harder one that are not too near.
+    /// The knots at or below and above `indentation` \[m\], which is beyond first yield. They are those of the body that yields
+    /// first, and between them those of the other one that are not too near.
     fn around(&self, indentation: f64) -> (Knot, Option<Knot>) {
         let [soft, hard] = self.construction.along(indentation / self.radius).depths;
         let (below, above, _) = self.neighbours(Lead::Soft, indentation, soft.unwrap_or(0.0));
@@ -118,8 +118,7 @@ impl Curve<'_> {
         }
         let mut work = elastic.work(self.point.indentation);
         let (mut begin, mut below) = (self.yield_knot(), self.yield_knot());
-        let first = usize::from(self.construction.first_to_yield() == Lead::Soft);
-        let (mut soft, mut hard) = (first, 0);
+        let (mut soft, mut hard) = (1, 0);
         let mut above = self.knot(Lead::Soft, soft);
         for _ in 0..MOST_SEGMENTS {
             let end = match self.next_hard(&below, above.as_ref(), &begin, &mut hard) {
@@ -141,8 +140,8 @@ impl Curve<'_> {
         work
     }
 
-    /// The next knot of the harder body, from its number `hard` on, that lies beyond the knot `begin` and stands apart from those of the
-    /// softer one `below` and `above`.
+    /// The next knot of the body that yields second, from its number `hard` on, that lies beyond the knot `begin` and stands apart from
+    /// those of the first one, `below` and `above`.
     fn next_hard(&self, below: &Knot, above: Option<&Knot>, begin: &Knot, hard: &mut usize) -> Option<Knot> {
         if above.is_some_and(|above| above.hard_depth <= 1.0) {
             return None;
@@ -181,15 +180,15 @@ impl Curve<'_> {
     }
 }
 
-/// Whether a knot of the harder body is not too near to those of the softer one `below` and `above`.
+/// Whether a knot of the body that yields second is not too near to those of the first one, `below` and `above`.
 fn stands_apart(knot: &Knot, below: &Knot, above: Option<&Knot>) -> bool {
     let (from, to) = (NEAREST * below.indentation, NEAREST * knot.indentation);
     knot.indentation > from && above.is_none_or(|above| to < above.indentation)
 }
 
 impl Paired {
-    /// Whether the harder body yields, too, before `indentation` \[m\].
-    pub fn harder_yields(&self, pair: &Pair, indentation: f64) -> bool {
+    /// Whether both bodies yield before `indentation` \[m\].
+    pub fn both_yield(&self, pair: &Pair, indentation: f64) -> bool {
         let curve = self.curve(pair).filter(|curve| indentation > curve.point.indentation);
         let hard = curve.and_then(|curve| curve.construction.along(indentation / pair.radius).depths[1]);
         hard.is_some_and(|k| k > 1.0)

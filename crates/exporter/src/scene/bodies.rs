@@ -334,8 +334,7 @@ impl Partner {
         let ratio = model.pair.yielding_modulus() / two.other.modulus;
         if (strengths - 1.0).abs() <= EQUAL {
             Partner::Alike
-        } else if takes_both(&model.loading)
-            .is_some_and(|law| law.harder_yields(&model.pair, prediction.max_indentation))
+        } else if takes_both(&model.loading).is_some_and(|law| law.both_yield(&model.pair, prediction.max_indentation))
         {
             Partner::Yields
         } else if ratio < NEARLY_RIGID {
