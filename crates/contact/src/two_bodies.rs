@@ -11,8 +11,8 @@
 //!
 //! No number is fitted. The curve is exact for a rigid partner, for two bodies that are equally strong and do not harden, for equal
 //! bodies, and at first yield; below, it is Hertz's. Against finite elements of two bodies (`data/truth/pairs`): force within 1.2 %,
-//! restitution within 0.9 %, dent within 2 %; within 3 %, 1.1 % and 4.5 % where a body yields that is three times as stiff as an
-//! elastic partner.
+//! restitution within 0.9 %, dent within 2 %; within 1.7 %, 1.1 % and 4.5 % where a body yields that is three times as stiff as an
+//! elastic partner. Small strain.
 
 use crate::loading::Brinell;
 use crate::material::{Pair, YieldPoint};
@@ -174,9 +174,9 @@ impl Yielding {
     /// The curve of the body at `k >= 1` yield depths. With hardening, or another Poisson's ratio than 0.3:
     ///
     /// - force `phi = t^3 Phi(k/t^2)`, and `phi_nu` with the part of `t` that the Poisson's ratio has;
-    /// - area `phi_nu (Phi(k)/A(k))^-b (phi/phi_nu)^-0.8509`. The mean pressure `phi_nu^.../area` rises with the depth from the one at first
-    ///   yield to that of the law itself, which is the same for all Poisson's ratios; a harder body has a smaller contact, but not a
-    ///   smaller one than Hertz's.
+    /// - area `phi_nu (Phi(k)/A(k))^-b (phi/phi_nu)^-0.8509`, with `b = 1 - ln s0/ln p` and the mean pressure `p` of deep dents over
+    ///   that at first yield, for a ratio of 0.3. So the mean pressure rises with the depth, to one that is the same for all Poisson's
+    ///   ratios. A harder body has a smaller contact, but not a smaller one than Hertz's.
     #[inline(never)]
     pub fn curve(&self, law: &Brinell, k: f64) -> OwnCurve {
         let ((plain, plain_slope), (area, area_slope)) = (law.force_and_slope(k), law.area_and_slope(k));
