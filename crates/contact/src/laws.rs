@@ -54,6 +54,11 @@ macro_rules! laws {
 
         $(
             impl $any {
+                /// Whether the law takes each of two bodies for itself.
+                pub fn takes_both_bodies(&self) -> bool {
+                    matches!(self, $($any::$plain(_) | $any::$paired(_))|+)
+                }
+
                 /// The law for these two bodies, with their Poisson's ratios; `None` for a law that has no such form.
                 pub fn paired(self, bodies: TwoBodies) -> Option<$any> {
                     match self {

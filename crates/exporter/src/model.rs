@@ -115,7 +115,7 @@ impl AnyModel {
 
     /// The model with what its law needs to know of these bodies; `None` if it needs nothing beside their pair.
     pub fn with_bodies(&self, bodies: TwoBodies) -> Option<AnyModel> {
-        let model = self.elastoplastic().filter(|model| model.loading.paired(bodies).is_some())?;
+        let model = self.elastoplastic().filter(|model| model.loading.takes_both_bodies())?;
         Some(self.with_plastic(paired(model, bodies)))
     }
 

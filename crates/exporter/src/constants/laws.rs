@@ -2,7 +2,6 @@
 
 use super::literal;
 use crate::scene::{Loss, Rate, Scene};
-use brinell_contact::TwoBodies;
 use std::fmt::Debug;
 
 /// Number of segments in which the springs of a contact with friction in one direction remember its past.
@@ -27,8 +26,7 @@ pub fn of(scene: &Scene) -> String {
     let unloading = scene.plain_unloading();
     // the forms for two bodies
     let of_loading = if scene.is_paired() { "paired" } else { "plain" };
-    let has_form = unloading.paired(TwoBodies::under_rigid(0.0)).is_some();
-    let of_unloading = if has_form { of_loading } else { "plain" };
+    let of_unloading = if unloading.takes_both_bodies() { of_loading } else { "plain" };
     // an elastic contact never unloads by another law; the compiler leaves out whatever is here
     let unloading = scene.unloading.map_or("ContactRadius {}".into(), |_| value_of(&unloading));
     let (of_unloading, unloading) = match unloading.strip_prefix("Guarded(") {

@@ -10,8 +10,8 @@ use crate::nearest::unknown;
 use crate::numbers::in_message;
 use crate::rods::Rod;
 use crate::table::{self, MATERIALS, VARIABLES};
+use brinell_contact::Surface;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::{Surface, TwoBodies};
 use std::collections::HashSet;
 use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
@@ -415,7 +415,7 @@ impl Contacts {
         };
         let given = [Body::Target, Body::Impactor].into_iter().find_map(of);
         let Some((body, index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
-        let laws = AnyLoading::ALL.iter().filter(|(_, law)| law.paired(TwoBodies::under_rigid(0.0)).is_some());
+        let laws = AnyLoading::ALL.iter().filter(|(_, law)| law.takes_both_bodies());
         let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
         let message = format!(
             "the hardening of the {} has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"",

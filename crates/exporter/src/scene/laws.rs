@@ -10,7 +10,6 @@ use crate::nearest::unknown;
 use crate::pairing;
 use crate::parameters;
 use crate::table;
-use brinell_contact::TwoBodies;
 use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::loading::{AnyLoading, Hertz};
 use brinell_contact::unloading::AnyUnloading;
@@ -35,7 +34,7 @@ impl SceneLaws {
             None => check_loading(law, contacts)?,
         };
         let elastic = matches!(loading.1, AnyLoading::Hertz(_));
-        let hardens = damped.is_none() && loading.1.paired(TwoBodies::under_rigid(0.0)).is_some();
+        let hardens = damped.is_none() && loading.1.takes_both_bodies();
         contacts.check_rate(elastic)?;
         contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
         let unloading = check_unloading(law, loading.0, elastic)?;
@@ -51,7 +50,7 @@ impl SceneLaws {
 
     /// Whether the law takes each of the two bodies for itself, so that the harder one may yield too.
     pub fn takes_both_bodies(&self) -> bool {
-        self.damped.is_none() && self.loading.1.paired(TwoBodies::under_rigid(0.0)).is_some()
+        self.damped.is_none() && self.loading.1.takes_both_bodies()
     }
 
     /// The name of the law whose force depends on the rate.

@@ -17,6 +17,7 @@ mod strength;
 
 use crate::mistake::{self, Mistake, SceneError};
 use crate::model::{AnyModel, paired};
+use brinell_contact::Model;
 use brinell_contact::damped::{self, AnyDamped};
 use brinell_contact::hardening::Hardening;
 use brinell_contact::impact::{Impact, Prediction};
@@ -24,7 +25,6 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::Factors;
 use brinell_contact::strength::POISSONS_RATIO;
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Model, TwoBodies};
 use std::path::Path;
 use toml::Spanned;
 
@@ -218,7 +218,7 @@ impl Scene {
     /// Whether the FMU needs the form of its laws for two bodies: the impactor is not rigid, a body hardens, or the target has a
     /// Poisson's ratio that is another than that of the laws, or may be.
     pub fn is_paired(&self) -> bool {
-        let form = self.damped.is_none() && self.loading.1.paired(TwoBodies::under_rigid(0.0)).is_some();
+        let form = self.damped.is_none() && self.loading.1.takes_both_bodies();
         let mut all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
         let needs = |parameter: &Parameter| match parameter.name {
             "target.hardening_modulus" | "impactor.youngs_modulus" => true,
