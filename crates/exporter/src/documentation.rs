@@ -1,5 +1,6 @@
 //! `documentation/index.html` of an FMU: overview, law with a picture, variables.
 
+use crate::accuracy::accuracy;
 use crate::bodies;
 use crate::energy;
 use crate::friction_text;
@@ -10,7 +11,6 @@ use crate::numbers::{digits, in_message};
 use crate::parameters::{self, LawConstant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
-use crate::scene::bodies::accuracy;
 use crate::scene::{Loss, Parameter, Scene};
 use crate::strength_text;
 use crate::table::{self, Causality};

@@ -7,7 +7,7 @@
 //! | [`model`], [`parameters`], [`pairing`], [`law_check`], [`law_text`], [`validity`] | laws by name: their constants, which go together, where they hold |
 //! | [`scene`] | a checked scene |
 //! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
-//! | [`predict`], [`hardness`] | what an impact or a hardness test of a scene will do |
+//! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
 //! | [`constants`], [`model_description`], [`documentation`] | these files |
 //! | [`platform`], [`signature`], [`symbols`], [`package`], [`prebuilt`] | libraries as bytes, and the archive |
@@ -37,6 +37,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod accuracy;
 pub mod bodies;
 pub mod columns;
 pub mod constants;

@@ -1,5 +1,6 @@
 //! Notes that accompany the numbers of a prediction.
 
+use crate::accuracy;
 use crate::laws::Choice;
 use crate::numbers::{cell, quantity};
 use crate::rods::Waves;
@@ -22,7 +23,7 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
         .any(|(choice, prediction)| choice.model.elastoplastic().is_some() && prediction.residual_indentation > 0.0);
     let keeps = scene.contacts[0].surface == Surface::Dented;
     let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.to_string());
-    let softer = predictions.first().map(|prediction| bodies::notes(scene, prediction)).unwrap_or_default();
+    let softer = predictions.first().map(|prediction| accuracy::notes(scene, prediction)).unwrap_or_default();
     let rods = Waves::of(scene, impact.speed, &[]).and_then(|waves| waves.note(predictions));
     let notes =
         endless.into_iter().chain(loss(scene, impact, predictions)).chain(softer).chain(strength(scene, impact));
