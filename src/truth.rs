@@ -1,5 +1,16 @@
 //! The finite-element curves of the folder `data/truth/`, for comparison.
 
+use brinell_contact::TwoBodies;
+use brinell_contact::strength::POISSONS_RATIO;
+use brinell_exporter::scene::Scene;
+
+/// Whether the bodies of `scene` are those of the curves: a rigid one on one that does not harden, with a Poisson's ratio of 0.3.
+pub fn is_of(scene: &Scene) -> bool {
+    let TwoBodies { hardening_modulus, other } = scene.two_bodies(0);
+    let is_plain = hardening_modulus == 0.0 && scene.model().pair.poissons_ratio == POISSONS_RATIO;
+    is_plain && other.modulus == f64::INFINITY
+}
+
 /// The truth's unit of indentation is the yield point for this mean pressure over the yield strength.
 pub const YIELD_PRESSURE_FACTOR: f64 = 1.1;
 

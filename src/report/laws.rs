@@ -1,11 +1,9 @@
 //! The comparison of the laws for one impact: the spread is what a user can't know without a measurement.
 
 use crate::truth;
-use brinell_contact::TwoBodies;
 use brinell_contact::impact::Prediction;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::material::{Pair, YieldPoint};
-use brinell_contact::strength::POISSONS_RATIO;
 use brinell_exporter::laws::{Choice, UnknownLaw, choose};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::percent;
@@ -153,17 +151,10 @@ impl Laws {
     }
 }
 
-/// Whether the bodies of `scene` are those of the finite elements: a rigid one on one that does not harden, with a Poisson's ratio of 0.3.
-fn is_like_finite_elements(scene: &Scene) -> bool {
-    let TwoBodies { hardening_modulus, other } = scene.two_bodies(0);
-    let is_plain = hardening_modulus == 0.0 && scene.model().pair.poissons_ratio == POISSONS_RATIO;
-    is_plain && other.modulus == f64::INFINITY
-}
-
 /// The quantities of the impact of `scene` by finite elements, where they reach.
 fn by_finite_elements(scene: &Scene, unit: &YieldPoint) -> [Option<f64>; QUANTITIES.len()] {
     let impact = truth::impact(scene.impact.energy() / (unit.force * unit.indentation));
-    let Some(impact) = impact.filter(|_| is_like_finite_elements(scene)) else {
+    let Some(impact) = impact.filter(|_| truth::is_of(scene)) else {
         return [None; QUANTITIES.len()];
     };
     let rebound = impact.rebound.as_ref();
