@@ -117,7 +117,8 @@ impl Case {
         let words = beyond.iter().map(|beyond| match beyond {
             Beyond::Width(_) => format!("a/R above {LARGEST_RADIUS_RATIO}"),
             Beyond::Speed { .. } => format!("speed above {LARGEST_SPEED_RATIO} of the wave speed"),
-            Beyond::Waves { .. } | Beyond::Short { .. } => unreachable!("no FMU knows that a body is a rod"),
+            // an FMU does not know that a body is a rod
+            other => validity::words(*other),
         });
         let words: Vec<_> = words.chain(law_gains.then(|| "the law gains energy".into())).collect();
         self.width = Some(radius / pair.radius);

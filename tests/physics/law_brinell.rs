@@ -130,6 +130,8 @@ fn recovery_dissipation_and_restitution_are_within_one_percent_of_the_truth() {
             ("dissipation", (1.0 - ratio) / (1.0 - returned) - 1.0),
             ("restitution", (ratio / returned).sqrt() - 1.0),
         ];
+        let dent = path.lower / unit.indentation / (x_m - recovery) - 1.0;
+        assert!(dent.abs() < 6e-3, "dent from {x_m}: {:.3} %", 100.0 * dent);
         for (name, error) in errors {
             assert!(error.abs() < 0.01, "{name} from {x_m}: {:.3} %", 100.0 * error);
         }

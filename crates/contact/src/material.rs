@@ -78,8 +78,7 @@ impl Pair {
 
     /// The same pair where `body`, one of the two, is the softer one and yields at `yield_strength` \[Pa\].
     ///
-    /// Radius and modulus stay the same: with small strains the normal contact doesn't depend on which of the bodies yields, as
-    /// long as the other one stays elastic.
+    /// Radius and modulus stay the same. The other body is that of [`TwoBodies`](crate::TwoBodies), for a law that looks at it.
     ///
     /// Reference: Johnson 1985, sections 4.2 and 6.2.
     pub fn yielding_in(self, body: &Body, yield_strength: f64) -> Pair {

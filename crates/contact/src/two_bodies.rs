@@ -353,11 +353,12 @@ impl<'a> Construction<'a> {
     /// mean pressure leads. So the point is a continuous function of `k` for any two bodies.
     fn at(&self, k: f64) -> Together {
         let mean = |body: &Yielding| body.mean_pressure(k, &body.curve(self.law, k)).0;
-        // below its first yield a body does not lead
-        let lead = match &self.hard {
-            Some(hard) if hard.pressure < mean(&self.soft) && mean(hard) < mean(&self.soft) => Lead::Hard,
-            _ => Lead::Soft,
+        let leads = |hard: &Yielding| {
+            let soft = mean(&self.soft);
+            // below its first yield a body does not lead
+            hard.pressure < soft && mean(hard) < soft
         };
+        let lead = if self.hard.as_ref().is_some_and(leads) { Lead::Hard } else { Lead::Soft };
         // the leader has the lower mean pressure, which the other one reaches
         self.led_by(lead, k).unwrap_or(Together::NOWHERE)
     }

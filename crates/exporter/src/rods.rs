@@ -44,13 +44,6 @@ pub struct Waves {
 /// compact body is 3 % too high in an elastic impact, and at 2 it is 15 %, for a rod with a free end.
 const COMPACT: f64 = 5.0;
 
-impl Rod {
-    /// Mass \[kg\].
-    pub fn mass(&self) -> f64 {
-        self.density * self.area * self.length
-    }
-}
-
 impl Waves {
     /// The waves in the rods of the first contact of `scene` at this closing `speed` \[m/s\], with other values for some of the
     /// parameters. `None` without rods.

@@ -72,7 +72,6 @@ impl Paired {
     fn own(&self, strength: &Strength, k: f64, phi: f64) -> (f64, f64) {
         let u = strength.of_dent(k);
         let scaled = k / (u * u);
-        // at the strength of the dent, a body may not have yielded
         let ((force, _), (area, _)) = (LOADING.force_and_slope(scaled), LOADING.area_and_slope(scaled));
         let plain = (1.0 - self.shape(scaled, force) / 3.0) * force / sqrt(area);
         let recovery = k - (k - u * u * plain) / strength.dent_divisor();
