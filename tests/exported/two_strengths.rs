@@ -1,4 +1,4 @@
-//! Scenes whose impactor may yield, too: the softer body yields.
+//! Scenes whose impactor may yield, too: the softer body yields first.
 
 use crate::command::{empty_folder, run};
 use crate::loaded::{Instance, OK, Unit};

@@ -47,7 +47,7 @@ fn friction(scene: &Scene) -> String {
     }
 }
 
-/// The models of the strain rate: of the target, and of the impactor if it may be the softer body.
+/// The models of the strain rate: of the target, and of the impactor if it may yield.
 fn rate(scene: &Scene) -> String {
     let of = |rate: Option<Rate>| match rate.unwrap_or(Rate::NONE) {
         Rate::JohnsonCook { c, reference_rate } => {

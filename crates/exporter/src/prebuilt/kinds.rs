@@ -18,7 +18,7 @@ pub struct LibraryKind {
     master: Option<Master>,
     /// Whether it can warn of unstable steps.
     watches: bool,
-    /// Whether the impactor may be the softer body.
+    /// Whether the impactor may yield.
     two_strengths: bool,
 }
 

@@ -70,7 +70,7 @@ pub struct Group {
     pub impactor_density: Option<f64>,
     /// The bodies that are rods. Nothing about them is a variable; they limit the force for which the law is valid.
     pub rods: Both<Option<Rod>>,
-    /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may be the softer body.
+    /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may yield.
     pub impactor_strength: Option<f64>,
 }
 
@@ -122,7 +122,7 @@ struct Numbers {
     values: Vec<(&'static str, Spanned<f64>)>,
     /// Whether the scene gives the strength of the impactor at this level, rather than by a material.
     gives_impactor_strength: bool,
-    /// Whether the impactor may be the softer body, so that its strength is a parameter.
+    /// Whether the impactor may yield, so that its strength is a parameter.
     impactor_may_yield: bool,
 }
 

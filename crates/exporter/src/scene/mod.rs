@@ -228,7 +228,7 @@ impl Scene {
         form && all.any(needs)
     }
 
-    /// Whether the impactor of a contact may be the softer body.
+    /// Whether the impactor of a contact may yield.
     pub fn has_two_strengths(&self) -> bool {
         let mut all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
         all.any(|parameter| parameter.name == Body::Impactor.yield_strength())
