@@ -59,7 +59,8 @@ pub struct Arguments {
 
 /// The finite elements of `--truth` are those of another pair of bodies.
 const OTHER_BODIES: &str = "the dots are finite elements of a rigid sphere on a body that does not harden, with a Poisson's ratio of \
-                            0.3. They are drawn for the effective modulus and the softer strength of this scene, whose bodies are others";
+                            0.3, at small strain. They are drawn for the effective modulus and the softer strength of this scene, whose \
+                            bodies are others or whose contact is wide";
 
 /// The command: draws or tabulates the curve for these arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
@@ -77,7 +78,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
     let doubt = arguments.to.and_then(|to| plausible::of_depth("to", to, radius));
     doubt.into_iter().chain(too_wide(&choices, largest)).for_each(|warning| crate::messages::warn(&warning));
-    if arguments.truth && !truth::is_of(&scene) {
+    if arguments.truth && !truth::is_of(&scene, largest) {
         crate::messages::warn(OTHER_BODIES);
     }
     if arguments.tangential {

@@ -124,10 +124,10 @@ impl Doubt {
             }
             Doubt::WiderThanBall => "the dent is wider than the ball: there is no Brinell hardness".into(),
             Doubt::BeyondLaw => format!(
-                "a/R{ratio} is beyond the validity of the law, which ends at {LARGEST_RADIUS_RATIO}: a sphere is no longer a \
+                "a/R{ratio} is beyond the validity of the laws, which ends at {LARGEST_RADIUS_RATIO}: a sphere is no longer a \
                  paraboloid there, and strains are large. Standard Brinell tests, with dents of {least} to {most} ball diameters, \
-                 are mostly beyond it. By finite elements with large deformation the hardness is 2 to 6 % lower at a/R = 0.3, \
-                 and 9 % at 0.5 (E*/S = 100)"
+                 are mostly beyond it. Only brinell is corrected for large strain: up to 0.36 its hardness is within 1.5 % of finite \
+                 elements with large deformation, up to 0.5 if E*/S is 100"
             ),
             Doubt::Small => format!(
                 "a/R{ratio}: the dent is smaller than ISO 6506-1 admits, which is {least} to {most} ball diameters"

@@ -4,11 +4,20 @@ use brinell_contact::TwoBodies;
 use brinell_contact::strength::POISSONS_RATIO;
 use brinell_exporter::scene::Scene;
 
-/// Whether the bodies of `scene` are those of the curves: a rigid one on one that does not harden, with a Poisson's ratio of 0.3.
-pub fn is_of(scene: &Scene) -> bool {
-    let TwoBodies { hardening_modulus, other } = scene.two_bodies(0);
-    let is_plain = hardening_modulus == 0.0 && scene.model().pair.poissons_ratio == POISSONS_RATIO;
-    is_plain && other.modulus == f64::INFINITY
+/// Ratio of contact radius to effective radius up to which the curves hold: their strain is small. Large deformation then changes the
+/// force by 0.2 % on a plane, and by 2 % on a sphere.
+const WIDEST: f64 = 0.1;
+
+/// `a^2/(R d)` of deep dents.
+const SPREAD: f64 = 2.6;
+
+/// Whether the bodies of `scene` are those of the curves up to this `indentation` \[m\]: a rigid one on one that does not harden, with a
+/// Poisson's ratio of 0.3, and a contact that stays small.
+pub fn is_of(scene: &Scene, indentation: f64) -> bool {
+    let TwoBodies { hardening_modulus, other, .. } = scene.two_bodies(0);
+    let pair = scene.model().pair;
+    let is_plain = hardening_modulus == 0.0 && pair.poissons_ratio == POISSONS_RATIO;
+    is_plain && other.modulus == f64::INFINITY && SPREAD * indentation < WIDEST * WIDEST * pair.radius
 }
 
 /// The truth's unit of indentation is the yield point for this mean pressure over the yield strength.

@@ -154,7 +154,7 @@ impl Laws {
 /// The quantities of the impact of `scene` by finite elements, where they reach.
 fn by_finite_elements(scene: &Scene, unit: &YieldPoint) -> [Option<f64>; QUANTITIES.len()] {
     let impact = truth::impact(scene.impact.energy() / (unit.force * unit.indentation));
-    let Some(impact) = impact.filter(|_| truth::is_of(scene)) else {
+    let Some(impact) = impact.filter(|impact| truth::is_of(scene, impact.largest.x * unit.indentation)) else {
         return [None; QUANTITIES.len()];
     };
     let rebound = impact.rebound.as_ref();

@@ -142,7 +142,8 @@ fn an_fmu_has_the_force_of_the_law_for_any_two_bodies_that_are_set() {
             hardening_modulus: metals[hard][3],
         };
         let pair = pair.yielding_in(&bodies[soft], metals[soft][2]);
-        let model = brinell(pair, TwoBodies { hardening_modulus: metals[soft][3], other });
+        let curvature = bodies[soft].curvature(&bodies[hard]);
+        let model = brinell(pair, TwoBodies { hardening_modulus: metals[soft][3], curvature, other });
         let (rate, force) = (instance.real_of("indentation_rate"), instance.real_of("force"));
         let (mut time, mut depth) = (0.0, 0.0);
         for _ in 0..20 {

@@ -20,7 +20,7 @@ fn yielding() -> impl Iterator<Item = &'static str> {
 /// A loading law on `pair` with the unloading law of scenes that name none, in the form for other materials.
 fn model(name: &str, pair: Pair, hardening_modulus: f64) -> AnyModel {
     let (loading, unloading) = (physics::loading(name), physics::unloading(partner(name)));
-    let bodies = TwoBodies { hardening_modulus, other: physics::elastic_partner(&pair) };
+    let bodies = TwoBodies { hardening_modulus, curvature: 0.0, other: physics::elastic_partner(&pair) };
     Model {
         pair,
         loading: loading.paired(bodies).unwrap_or(loading),
@@ -84,8 +84,18 @@ impl Errors {
 
 /// The errors of a loading law up to a thousand yield indentations, on the bodies of the default scene.
 fn errors(name: &str) -> Errors {
-    Errors::of(&model(name, mild(), 0.0), &numbers("data/truth/loading.csv", ""), (0.0, f64::INFINITY))
+    Errors::of(&model(name, at_small_strain(name), 0.0), &numbers("data/truth/loading.csv", ""), (0.0, f64::INFINITY))
 }
+
+/// The mild pair; for the law `brinell`, which is corrected for large strain, with so weak a target that the strain is small as in the
+/// finite elements.
+fn at_small_strain(name: &str) -> Pair {
+    let pair = mild();
+    if name == "brinell" { Pair { yield_strength: SMALL_STRAIN * pair.yield_strength, ..pair } } else { pair }
+}
+
+/// With strengths times this, the strain is small.
+const SMALL_STRAIN: f64 = 1e-6;
 
 /// The largest jump of the force, relative to it.
 fn largest_jump(name: &str) -> f64 {
@@ -149,7 +159,11 @@ fn materials() -> String {
         ("nu0.45", 0.45, 0.0, &["10", "82.5"]),
     ] {
         let youngs_modulus = mild().modulus * (1.0 - poissons_ratio * poissons_ratio);
-        let model = model("brinell", Pair { poissons_ratio, youngs_modulus, ..mild() }, hardening * youngs_modulus);
+        let model = model(
+            "brinell",
+            Pair { poissons_ratio, youngs_modulus, ..at_small_strain("brinell") },
+            hardening * youngs_modulus,
+        );
         let curve = numbers(&format!("data/truth/materials/loading_{file}.csv"), "");
         let errors = Errors::of(&model, &curve, (1.2, 500.0));
         let (mut unloading, mut restitution, mut dent) = (0.0, 0.0, 0.0);
@@ -222,6 +236,13 @@ fn device(name: &str, yield_strength: f64) -> Prediction {
     predict(&on_steel(name, BALL, yield_strength), &IMPACT).expect("within the range of every law")
 }
 
+/// The same impact by the law `brinell` at small strain. Strengths and speeds are so small that the indentation in yield indentations is
+/// the same: the energy of yielding grows with the fifth power of the strength.
+fn small_device(yield_strength: f64) -> Prediction {
+    let impact = Impact { speed: SMALL_STRAIN.powf(2.5) * IMPACT.speed, ..IMPACT };
+    predict(&on_steel("brinell", BALL, SMALL_STRAIN * yield_strength), &impact).expect("within the range of every law")
+}
+
 /// The measured restitution of the device D.
 fn measured(vickers: f64) -> f64 {
     let points = numbers("data/experiment/leeb_restitution.csv", "");
@@ -246,7 +267,7 @@ impl Rebounds {
         Rebounds {
             restitution,
             worst: errors.fold(0.0, larger),
-            factor: HARDNESSES.map(|vickers| factor(name, vickers)),
+            factor: HARDNESSES.map(|vickers| factor(|strength| device(name, strength), vickers)),
         }
     }
 
@@ -269,9 +290,9 @@ impl Rebounds {
     }
 }
 
-/// The factor of HV/3 with which a law gives the measured rebound, if one between a half and four does.
-fn factor(name: &str, vickers: f64) -> Option<f64> {
-    let excess = |factor: f64| device(name, factor * strength_of(vickers)).restitution - measured(vickers);
+/// The factor of HV/3 with which a law of impacts gives the measured rebound, if one between a half and four does.
+fn factor(by: impl Fn(f64) -> Prediction, vickers: f64) -> Option<f64> {
+    let excess = |factor: f64| by(factor * strength_of(vickers)).restitution - measured(vickers);
     let (mut low, mut high) = (0.5, 4.0);
     if !(excess(low) < 0.0 && excess(high) > 0.0) {
         return None;
@@ -381,9 +402,10 @@ fn the_rebounds_of_two_laws_are_those_of_an_independent_computation() {
         assert!(found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < error), "{found:?}");
     };
     near(HARDNESSES.map(measured), [0.574, 0.759, 0.845], 1e-3);
-    near(Rebounds::by("brinell").restitution, [0.5281, 0.7001, 0.7755], 2e-4);
+    near(HARDNESSES.map(|vickers| small_device(strength_of(vickers)).restitution), [0.5281, 0.7001, 0.7755], 2e-4);
     near(Rebounds::by("big-alabo").restitution, [0.562, 0.808, 0.867], 2e-3);
-    near(Rebounds::by("brinell").factor.map(|factor| factor.expect("one does")), [1.209, 1.254, 1.313], 2e-3);
+    let factors = HARDNESSES.map(|vickers| factor(small_device, vickers).expect("one does"));
+    near(factors, [1.209, 1.254, 1.313], 2e-3);
     // one constant for all hardnesses, and what the literature has
     let rates = rates(fitted());
     assert!(rates[2].1.worst.abs() < 0.05);

@@ -1,6 +1,6 @@
 //! The law `brinell` of two deformable bodies, compared with the finite-element curves in `data/truth/pairs/`.
 
-use crate::law_materials::{force, read};
+use crate::law_materials::{WEAK, force, read};
 use crate::physics::{AnyModel, brinell, unit};
 use brinell_contact::impact::{Impact, Prediction, predict};
 use brinell_contact::{Body, Loading, OtherBody, Pair, TwoBodies};
@@ -37,18 +37,19 @@ const CASES: [Case; 10] = [
 ];
 
 impl Case {
-    /// A flat body that yields at 300 MPa, under a sphere of 5 mm.
+    /// A flat body under a sphere of 5 mm, so weak that the strain stays small.
     fn model(&self) -> AnyModel {
         let body = |radius, youngs_modulus| Body { radius, youngs_modulus, poissons_ratio: 0.3 };
         let (one, other) = (body(f64::INFINITY, 206e9), body(0.005, 206e9 / self.moduli));
-        let pair = Pair::new(&other, &one, 300e6).expect("they touch");
+        let pair = Pair::new(&other, &one, WEAK).expect("they touch");
         let harder = OtherBody {
             modulus: other.plane_strain_modulus(),
             poissons_ratio: 0.3,
-            yield_strength: self.strengths * 300e6,
+            yield_strength: self.strengths * WEAK,
             hardening_modulus: self.hardening * other.youngs_modulus,
         };
-        brinell(pair, TwoBodies { hardening_modulus: self.hardening * one.youngs_modulus, other: harder })
+        let hardening_modulus = self.hardening * one.youngs_modulus;
+        brinell(pair, TwoBodies { hardening_modulus, curvature: one.curvature(&other), other: harder })
     }
 
     /// The columns of these names of a table.

@@ -30,6 +30,7 @@ mod law_both;
 mod law_brinell;
 mod law_brizmer;
 mod law_johnson;
+mod law_large_strain;
 mod law_luding;
 mod law_materials;
 mod law_pairs;

@@ -18,7 +18,7 @@ fn pair() -> Pair {
 type Hard = (loading::Paired, unloading::Paired);
 
 fn hardening() -> Hard {
-    let bodies = TwoBodies { hardening_modulus: 2e9, other: elastic_partner(&pair()) };
+    let bodies = TwoBodies { hardening_modulus: 2e9, curvature: 0.0, other: elastic_partner(&pair()) };
     (
         loading::Paired { law: loading::Brinell::REFERENCE, bodies },
         unloading::Paired { law: unloading::Brinell::REFERENCE, bodies },

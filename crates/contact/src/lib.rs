@@ -84,6 +84,7 @@ pub mod dual;
 pub mod hardening;
 pub mod history;
 pub mod impact;
+pub mod large_strain;
 mod laws;
 pub mod loading;
 pub mod losses;

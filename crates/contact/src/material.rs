@@ -18,6 +18,12 @@ impl Body {
     pub fn plane_strain_modulus(&self) -> f64 {
         self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)
     }
+
+    /// The part of the gap's curvature `1/R` that is its own, beside the `other` body: `R` over its radius. The parts of both add up to
+    /// 1 \[-\].
+    pub fn curvature(&self, other: &Body) -> f64 {
+        1.0 / (1.0 + self.radius / other.radius)
+    }
 }
 
 /// The two bodies in the form that the contact laws use.

@@ -12,12 +12,19 @@
 //! No number is fitted. The curve is exact for a rigid partner, for two bodies that are equally strong and do not harden, for equal
 //! bodies, and at first yield; below, it is Hertz's. Against finite elements of two bodies (`data/truth/pairs`): force within 1.2 %,
 //! restitution within 0.9 %, dent within 2 %; within 1.7 %, 1.1 % and 4.5 % where a body yields that is three times as stiff as an
-//! elastic partner. Small strain.
+//! elastic partner.
+//!
+//! These laws are those of small strain. [`large_strain`](mod@crate::large_strain) corrects force, contact radius and recovery of each
+//! body that yields. The mean pressure of a body then falls beyond a maximum, so that the construction itself stays with small strain.
+//! To first order, a body that is softer by a factor `q_i` makes the pair softer by `q_i^w_i`, where `w_i` is its part of the compliance:
+//! of all bodies together, the product of these factors. This is exact for a rigid partner and for equal bodies.
 
+use crate::dual::Dual;
+use crate::large_strain::{Correction, Pressed, correction};
 use crate::loading::Brinell;
 use crate::material::{Pair, YieldPoint};
 use crate::numbers::{largest, quotient, smallest};
-use crate::strength::{POISSONS_RATIO, RADIUS_POWER, Strength, area_factor};
+use crate::strength::{RADIUS_POWER, Strength, area_factor};
 use core::f64::consts::PI;
 use libm::{exp, fabs, log, pow, sqrt};
 
@@ -79,14 +86,17 @@ impl OtherBody {
 pub struct TwoBodies {
     /// Hardening modulus `H` of the softer body, which the pair describes \[Pa\]: `sigma = S + H eps_p`.
     pub hardening_modulus: f64,
+    /// The part of the gap's curvature `1/R` that is the softer body's own: `R` over its radius. 0 for a plane, 1 for a sphere on a
+    /// plane, below 0 for a socket \[-\].
+    pub curvature: f64,
     /// The harder body.
     pub other: OtherBody,
 }
 
 impl TwoBodies {
-    /// A rigid body on one with this hardening modulus \[Pa\].
+    /// A rigid sphere on a plane with this hardening modulus \[Pa\].
     pub const fn under_rigid(hardening_modulus: f64) -> TwoBodies {
-        TwoBodies { hardening_modulus, other: OtherBody::RIGID }
+        TwoBodies { hardening_modulus, curvature: 0.0, other: OtherBody::RIGID }
     }
 
     /// The bodies with `factor` times the hardening of the softer one, and `others` times strength and hardening of the other one.
@@ -96,7 +106,7 @@ impl TwoBodies {
             hardening_modulus: others * self.other.hardening_modulus,
             ..self.other
         };
-        TwoBodies { hardening_modulus: factor * self.hardening_modulus, other }
+        TwoBodies { hardening_modulus: factor * self.hardening_modulus, other, ..self }
     }
 }
 
@@ -111,6 +121,10 @@ pub struct Yielding {
     depth: f64,
     /// Mean pressure at first yield \[Pa\].
     pressure: f64,
+    /// The yield strength at the pressure of first yield, over the modulus.
+    flexibility: f64,
+    /// The part of the gap's curvature that is its own.
+    curvature: f64,
 }
 
 /// Force over yield force and `a^2/(R d_y)` of a body at its own depth `k` in yield depths, with their slopes over `k`.
@@ -138,6 +152,21 @@ struct Shape {
     relative_depth: (f64, Growth),
     /// Depth in yield depths; `None` for a body that stays elastic.
     k: Option<f64>,
+    /// The curve of the body there and the growth of `k`, if it has yielded.
+    yielded: Option<(OwnCurve, Growth)>,
+}
+
+/// A point of the construction.
+#[derive(Clone, Copy)]
+struct Point {
+    /// Mean pressure \[Pa\], and its growth.
+    pressure: (f64, Growth),
+    /// Contact radius over `R`, and its growth.
+    radius: (f64, Growth),
+    /// Indentation over `R`, and its growth.
+    indentation: (f64, Growth),
+    /// The body that yields first, and the other one.
+    shapes: [Shape; 2],
 }
 
 /// A point of the curve of two bodies with a gap of radius `R`.
@@ -145,8 +174,6 @@ struct Shape {
 pub struct Together {
     /// Indentation over `R`.
     pub indentation: f64,
-    /// Its growth.
-    growth: Growth,
     /// Force over `R^2` \[Pa\].
     pub force: f64,
     /// The force over that of the construction.
@@ -157,21 +184,25 @@ pub struct Together {
     pub radius: f64,
     /// Depths in yield depths of their own, of the body that yields first and of the other one; `None` for one that stays elastic.
     pub depths: [Option<f64>; 2],
+    /// [Measures of the plastic strain](Correction::strain) of both.
+    pub strains: [f64; 2],
     /// The part of the gap's curvature `1/R` that the body of the pair takes on: `R/R_i`.
     pub share: f64,
 }
 
 impl Yielding {
-    /// The body with this plane-strain modulus, Poisson's ratio, yield strength and hardening modulus \[Pa\].
-    fn new(law: &Brinell, modulus: f64, poissons_ratio: f64, yield_strength: f64, hardening_modulus: f64) -> Yielding {
+    /// This body, with its part of the gap's curvature.
+    fn new(law: &Brinell, body: &OtherBody, curvature: f64) -> Yielding {
+        let OtherBody { modulus, poissons_ratio, yield_strength, hardening_modulus } = *body;
         let strength = Strength::of(modulus, poissons_ratio, hardening_modulus);
         let standard = law.yield_pressure_factor * yield_strength;
         let pressure = strength.map_or(standard, |strength| strength.at_yield() * standard);
         let strain = 0.75 * PI * (pressure / modulus);
-        Yielding { modulus, strength, depth: strain * strain, pressure }
+        let flexibility = pressure / (law.yield_pressure_factor * modulus);
+        Yielding { modulus, strength, depth: strain * strain, pressure, flexibility, curvature }
     }
 
-    /// The curve of the body at `k >= 1` yield depths. With hardening, or another Poisson's ratio than 0.3:
+    /// The curve of the body at `k >= 1` yield depths, for small strain. With hardening, or another Poisson's ratio than 0.3:
     ///
     /// - force `phi = t^3 Phi(k/t^2)`, and `phi_nu` with the part of `t` that the Poisson's ratio has;
     /// - area `phi_nu (Phi(k)/A(k))^-b (phi/phi_nu)^-0.8509`, with `b = 1 - ln s0/ln p` and the mean pressure `p` of deep dents over
@@ -217,7 +248,31 @@ impl Yielding {
             radius: (size * root, growth * spread),
             relative_depth: (size * (k / root), growth * (1.0 - spread)),
             k: Some(k),
+            yielded: Some((*curve, growth)),
         }
+    }
+
+    /// What large strain changes at this `shape`, where the contact radius over `R` is `radius`.
+    fn correction(&self, shape: &Shape, radius: (f64, Growth)) -> Correction {
+        let (Some(k), Some((curve, growth))) = (shape.k, shape.yielded) else { return Correction::NONE };
+        let own = |value: f64, growth: Growth| Dual { value, slope: value * growth };
+        // the effective radius is R over the part that the body takes on
+        let curvature = self.curvature * (radius.0 / shape.radius.0);
+        let curvature = if curvature <= 0.0 {
+            Dual::constant(0.0)
+        } else if curvature >= 1.0 {
+            Dual::constant(1.0)
+        } else {
+            own(curvature, radius.1 - shape.radius.1)
+        };
+        correction(&Pressed {
+            k: own(k, growth),
+            force: Dual { value: curve.force, slope: growth * k * curve.force_slope },
+            area: curve.area / k,
+            radius: own(shape.radius.0, shape.radius.1),
+            curvature,
+            flexibility: self.flexibility,
+        })
     }
 
     /// The shape at this mean `pressure` \[Pa\] and its growth, probably at about the depth `like`; `None` for a pressure that the
@@ -255,7 +310,7 @@ impl Yielding {
 /// The shape of a body that is elastic at this mean pressure \[Pa\]: `d = a^2`, `P = 4 E a/(3 pi)`. A rigid body has no depth.
 fn elastic_shape(modulus: f64, (pressure, growth): (f64, Growth)) -> Shape {
     let radius = 0.75 * PI * (pressure / modulus);
-    Shape { radius: (radius, growth), relative_depth: (radius, growth), k: None }
+    Shape { radius: (radius, growth), relative_depth: (radius, growth), k: None, yielded: None }
 }
 
 /// The depth `k` between two bounds at which `excess` is zero, and what else it gives there. It rises; its value and its growth are
@@ -293,6 +348,17 @@ fn sum((one, one_growth): (f64, Growth), (other, other_growth): (f64, Growth)) -
     (sum, (one * one_growth + other * other_growth) / sum)
 }
 
+impl Shape {
+    /// The depth over the contact radius that a growing force adds: `d(depth)/d(ln F)` of this body alone.
+    fn compliance(&self) -> f64 {
+        let exponent = match (self.k, self.yielded) {
+            (Some(k), Some((curve, _))) => k * (curve.force_slope / curve.force),
+            _ => 1.5,
+        };
+        self.relative_depth.0 / exponent
+    }
+}
+
 /// One of the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lead {
@@ -316,28 +382,26 @@ pub struct Construction<'a> {
 }
 
 impl<'a> Construction<'a> {
-    /// The construction for the bodies of `pair`; `None` if the law by itself describes them: a rigid body on one that does not harden
-    /// and has a Poisson's ratio of 0.3.
+    /// The construction for the bodies of `pair`.
     #[inline(never)]
-    pub fn of(law: &'a Brinell, pair: &Pair, bodies: &TwoBodies) -> Option<Construction<'a>> {
-        let TwoBodies { hardening_modulus, other } = *bodies;
-        let is_plain = hardening_modulus == 0.0 && pair.poissons_ratio == POISSONS_RATIO;
-        if is_plain && other.modulus == f64::INFINITY {
-            return None;
-        }
-        let soft =
-            Yielding::new(law, pair.yielding_modulus(), pair.poissons_ratio, pair.yield_strength, hardening_modulus);
+    pub fn of(law: &'a Brinell, pair: &Pair, bodies: &TwoBodies) -> Construction<'a> {
+        let TwoBodies { hardening_modulus, curvature, other } = *bodies;
+        let softer = OtherBody {
+            modulus: pair.yielding_modulus(),
+            poissons_ratio: pair.poissons_ratio,
+            yield_strength: pair.yield_strength,
+            hardening_modulus,
+        };
+        let soft = Yielding::new(law, &softer, curvature);
         let may_yield = other.yield_strength < f64::INFINITY && other.modulus < f64::INFINITY;
-        let hard = may_yield.then(|| {
-            Yielding::new(law, other.modulus, other.poissons_ratio, other.yield_strength, other.hardening_modulus)
-        });
+        let hard = may_yield.then(|| Yielding::new(law, &other, 1.0 - curvature));
         // by the pressure and not by the strength: the knots are those of the body that yields first, whatever is set
-        Some(match hard {
+        match hard {
             Some(first) if first.pressure < soft.pressure => {
                 Construction { law, soft: first, hard_modulus: soft.modulus, hard: Some(soft), is_exchanged: true }
             }
             _ => Construction { law, soft, hard_modulus: other.modulus, hard, is_exchanged: false },
-        })
+        }
     }
 
     /// The yield point of the pair, where the first of the two yields.
@@ -351,7 +415,7 @@ impl<'a> Construction<'a> {
 
     /// The point where the body with the larger depth is at `k >= 1` yield depths of its own: at the same `k`, the body with the lower
     /// mean pressure leads. So the point is a continuous function of `k` for any two bodies.
-    fn at(&self, k: f64) -> Together {
+    fn at(&self, k: f64) -> Point {
         let mean = |body: &Yielding| body.mean_pressure(k, &body.curve(self.law, k)).0;
         let leads = |hard: &Yielding| {
             let soft = mean(&self.soft);
@@ -360,40 +424,62 @@ impl<'a> Construction<'a> {
         };
         let lead = if self.hard.as_ref().is_some_and(leads) { Lead::Hard } else { Lead::Soft };
         // the leader has the lower mean pressure, which the other one reaches
-        self.led_by(lead, k).unwrap_or(Together::NOWHERE)
+        self.construct(lead, k).unwrap_or(Point::NOWHERE)
     }
 
     /// The point where a body is at `k >= 1` yield depths of its own; `None` if the other one never reaches the mean pressure there, or
     /// if the body does not yield.
-    #[inline(never)]
     pub fn led_by(&self, lead: Lead, k: f64) -> Option<Together> {
+        self.construct(lead, k).map(|point| self.together(&point))
+    }
+
+    #[inline(never)]
+    fn construct(&self, lead: Lead, k: f64) -> Option<Point> {
         let leader = match lead {
             Lead::Soft => &self.soft,
             Lead::Hard => self.hard.as_ref()?,
         };
         let curve = leader.curve(self.law, k);
-        let mean = leader.mean_pressure(k, &curve);
+        let pressure = leader.mean_pressure(k, &curve);
         let shape = leader.shape(k, &curve, 1.0);
         let (soft, hard) = match (lead, &self.hard) {
-            (Lead::Soft, Some(hard)) => (shape, hard.follow(self.law, mean, k)?),
-            (Lead::Soft, None) => (shape, elastic_shape(self.hard_modulus, mean)),
-            (Lead::Hard, _) => (self.soft.follow(self.law, mean, k)?, shape),
+            (Lead::Soft, Some(hard)) => (shape, hard.follow(self.law, pressure, k)?),
+            (Lead::Soft, None) => (shape, elastic_shape(self.hard_modulus, pressure)),
+            (Lead::Hard, _) => (self.soft.follow(self.law, pressure, k)?, shape),
         };
-        let (pressure, pressure_growth) = mean;
-        let (radius, radius_growth) = sum(soft.radius, hard.radius);
-        let (relative_depth, depth_growth) = sum(soft.relative_depth, hard.relative_depth);
-        let force = PI * radius * radius * pressure;
-        let (indentation, growth) = (radius * relative_depth, radius_growth + depth_growth);
-        Some(Together {
-            indentation,
-            growth,
+        let radius = sum(soft.radius, hard.radius);
+        let relative_depth = sum(soft.relative_depth, hard.relative_depth);
+        let indentation = (radius.0 * relative_depth.0, radius.1 + relative_depth.1);
+        Some(Point { pressure, radius, indentation, shapes: [soft, hard] })
+    }
+
+    /// The point with the force and the contact radius of large strain.
+    #[inline(never)]
+    fn together(&self, point: &Point) -> Together {
+        let Point { pressure, radius, indentation, shapes: [soft, hard] } = *point;
+        let of_soft = self.soft.correction(&soft, radius);
+        let of_hard = self.hard.as_ref().map_or(Correction::NONE, |body| body.correction(&hard, radius));
+        let (one, other) = (soft.compliance(), hard.compliance());
+        let [part, rest] = [one, other].map(|own| own / (one + other));
+        // the exponents of force over depth change slowly, and the parts as the depths
+        let drift = part * rest * (soft.relative_depth.1 - hard.relative_depth.1);
+        let change = part * of_soft.force.value + rest * of_hard.force.value;
+        let change_growth = part * of_soft.force.slope
+            + rest * of_hard.force.slope
+            + drift * (of_soft.force.value - of_hard.force.value);
+        let force = PI * radius.0 * radius.0 * pressure.0 * exp(change);
+        let force_growth = pressure.1 + 2.0 * radius.1 + change_growth;
+        let own = if self.is_exchanged { hard.radius.0 } else { soft.radius.0 };
+        Together {
+            indentation: indentation.0,
             force,
             ratio: 1.0,
-            stiffness: force / indentation * ((pressure_growth + 2.0 * radius_growth) / growth),
-            radius,
+            stiffness: force / indentation.0 * (force_growth / indentation.1),
+            radius: radius.0 * exp(0.5 * (part * of_soft.area + rest * of_hard.area)),
             depths: [soft.k, hard.k],
-            share: if self.is_exchanged { hard.radius.0 / radius } else { soft.radius.0 / radius },
-        })
+            strains: [of_soft.strain, of_hard.strain],
+            share: own / radius.0,
+        }
     }
 
     /// The point at `indentation` over `R`, at first yield or beyond, for a force of `force` over `R^2` \[Pa\] there. Between the knots
@@ -416,23 +502,20 @@ impl<'a> Construction<'a> {
         let first = self.soft.depth * (1.0 + share) * (1.0 + share);
         let (k, point) = search((1.0, LAST), largest(indentation / first, 1.0), |k| {
             let point = self.at(k);
-            (log(point.indentation / indentation), point.growth, point)
+            (log(point.indentation.0 / indentation), point.indentation.1, point)
         });
         let is_within = k < LAST * (1.0 - 1e-9);
-        if is_within { point } else { self.at(LAST * (indentation / point.indentation)) }
+        let point = if is_within { point } else { self.at(LAST * (indentation / point.indentation.0)) };
+        self.together(&point)
     }
 }
 
-impl Together {
+impl Point {
     /// The point that never comes.
-    const NOWHERE: Together = Together {
-        indentation: f64::MAX,
-        growth: 1.0,
-        force: 0.0,
-        ratio: 1.0,
-        stiffness: 0.0,
-        radius: f64::MAX,
-        depths: [None; 2],
-        share: 1.0,
+    const NOWHERE: Point = Point {
+        pressure: (0.0, 0.0),
+        radius: (f64::MAX, 1.0),
+        indentation: (f64::MAX, 1.0),
+        shapes: [Shape { radius: (1.0, 0.0), relative_depth: (1.0, 0.0), k: None, yielded: None }; 2],
     };
 }

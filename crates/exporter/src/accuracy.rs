@@ -144,23 +144,26 @@ pub fn accuracy(scene: &Scene, prediction: &Prediction) -> Option<String> {
             BESIDE_ELASTIC[place].1,
         ));
     }
-    let (bodies, (force, restitution, dent)) = match partner {
+    Some(of_brinell(&partner, softer, nearest) + &of_large_strain(scene, prediction))
+}
+
+/// The sentence on the law `brinell` at small strain.
+fn of_brinell(partner: &Partner, softer: Body, nearest: impl Fn(f64) -> usize) -> String {
+    let (bodies, (force, restitution, dent)) = match *partner {
         Partner::Rigid => {
-            return Some(
-                "Accuracy for these bodies: against finite elements of a rigid sphere (small strain), the law brinell has the force \
-                 within 0.5 % up to 3000 yield indentations and the restitution within 0.2 %; with hardening or a Poisson's ratio \
-                 other than 0.3 within 0.7 % and 0.8 %."
-                    .into(),
-            );
+            return "Accuracy for these bodies: against finite elements of a rigid sphere (small strain), the law brinell has the force \
+                    within 0.5 % up to 3000 yield indentations and the restitution within 0.2 %; with hardening or a Poisson's ratio \
+                    other than 0.3 within 0.7 % and 0.8 %."
+                .into();
         }
         Partner::Elastic(ratio) if ratio > SOFTEST => {
-            return Some(format!(
+            return format!(
                 "Accuracy for these bodies: the {} stays elastic, and its modulus is {} times that of the {}. No finite elements of \
                  such a pair are known; with a third of the modulus, the law brinell has the force within 1.7 %.",
                 softer.other().name(),
                 cell(1.0 / ratio, 1.0),
                 softer.name(),
-            ));
+            );
         }
         Partner::Elastic(ratio) => {
             let (_, words, errors) = BESIDE_ELASTIC[nearest(ratio)];
@@ -169,8 +172,24 @@ pub fn accuracy(scene: &Scene, prediction: &Prediction) -> Option<String> {
         Partner::Yields => ("two bodies that yield".into(), BOTH_YIELD),
         Partner::Alike => ("two bodies that are alike".into(), ALIKE),
     };
-    Some(format!(
+    format!(
         "Accuracy for these bodies: against finite elements of {bodies} (small strain, up to 150 or 200 yield indentations), the law \
          brinell has the force within {force} %, the restitution within {restitution} % and the dent within {dent} %."
-    ))
+    )
+}
+
+/// Contact radius over effective radius from which large strain is spoken of.
+const WIDE: f64 = 0.1;
+
+/// The sentence on large strain, if the contact is wide.
+fn of_large_strain(scene: &Scene, prediction: &Prediction) -> String {
+    let ratio = prediction.max_contact_radius / scene.model().pair.radius;
+    if ratio < WIDE {
+        return String::new();
+    }
+    format!(
+        " The contact radius reaches {} effective radii, and large strain is included: for one body that yields, within 0.7 % (a plane, up \
+         to 0.36) and 1.2 % (a sphere, up to 0.3) of the force by finite elements with large deformation.",
+        cell(ratio, 1.0)
+    )
 }

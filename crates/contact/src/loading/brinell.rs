@@ -25,8 +25,7 @@ const PIECES: usize = 9;
 /// Within 0.32 % of the first table from first contact to `x = 1000` (0.11 % rms). Of the second one within 0.52 % to `x = 1000`
 /// and 0.23 % from there to 3000 (0.18 % rms in all). These are also the errors of the tables. Contact radius within 0.6 %
 /// and 0.2 %. Deeper, the curve is extrapolated. Small strain, nu = 0.3, no hardening; [`Paired`](super::Paired)
-/// covers hardening and other Poisson's ratios. Large deformation differs by 0.5 % up to `x = 200` at `E*/S = 1000`,
-/// by 1 % at `x = 82.5` and 7 % at `x = 200` at `E*/S = 100`.
+/// covers hardening, other Poisson's ratios, any two bodies and large strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brinell {

@@ -14,8 +14,8 @@ use libm::sqrt;
 /// within 0.35 % of it, and within 0.02 % where the other body stays elastic and none hardens. Beyond the last knot it is a straight
 /// line. Value and slope are continuous everywhere. Below yield it is Hertz's law.
 ///
-/// For a rigid body on one that does not harden and has a Poisson's ratio of 0.3 it equals the law `brinell` bit for bit. For a rigid
-/// body on others: against the finite-element curves in `data/truth/materials`, force within 0.5 % for `x` from 1.2 to 500, contact
+/// For a rigid sphere on a plane that does not harden and has a Poisson's ratio of 0.3 it is the law `brinell`, but for
+/// [large strain](mod@crate::large_strain). For a rigid sphere on others: against the finite-element curves in `data/truth/materials`, force within 0.5 % for `x` from 1.2 to 500, contact
 /// radius within 2.1 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
@@ -37,7 +37,7 @@ struct Knot {
 }
 
 /// Knots of the two bodies are not closer than this, as a ratio of their indentations.
-const NEAREST: f64 = 1.08;
+const NEAREST: f64 = 1.02;
 
 /// The construction on the bodies of a pair.
 struct Curve<'a> {
@@ -189,16 +189,16 @@ fn stands_apart(knot: &Knot, below: &Knot, above: Option<&Knot>) -> bool {
 impl Paired {
     /// Whether both bodies yield before `indentation` \[m\].
     pub fn both_yield(&self, pair: &Pair, indentation: f64) -> bool {
-        let curve = self.curve(pair).filter(|curve| indentation > curve.point.indentation);
-        let hard = curve.and_then(|curve| curve.construction.along(indentation / pair.radius).depths[1]);
-        hard.is_some_and(|k| k > 1.0)
+        let curve = self.curve(pair);
+        let both = |[_, hard]: [Option<f64>; 2]| hard.is_some_and(|k| k > 1.0);
+        indentation > curve.point.indentation && both(curve.construction.along(indentation / pair.radius).depths)
     }
 
-    /// The curve of the bodies of `pair`; `None` if it is that of the law itself.
-    fn curve(&self, pair: &Pair) -> Option<Curve<'_>> {
-        let construction = Construction::of(&self.law, pair, &self.bodies)?;
+    /// The curve of the bodies of `pair`.
+    fn curve(&self, pair: &Pair) -> Curve<'_> {
+        let construction = Construction::of(&self.law, pair, &self.bodies);
         let point = construction.yield_point(pair);
-        Some(Curve { construction, radius: pair.radius, point })
+        Curve { construction, radius: pair.radius, point }
     }
 }
 
@@ -244,43 +244,29 @@ impl Loading for Paired {
     }
 
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
-        match Construction::of(&self.law, pair, &self.bodies) {
-            Some(construction) => construction.yield_point(pair),
-            None => self.law.yield_point(pair),
-        }
+        Construction::of(&self.law, pair, &self.bodies).yield_point(pair)
     }
 
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
-        match self.curve(pair) {
-            Some(curve) => curve.piece(pair, indentation),
-            None => self.law.segment(pair, indentation),
-        }
+        self.curve(pair).piece(pair, indentation)
     }
 
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
-        match self.curve(pair) {
-            Some(curve) => curve.work(pair, indentation),
-            None => self.law.work(pair, indentation),
-        }
+        self.curve(pair).work(pair, indentation)
     }
 
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
-        match self.curve(pair) {
-            Some(curve) => curve.contact_radius(indentation, curve.piece(pair, indentation).force(indentation)),
-            None => self.law.contact_radius(pair, indentation),
-        }
+        let curve = self.curve(pair);
+        curve.contact_radius(indentation, curve.piece(pair, indentation).force(indentation))
     }
 
-    fn radius_at(&self, pair: &Pair, point: &YieldPoint, indentation: f64, force: f64) -> f64 {
-        match self.curve(pair) {
-            Some(curve) => curve.contact_radius(indentation, force),
-            None => self.law.radius_at(pair, point, indentation, force),
-        }
+    fn radius_at(&self, pair: &Pair, _point: &YieldPoint, indentation: f64, force: f64) -> f64 {
+        self.curve(pair).contact_radius(indentation, force)
     }
 
     /// The body with the larger depth is in its second region, and fully plastic, where its law alone would be.
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
-        let Some(curve) = self.curve(pair) else { return self.law.regime(pair, indentation) };
+        let curve = self.curve(pair);
         if indentation < curve.point.indentation {
             return Regime::Elastic;
         }
@@ -296,9 +282,10 @@ impl Loading for Paired {
     }
 
     fn share(&self, pair: &Pair, indentation: f64) -> f64 {
-        match self.curve(pair).filter(|curve| indentation > curve.point.indentation) {
-            Some(curve) => curve.construction.along(indentation / pair.radius).share,
-            None => pair.share(),
+        let curve = self.curve(pair);
+        match indentation > curve.point.indentation {
+            true => curve.construction.along(indentation / pair.radius).share,
+            false => pair.share(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::brinell::path_to;
 use super::{Brinell, Peak, Unloading, residual_after};
+use crate::large_strain::recovery_factor;
 use crate::loading;
 use crate::material::Pair;
 use crate::segment::Segment;
@@ -23,8 +24,8 @@ use libm::sqrt;
 /// under a rigid sphere, and two equal ones, have exactly its own recovery and shape.
 ///
 /// The contact radius on the path is proportional to the stiffness. Rigid sphere: within 0.9 % of `F_m` of the finite-element curves in
-/// `data/truth/materials`, restitution within 0.6 %. Two bodies: see [`two_bodies`](crate::two_bodies). Where the law itself describes
-/// the bodies, it equals the law `brinell` bit for bit.
+/// `data/truth/materials`, restitution within 0.6 %. Two bodies: see [`two_bodies`](crate::two_bodies). [Large
+/// strain](mod@crate::large_strain) makes the recovery of each body smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Paired {
@@ -84,29 +85,23 @@ impl Unloading for Paired {
     const SQUARES: bool = true;
 
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
-        let Some(bodies) = Construction::of(&LOADING, pair, &self.bodies) else { return self.law.path(pair, peak) };
+        let bodies = Construction::of(&LOADING, pair, &self.bodies);
         let plain = self.law.shape(pair, peak);
         let recovery = (3.0 - plain) * peak.force / (4.0 * pair.modulus * peak.contact_radius);
-        let is_plain = bodies.soft.strength.is_none() && bodies.hard.is_none_or(|hard| hard.strength.is_none());
-        if is_plain {
-            return path_to(peak, residual_after(peak, recovery), plain);
-        }
         let force = peak.force / (pair.radius * pair.radius);
-        let Together { depths: [soft_depth, hard_depth], ratio, .. } =
+        let Together { depths: [soft_depth, hard_depth], strains, ratio, .. } =
             bodies.at_indentation(peak.indentation / pair.radius, force);
         let soft = self.correction(Some(&bodies.soft), soft_depth, ratio);
         let hard = self.correction(bodies.hard.as_ref(), hard_depth, ratio);
         let [of_soft, of_hard] = [bodies.soft.modulus, bodies.hard_modulus].map(|modulus| pair.modulus / modulus);
-        let factor = of_soft * soft.factor + of_hard * hard.factor;
+        let [soft_factor, hard_factor] = strains.map(recovery_factor);
+        let factor = of_soft * soft.factor * soft_factor + of_hard * hard.factor * hard_factor;
         let shape = held(plain + of_soft * soft.difference + of_hard * hard.difference);
         path_to(peak, residual_after(peak, factor * recovery), shape)
     }
 
-    fn contact_radius(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
-        match Construction::of(&LOADING, pair, &self.bodies) {
-            Some(_) => peak.contact_radius * (path.stiffness(indentation) / path.stiffness(path.upper)),
-            None => self.law.contact_radius(pair, peak, path, indentation),
-        }
+    fn contact_radius(&self, _pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        peak.contact_radius * (path.stiffness(indentation) / path.stiffness(path.upper))
     }
 
     fn strengthened_by(self, factor: f64, others: f64) -> Paired {

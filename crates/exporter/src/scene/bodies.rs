@@ -155,9 +155,10 @@ impl Scene {
         };
         let softer = self.softer_with(group, values);
         let [impactor, target] = self.bodies_with(group, values);
-        let body = if softer == Body::Impactor { target } else { impactor };
+        let (soft, body) = if softer == Body::Impactor { (impactor, target) } else { (target, impactor) };
         TwoBodies {
             hardening_modulus: value(softer.hardening_modulus(), 0.0, factor),
+            curvature: soft.curvature(&body),
             other: OtherBody {
                 modulus: body.plane_strain_modulus(),
                 poissons_ratio: body.poissons_ratio,
@@ -197,10 +198,10 @@ impl Scene {
                     let restitution = self.group_value(group, "restitution").unwrap_or(f64::NAN);
                     // it follows from the density, which the pair doesn't know
                     let loss = self.loss_with(group, &[]).map_or(f64::NAN, |loss| loss.factor());
-                    let TwoBodies { hardening_modulus, other } = self.two_bodies(group);
+                    let TwoBodies { hardening_modulus, curvature, other } = self.two_bodies(group);
                     let softer = [yield_strength, youngs_modulus, poissons_ratio, hardening_modulus];
                     let harder = [other.yield_strength, other.modulus, other.poissons_ratio, other.hardening_modulus];
-                    let rest = [radius, modulus, restitution, loss, self.impact_of(group).mass];
+                    let rest = [radius, curvature, modulus, restitution, loss, self.impact_of(group).mass];
                     (softer.map(f64::to_bits), harder.map(f64::to_bits), rest.map(f64::to_bits))
                 });
                 known.entry(bodies).or_insert_with(|| of(group)).clone()

@@ -23,7 +23,6 @@ use brinell_contact::hardening::Hardening;
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::Factors;
-use brinell_contact::strength::POISSONS_RATIO;
 use brinell_contact::unloading::AnyUnloading;
 use std::path::Path;
 use toml::Spanned;
@@ -215,17 +214,9 @@ impl Scene {
         guarded.unwrap_or(unloading)
     }
 
-    /// Whether the FMU needs the form of its laws for two bodies: the impactor is not rigid, a body hardens, or the target has a
-    /// Poisson's ratio that is another than that of the laws, or may be.
+    /// Whether the FMU has the form of its laws for two bodies. A law that has one is exact only in this form.
     pub fn is_paired(&self) -> bool {
-        let form = self.damped.is_none() && self.loading.1.takes_both_bodies();
-        let mut all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
-        let needs = |parameter: &Parameter| match parameter.name {
-            "target.hardening_modulus" | "impactor.youngs_modulus" => true,
-            "target.poissons_ratio" => parameter.settable || parameter.value != POISSONS_RATIO,
-            _ => false,
-        };
-        form && all.any(needs)
+        self.damped.is_none() && self.loading.1.takes_both_bodies()
     }
 
     /// Whether the impactor of a contact may yield.

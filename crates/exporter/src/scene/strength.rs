@@ -232,8 +232,9 @@ impl Scene {
         let model = self.model_of(group);
         let pair = Pair { yield_strength: own.yield_strength, ..model.pair };
         let Hardening { yield_strength, hardening_modulus } = other;
-        let other = OtherBody { yield_strength, hardening_modulus, ..self.two_bodies(group).other };
-        paired(&Model { pair, ..model }, TwoBodies { hardening_modulus: own.hardening_modulus, other })
+        let bodies = self.two_bodies(group);
+        let other = OtherBody { yield_strength, hardening_modulus, ..bodies.other };
+        paired(&Model { pair, ..model }, TwoBodies { hardening_modulus: own.hardening_modulus, other, ..bodies })
     }
 
     /// The prediction of `impact` on the first contact with the straight lines for `part` of the strains `found`.

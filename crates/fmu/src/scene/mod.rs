@@ -162,24 +162,35 @@ pub fn impactor_yields(value: impl Fn(Parameter) -> f64) -> bool {
 #[inline(always)]
 pub fn two_bodies(value: impl Fn(Parameter) -> f64) -> TwoBodies {
     let target = [
+        Parameter::TargetRadius,
         Parameter::TargetYoungsModulus,
         Parameter::TargetPoissonsRatio,
         Parameter::TargetYieldStrength,
         Parameter::TargetHardeningModulus,
     ];
     let impactor = [
+        Parameter::ImpactorRadius,
         Parameter::ImpactorYoungsModulus,
         Parameter::ImpactorPoissonsRatio,
         Parameter::ImpactorYieldStrength,
         Parameter::ImpactorHardeningModulus,
     ];
+    let body = |[radius, youngs_modulus, poissons_ratio, ..]: [Parameter; 5]| Body {
+        radius: value(radius),
+        youngs_modulus: value(youngs_modulus),
+        poissons_ratio: value(poissons_ratio),
+    };
     let (softer, harder) = if impactor_yields(&value) { (impactor, target) } else { (target, impactor) };
-    let [youngs_modulus, poissons_ratio, yield_strength, hardening_modulus] = harder.map(&value);
-    let body = Body { radius: f64::INFINITY, youngs_modulus, poissons_ratio };
-    let modulus = body.plane_strain_modulus();
+    let (soft, hard) = (body(softer), body(harder));
     TwoBodies {
-        hardening_modulus: value(softer[3]),
-        other: OtherBody { modulus, poissons_ratio, yield_strength, hardening_modulus },
+        hardening_modulus: value(softer[4]),
+        curvature: soft.curvature(&hard),
+        other: OtherBody {
+            modulus: hard.plane_strain_modulus(),
+            poissons_ratio: hard.poissons_ratio,
+            yield_strength: value(harder[3]),
+            hardening_modulus: value(harder[4]),
+        },
     }
 }
 
