@@ -330,7 +330,8 @@ def test_the_softer_body_is_fitted_even_beyond_the_strength_of_the_other(scene):
     )
     found = brinell.fit(scene(300e6, ball=ball.format(400e6)), points)
     close(found.values["target.yield_strength"], 800e6, 1e-6)
-    # the ball yields first
+    # the ball yields first, and bulges as no plane does
+    points = rebounds(scene(1e12, ball=ball.format(800e6)))
     found = brinell.fit(scene(300e6, ball=ball.format(200e6)), points)
     close(found.values["impactor.yield_strength"], 800e6, 1e-6)
 
@@ -391,10 +392,10 @@ def test_where_a_parameter_would_be_negative_the_others_are_fitted_again_with_ze
     both = brinell.fit(scene(300e6), points, BOTH)
     alone = brinell.fit(scene(300e6), points)
     strength, hardening = both.estimates
-    close(strength.value, 294.22e6, 1e-4)
-    close(strength.interval, (286.09e6, 302.57e6), 1e-4)
-    close(both.rms, 3.9295, 2e-4)
-    close(both.rms_of_scene, 6.386, 2e-4)
+    close(strength.value, 294.39e6, 1e-4)
+    close(strength.interval, (286.40e6, 302.60e6), 2e-4)
+    close(both.rms, 3.878, 2e-4)
+    close(both.rms_of_scene, 6.236, 2e-4)
     assert (hardening.value, hardening.interval) == (0.0, None)
     assert "the best value would be negative" in hardening.doubt
     close(strength.value, alone.estimates[0].value, 1e-6)
@@ -610,8 +611,8 @@ def test_the_record_of_a_machine_is_fitted_with_all_that_is_said_of_it(scene):
     path.write_text(path.read_text().replace("radius = 5e-3", "radius = 0.5e-3"))
     found = brinell.fit(path, RECORD, BOTH)
     strength, hardening = found.estimates
-    close(strength.value, 918.27e6, 1e-4)
-    close(found.rms, 60.67, 1e-3)
+    close(strength.value, 1151.9e6, 1e-4)
+    close(found.rms, 37.44, 1e-3)
     assert hardening.value == 0.0 and (found.count, found.left_out) == (18, 36)
     for words in (
         "36 points without a greater depth",
