@@ -19,8 +19,8 @@
 //! radius within 0.6 % up to `a/R = 0.36`, restitution within 0.7 %; a sphere on a rigid flat with `E*/S = 300`: force within 1.2 % and
 //! contact radius within 1.3 % up to `a/R = 0.3`. Between plane and sphere, and for two bodies, nothing is known to compare with.
 //!
-//! Far from all tables, passivity counts: `u` stays 1 beyond 1, `u` and `e` fade out where `E*/S` is below 20, and the contact radius
-//! never falls below Hertz's.
+//! Outside the tables the correction goes no further: `u` stops where `z` is 0.5, its largest value there, and at 1. Far from all tables,
+//! passivity counts: `u` and `e` fade out where `E*/S` is below 20, and the contact radius never falls below Hertz's.
 
 use crate::dual::Dual;
 use crate::numbers::largest;
@@ -41,8 +41,11 @@ const FLEXIBLE: f64 = 20.0;
 /// The shortening changes the area by this factor more than the force.
 const WIDENING: f64 = 2.0;
 
-/// Ratio of contact radius to radius from which on the correction stays the same.
-const LARGEST: f64 = 1.0;
+/// Plastic strain `z` from which on the correction stays the same: the largest that finite elements have reached.
+const LARGEST_STRAIN: f64 = 0.5;
+
+/// The same for the contact radius over the radius.
+const LARGEST_RADIUS: f64 = 1.0;
 
 const ONE: Dual = Dual { value: 1.0, slope: 0.0 };
 
@@ -89,7 +92,9 @@ pub fn correction(body: &Pressed) -> Correction {
     let lag = if lag.value > 0.0 { lag } else { Dual::constant(0.0) };
     let soft = FLEXIBLE * flexibility;
     let fading = 1.0 / (1.0 + soft * soft * soft);
-    let radius = fading * if radius.value < LARGEST { radius } else { Dual::constant(LARGEST) };
+    let radius = fading * if radius.value < LARGEST_RADIUS { radius } else { Dual::constant(LARGEST_RADIUS) };
+    let is_within = lag.value * radius.value < LARGEST_STRAIN;
+    let radius = if is_within { radius } else { LARGEST_STRAIN * lag.power(-1.0) };
     let strain = lag * radius;
     let beyond_yield = ONE - inverse;
     let most = SHORTENING * flexibility * fading;
