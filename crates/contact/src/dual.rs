@@ -1,7 +1,7 @@
 //! A number with its derivative. It gives the slope of a long formula without a second formula.
 
 use core::ops::{Add, Mul, Sub};
-use libm::{cos, cosh, exp, expm1, pow, sin, sinh};
+use libm::{cos, cosh, exp, expm1, pow, sin, sinh, sqrt};
 
 /// `value` and its derivative with respect to the one variable of the formula.
 ///
@@ -40,6 +40,18 @@ impl Dual {
     pub fn power(self, exponent: f64) -> Dual {
         let value = pow(self.value, exponent);
         Dual { value, slope: exponent * (value / self.value) * self.slope }
+    }
+
+    /// `1/u` for `u > 0`.
+    pub fn inverse(self) -> Dual {
+        let value = 1.0 / self.value;
+        Dual { value, slope: -value * value * self.slope }
+    }
+
+    /// `sqrt u` for `u > 0`.
+    pub fn root(self) -> Dual {
+        let value = sqrt(self.value);
+        Dual { value, slope: 0.5 / value * self.slope }
     }
 
     /// `cos u`.

@@ -24,7 +24,6 @@
 
 use crate::dual::Dual;
 use crate::numbers::largest;
-use libm::log;
 
 // fitted to the finite-element curves
 const PLANE_FORCE: f64 = 1.83;
@@ -69,9 +68,9 @@ pub struct Pressed {
 /// What large strain changes.
 #[derive(Clone, Copy)]
 pub struct Correction {
-    /// Logarithm of the factor of the force.
+    /// Factor of the force.
     pub force: Dual,
-    /// Logarithm of the factor of the squared contact radius.
+    /// Factor of the squared contact radius.
     pub area: f64,
     /// The measure `z` of the plastic strain.
     pub strain: f64,
@@ -79,35 +78,35 @@ pub struct Correction {
 
 impl Correction {
     /// That of an elastic body.
-    pub const NONE: Correction = Correction { force: Dual { value: 0.0, slope: 0.0 }, area: 0.0, strain: 0.0 };
+    pub const NONE: Correction = Correction { force: ONE, area: 1.0, strain: 0.0 };
 }
 
 /// The correction of a body.
 #[inline(never)]
 pub fn correction(body: &Pressed) -> Correction {
     let Pressed { k, force, area: over_hertz, radius, curvature, flexibility } = *body;
-    let inverse = k.power(-1.0);
-    let lag = ONE - force * k.power(-1.5);
+    let inverse = k.inverse();
+    let lag = ONE - force * inverse * k.root().inverse();
     // just above yield the two forces differ only by rounding
     let lag = if lag.value > 0.0 { lag } else { Dual::constant(0.0) };
     let soft = FLEXIBLE * flexibility;
     let fading = 1.0 / (1.0 + soft * soft * soft);
     let radius = fading * if radius.value < LARGEST_RADIUS { radius } else { Dual::constant(LARGEST_RADIUS) };
     let is_within = lag.value * radius.value < LARGEST_STRAIN;
-    let radius = if is_within { radius } else { LARGEST_STRAIN * lag.power(-1.0) };
+    let radius = if is_within { radius } else { LARGEST_STRAIN * lag.inverse() };
     let strain = lag * radius;
     let beyond_yield = ONE - inverse;
     let most = SHORTENING * flexibility * fading;
     let shortening = most * (beyond_yield * beyond_yield * force * inverse);
     // never beyond Hertz's law
     let exists = lag.value > 0.0 && shortening.value > 0.0;
-    let both = if exists { (lag + shortening).power(-1.0) } else { ONE };
+    let both = if exists { (lag + shortening).inverse() } else { ONE };
     let shortening = shortening * lag * both;
 
     let scaled = PLANE_FORCE * strain;
     let plane = (ONE + scaled * scaled * scaled).power(-1.0 / 3.0);
-    let bulging = SPHERE_FORCE * (lag * lag * radius.power(1.5));
-    let sphere = (ONE + shortening) * (ONE + bulging).power(-0.5);
+    let bulging = SPHERE_FORCE * (lag * lag * radius * radius.root());
+    let sphere = (ONE + shortening) * (ONE + bulging).root().inverse();
     let factor = plane + curvature * (sphere - plane);
 
     let round = radius.value * beyond_yield.value;
@@ -115,11 +114,7 @@ pub fn correction(body: &Pressed) -> Correction {
     let sphere_area = 1.0 + WIDENING * shortening.value;
     // never smaller than Hertz's
     let area = largest(plane_area + curvature.value * (sphere_area - plane_area), 1.0 / over_hertz);
-    Correction {
-        force: Dual { value: log(factor.value), slope: factor.slope / factor.value },
-        area: log(area),
-        strain: strain.value,
-    }
+    Correction { force: factor, area, strain: strain.value }
 }
 
 /// Factor of the recovery of a body with this measure of plastic strain.

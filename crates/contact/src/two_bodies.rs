@@ -463,11 +463,14 @@ impl<'a> Construction<'a> {
         let [part, rest] = [one, other].map(|own| own / (one + other));
         // the exponents of force over depth change slowly, and the parts as the depths
         let drift = part * rest * (soft.relative_depth.1 - hard.relative_depth.1);
-        let change = part * of_soft.force.value + rest * of_hard.force.value;
-        let change_growth = part * of_soft.force.slope
-            + rest * of_hard.force.slope
-            + drift * (of_soft.force.value - of_hard.force.value);
-        let force = PI * radius.0 * radius.0 * pressure.0 * exp(change);
+        let both = |one: f64, other: f64| {
+            // beside a rigid body nothing is raised to a power
+            if other == 1.0 && rest == 0.0 { one } else { exp(part * log(one) + rest * log(other)) }
+        };
+        let [one, other] = [of_soft.force, of_hard.force];
+        let mixing = if drift == 0.0 { 0.0 } else { drift * log(one.value / other.value) };
+        let change_growth = part * (one.slope / one.value) + rest * (other.slope / other.value) + mixing;
+        let force = PI * radius.0 * radius.0 * pressure.0 * both(one.value, other.value);
         let force_growth = pressure.1 + 2.0 * radius.1 + change_growth;
         let own = if self.is_exchanged { hard.radius.0 } else { soft.radius.0 };
         Together {
@@ -475,7 +478,7 @@ impl<'a> Construction<'a> {
             force,
             ratio: 1.0,
             stiffness: force / indentation.0 * (force_growth / indentation.1),
-            radius: radius.0 * exp(0.5 * (part * of_soft.area + rest * of_hard.area)),
+            radius: radius.0 * sqrt(both(of_soft.area, of_hard.area)),
             depths: [soft.k, hard.k],
             strains: [of_soft.strain, of_hard.strain],
             share: own / radius.0,
@@ -495,18 +498,31 @@ impl<'a> Construction<'a> {
 
     /// The point of the construction at `indentation` over `R`, at first yield or beyond. Beyond the last knot, the larger depth is
     /// proportional to it.
-    #[inline(never)]
     pub fn along(&self, indentation: f64) -> Together {
+        self.together(&self.reach(indentation))
+    }
+
+    /// The same, without large strain.
+    #[inline(never)]
+    fn reach(&self, indentation: f64) -> Point {
         // a depth in yield depths of the pair, if it were that of a body
         let share = self.soft.modulus / self.hard_modulus;
         let first = self.soft.depth * (1.0 + share) * (1.0 + share);
+        if share == 0.0 {
+            // under a rigid body it is
+            return self.at(largest(indentation / first, 1.0));
+        }
         let (k, point) = search((1.0, LAST), largest(indentation / first, 1.0), |k| {
             let point = self.at(k);
             (log(point.indentation.0 / indentation), point.indentation.1, point)
         });
         let is_within = k < LAST * (1.0 - 1e-9);
-        let point = if is_within { point } else { self.at(LAST * (indentation / point.indentation.0)) };
-        self.together(&point)
+        if is_within { point } else { self.at(LAST * (indentation / point.indentation.0)) }
+    }
+
+    /// The depths of both bodies in yield depths of their own at `indentation` over `R`, as in [`Together::depths`].
+    pub fn depths(&self, indentation: f64) -> [Option<f64>; 2] {
+        self.reach(indentation).shapes.map(|shape| shape.k)
     }
 }
 

@@ -95,7 +95,7 @@ impl Curve<'_> {
     /// The knots at or below and above `indentation` \[m\], which is beyond first yield. They are those of the body that yields
     /// first, and between them those of the other one that are not too near.
     fn around(&self, indentation: f64) -> (Knot, Option<Knot>) {
-        let [soft, hard] = self.construction.along(indentation / self.radius).depths;
+        let [soft, hard] = self.construction.depths(indentation / self.radius);
         let (below, above, _) = self.neighbours(Lead::Soft, indentation, soft.unwrap_or(0.0));
         let below = below.unwrap_or(self.yield_knot());
         let Some(hard) = hard.filter(|_| above.is_none_or(|above| above.hard_depth > 1.0)) else {
@@ -191,7 +191,7 @@ impl Paired {
     pub fn both_yield(&self, pair: &Pair, indentation: f64) -> bool {
         let curve = self.curve(pair);
         let both = |[_, hard]: [Option<f64>; 2]| hard.is_some_and(|k| k > 1.0);
-        indentation > curve.point.indentation && both(curve.construction.along(indentation / pair.radius).depths)
+        indentation > curve.point.indentation && both(curve.construction.depths(indentation / pair.radius))
     }
 
     /// The curve of the bodies of `pair`.
@@ -270,7 +270,7 @@ impl Loading for Paired {
         if indentation < curve.point.indentation {
             return Regime::Elastic;
         }
-        let [soft, hard] = curve.construction.along(indentation / pair.radius).depths;
+        let [soft, hard] = curve.construction.depths(indentation / pair.radius);
         let depth = largest(soft.unwrap_or(0.0), hard.unwrap_or(0.0));
         if depth < self.law.second_region {
             Regime::ElastoplasticFirst
