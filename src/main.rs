@@ -39,7 +39,7 @@ mod tangential_curve;
 mod truth;
 
 use arguments::{Arguments, Command, PlatformArguments};
-use brinell_exporter::plan::Plan;
+use brinell_exporter::plan::{Plan, check_unit};
 use brinell_exporter::prebuilt::Library;
 use brinell_exporter::{constants, numbers};
 use clap::Parser;
@@ -143,7 +143,9 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Completions { shell }) => about::completions(*shell),
         Some(Command::Man { output }) => about::manual(output)?,
         Some(Command::Constants { scene }) => {
-            print!("{}", constants::write(&Plan::of(&scene_file::read(scene)?), "unpacked"));
+            let scene = scene_file::read(scene)?;
+            check_unit(&scene)?;
+            print!("{}", constants::write(&Plan::of(&scene), "unpacked"));
         }
         Some(Command::Kind { scene }) => {
             let library = Library::of(&scene_file::read(scene)?)?;

@@ -4,6 +4,7 @@ use crate::files::FileError;
 use crate::prebuilt::PrebuiltError;
 use brinell_exporter::layout::shown;
 use brinell_exporter::package::PackError;
+use brinell_exporter::plan::NoUnit;
 use brinell_exporter::platform::NoPlatform;
 use std::io;
 use std::path::PathBuf;
@@ -13,6 +14,8 @@ use std::path::PathBuf;
 pub enum ExportError {
     #[error("{0}")]
     File(#[from] FileError),
+    #[error("{0}")]
+    Unit(#[from] NoUnit),
     #[error("{0}")]
     Platform(#[from] NoPlatform),
     #[error("{0}")]

@@ -93,6 +93,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         quasi_static: vec![scene.quasi_static[0]],
         factors: vec![Factors::SLOW],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
+        inverse_masses: None,
         directions: usize::from(friction),
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],

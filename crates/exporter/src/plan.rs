@@ -34,7 +34,7 @@ pub struct Plan<'a> {
     pub valid: String,
 }
 
-/// No scene specifies which bodies two contacts share.
+/// A scene without tables `[[body]]` doesn't say which bodies two contacts share.
 const SHARED_BODIES: &str = "the FMU moves the bodies of each contact separately: a body that two contacts share, as in a chain or \
                              between two walls, would be moved twice. For such contacts use FMUs without [coupling], and short steps";
 
@@ -64,7 +64,7 @@ impl Plan<'_> {
             guard: Guard::of(scene),
             warnings: warnings.collect(),
             waves: Waves::of(scene, speed, &[]),
-            shared_bodies: (scene.coupling.is_some() && scene.contact_count() > 1).then_some(SHARED_BODIES),
+            shared_bodies: moves_separately(scene).then_some(SHARED_BODIES),
             valid: validity::limits(&model.pair(), density, model.valid_depth()),
         }
     }
@@ -78,6 +78,24 @@ impl Plan<'_> {
     pub fn prediction(&self) -> &Prediction {
         &self.scene.predictions[0]
     }
+}
+
+/// Whether the FMU moves the bodies of several contacts, each by itself.
+fn moves_separately(scene: &Scene) -> bool {
+    scene.coupling.is_some() && scene.inverse_masses.is_none() && scene.contact_count() > 1
+}
+
+/// A scene without a unit: one whose contacts share bodies.
+#[derive(Debug, thiserror::Error)]
+#[error("units of contacts that share bodies ([[body]], coupling.inverse_masses) can't be exported yet")]
+pub struct NoUnit;
+
+/// Rejects a `scene` that is right but whose unit can't be made yet.
+///
+/// # Errors
+/// [`NoUnit`]
+pub fn check_unit(scene: &Scene) -> Result<(), NoUnit> {
+    if scene.inverse_masses.is_some() { Err(NoUnit) } else { Ok(()) }
 }
 
 /// The kinds of the FMU of `scene`, whose laws have this `energy` balance.

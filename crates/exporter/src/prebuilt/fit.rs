@@ -4,7 +4,7 @@ use super::kinds::{Library, LibraryLaws};
 use crate::constants::{parameters, start_value};
 use crate::interface::Entry;
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{InverseMasses, Scene};
 use crate::table::{Causality, VARIABLES};
 use brinell_contact::Surface;
 use brinell_contact::damped::AnyDamped;
@@ -39,6 +39,10 @@ fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
     let count = scene.contact_count();
     if count > 1 {
         return Err(needs("[[contact]]", format!("there are {count} contacts, and prebuilt libraries have one")));
+    }
+    if let Some(masses) = &scene.inverse_masses {
+        let key = if *masses == InverseMasses::Inputs { "coupling.inverse_masses" } else { "[[body]]" };
+        return Err(needs(key, "prebuilt libraries know one mass and no bodies"));
     }
     if scene.passivity_guard {
         return Err(needs("law.passivity_guard", "prebuilt libraries have no guard"));

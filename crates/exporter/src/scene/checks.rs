@@ -9,6 +9,7 @@ use super::friction;
 use super::laws::{self, SceneLaws};
 use super::losses::{self, Loss};
 use super::names::check_name;
+use super::shared_bodies;
 use crate::mistake::{Mistake, check_limits, positive};
 use crate::model::check_energy;
 use crate::numbers::in_message;
@@ -41,8 +42,8 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     }
     let loss = losses::check(&file, &contacts, laws.damped_name())?;
     let damps_by_mass = damped.filter(|(_, law)| law.needs_mass()).map(|(name, _)| name);
-    let coupling = fmu::check_coupling(file.coupling.as_ref(), damps_by_mass)?;
-    let (coupling, known_mass) = coupling.unzip();
+    let inverse_masses = shared_bodies::check(&file, laws.damped_name())?;
+    let (coupling, known_mass) = fmu::check_coupling(file.coupling.as_ref(), damps_by_mass, inverse_masses.is_some())?;
     let beside = friction::BesideFriction {
         damped: laws.damped_name(),
         unloading: unloading.map(|(name, _)| name),
@@ -56,7 +57,9 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let follows_rate = damped.is_some() || loss.is_some();
     let input_derivatives =
         check_input_derivatives(file.fmu.input_derivatives.as_ref(), coupling.is_some(), follows_rate)?;
-    let impact = check_impact(file.impact.as_ref(), known_mass.as_ref(), &contacts)?;
+    let shared_mass = inverse_masses.as_ref().and_then(|masses| masses.effective_mass(0, contacts.count()));
+    let impact_mass = known_mass.clone().or(shared_mass.map(|mass| Spanned::new(0..0, mass)));
+    let impact = check_impact(file.impact.as_ref(), impact_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let span = file.impact.as_ref().and_then(|table| Some(table.get_ref().mass.as_ref()?.span()));
@@ -91,6 +94,7 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         quasi_static: Vec::new(),
         factors,
         coupling,
+        inverse_masses,
         directions,
         impact,
         predictions: Vec::new(),

@@ -350,6 +350,11 @@ impl Contacts {
         self.all[index].own.get(name).or_else(|| self.shared.get(name))
     }
 
+    /// The number of groups.
+    pub fn count(&self) -> usize {
+        self.all.len()
+    }
+
     /// `text` after the name of the contact, if it has one.
     pub fn said(&self, index: usize, text: &str) -> String {
         self.all[index].name.as_ref().map_or(text.into(), |name| format!("contact `{name}`: {text}"))

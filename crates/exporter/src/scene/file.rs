@@ -5,6 +5,7 @@ use crate::mistake::Mistake;
 use crate::parameters::ConstantTable;
 use brinell_contact::Surface;
 use serde::Deserialize;
+use std::ops::Range;
 use toml::Spanned;
 
 #[derive(Deserialize)]
@@ -22,6 +23,7 @@ pub struct SceneFile {
     pub impact: Option<Spanned<ImpactTable>>,
     pub friction: Option<Spanned<FrictionTable>>,
     pub coupling: Option<Spanned<CouplingTable>>,
+    pub body: Option<Spanned<Vec<Spanned<SharedBodyTable>>>>,
     pub contact: Option<Spanned<Vec<Spanned<ContactTable>>>>,
 }
 
@@ -144,10 +146,19 @@ pub enum NamesName {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CouplingTable {
-    pub effective_mass: Spanned<f64>,
+    /// Required unless the contacts share bodies.
+    pub effective_mass: Option<Spanned<f64>>,
+    pub inverse_masses: Option<Spanned<InverseMassesName>>,
     pub master: Option<MasterName>,
     #[serde(default)]
     pub inputs: Vec<Spanned<String>>,
+}
+
+/// Where the inverse masses of contacts that share bodies come from, if the scene has no bodies.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum InverseMassesName {
+    Input,
 }
 
 /// Friction of all contacts.
@@ -184,12 +195,26 @@ pub struct ImpactTable {
     pub watch: Option<bool>,
 }
 
+/// A body that contacts share.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct SharedBodyTable {
+    pub name: Spanned<String>,
+    pub mass: Spanned<f64>,
+    /// One number, three or six.
+    pub inertia: Option<Spanned<toml::Value>>,
+}
+
 /// One contact, or `count` equal contacts, with the values that differ from the tables above.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ContactTable {
     pub name: Spanned<String>,
     pub count: Option<Spanned<i64>>,
+    pub between: Option<Spanned<Vec<Spanned<String>>>>,
+    pub direction: Option<Spanned<i64>>,
+    pub normal: Option<Spanned<Vec<f64>>>,
+    pub arms: Option<Spanned<Vec<Spanned<Vec<f64>>>>>,
     #[serde(default)]
     pub impactor: Impactor,
     #[serde(default)]
@@ -208,11 +233,25 @@ impl SceneFile {
     /// # Errors
     /// Text that is not TOML, has a wrong type, or is unknown, with its place.
     pub fn read(text: &str) -> Result<SceneFile, Mistake> {
-        toml::from_str::<SceneFile>(text).map_err(|error| {
-            let span = error.span().unwrap_or(0..0);
+        let mistake = |span: Range<usize>, message: &str| {
             let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
             let line = text[line..].lines().next().unwrap_or_default().trim();
-            Mistake(span.clone(), parser_words::words(error.message(), line, &text[span]))
-        })
+            Mistake(span.clone(), parser_words::words(message, line, &text[span]))
+        };
+        let file: SceneFile =
+            toml::from_str(text).map_err(|error| mistake(error.span().unwrap_or(0..0), error.message()))?;
+        // whether this key is required, the parser doesn't know
+        match &file.coupling {
+            Some(table) if file.body.is_none() && table.get_ref().has_no_mass() => {
+                Err(mistake(table.span(), "missing field `effective_mass`"))
+            }
+            _ => Ok(file),
+        }
+    }
+}
+
+impl CouplingTable {
+    fn has_no_mass(&self) -> bool {
+        self.effective_mass.is_none() && self.inverse_masses.is_none()
     }
 }

@@ -27,14 +27,16 @@ pub fn check_text(key: &str, given: Option<&Spanned<String>>) -> Result<String, 
 /// Inputs that an FMU can have in addition to the rate.
 const INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
 
-/// The coupling in this table, and the mass. `damps_by_mass` is the name of the law if its damping follows from the mass.
+/// The coupling in this table, which the unit has without it, too, if its contacts share bodies; and the mass. `damps_by_mass` is
+/// the name of the law if its damping follows from the mass.
 pub fn check_coupling(
     given: Option<&Spanned<CouplingTable>>,
     damps_by_mass: Option<&str>,
-) -> Result<Option<(Coupling, Spanned<f64>)>, Mistake> {
-    let Some(table) = given else { return Ok(None) };
-    let CouplingTable { effective_mass, master, inputs } = table.get_ref();
-    positive("coupling.effective_mass", effective_mass)?;
+    shares_bodies: bool,
+) -> Result<(Option<Coupling>, Option<Spanned<f64>>), Mistake> {
+    let Some(table) = given else { return Ok((shares_bodies.then(Coupling::default), None)) };
+    let CouplingTable { effective_mass, master, inputs, .. } = table.get_ref();
+    effective_mass.as_ref().map(|mass| positive("coupling.effective_mass", mass)).transpose()?;
     for input in inputs {
         if !INPUTS.contains(&input.get_ref().as_str()) {
             return Err(Mistake(input.span(), unknown("input", input.get_ref(), INPUTS.into_iter())));
@@ -50,7 +52,7 @@ pub fn check_coupling(
     }
     let [acceleration_input, mass_input] = INPUTS.map(|name| inputs.iter().any(|input| input.get_ref() == name));
     let parallel = *master == Some(MasterName::Parallel);
-    Ok(Some((Coupling { parallel, acceleration_input, mass_input }, effective_mass.clone())))
+    Ok((Some(Coupling { parallel, acceleration_input, mass_input }), effective_mass.clone()))
 }
 
 /// Makes settable only the parameters in `chosen`, or all: those of all contacts and those of one contact.

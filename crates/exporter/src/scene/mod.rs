@@ -8,11 +8,15 @@ mod fmu;
 mod friction;
 #[cfg(test)]
 mod hostile_tests;
+mod inverse_masses;
 mod laws;
 mod losses;
 mod names;
 mod parser_words;
 pub mod plausible;
+mod shared_bodies;
+#[cfg(test)]
+mod shared_bodies_tests;
 mod strength;
 
 use crate::mistake::{self, Mistake, SceneError};
@@ -29,6 +33,7 @@ use toml::Spanned;
 
 pub use bodies::{Body, Both};
 pub use contacts::{Group, Parameter};
+pub use inverse_masses::{InverseMasses, place};
 pub use losses::Loss;
 pub use strength::{InImpact, PowerLaw, Rate};
 
@@ -76,6 +81,9 @@ pub struct Scene {
     pub factors: Vec<Factors>,
     /// How the unit moves the bodies through a step by their mass, if it does.
     pub coupling: Option<Coupling>,
+    /// How the force of each contact accelerates the others, if they share bodies. The unit then moves these bodies: there is a
+    /// `coupling`, and no effective mass of a contact by itself.
+    pub inverse_masses: Option<InverseMasses>,
     /// Number of tangential directions, zero without friction.
     pub directions: usize,
     pub impact: Impact,
@@ -146,9 +154,12 @@ impl Scene {
         own.map(|parameter| parameter.value).or_else(|| self.value(name))
     }
 
-    /// The impact on the contacts of `group`. If the FMU knows their mass, that mass is used.
+    /// The impact on the contacts of `group`. If the FMU knows their mass, that mass is used, also where it follows from bodies.
     pub fn impact_of(&self, group: usize) -> Impact {
-        Impact { mass: self.group_value(group, "effective_mass").unwrap_or(self.impact.mass), ..self.impact }
+        // contacts of bodies are groups of one
+        let shared = self.inverse_masses.as_ref().and_then(|masses| masses.effective_mass(group, self.contacts.len()));
+        let mass = self.group_value(group, "effective_mass").or(shared);
+        Impact { mass: mass.unwrap_or(self.impact.mass), ..self.impact }
     }
 
     /// Whether contacts of a group may differ, so that each is treated as a group of its own.

@@ -97,7 +97,11 @@ pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
     doubts.extend(impact.and_then(|impact| SPEED.doubt("impact.speed", &impact.speed)));
     doubts.extend(impact.and_then(|impact| MASS.doubt("impact.mass", impact.mass.as_ref()?)));
     let coupling = file.coupling.as_ref().map(Spanned::get_ref);
-    doubts.extend(coupling.and_then(|coupling| MASS.doubt("coupling.effective_mass", &coupling.effective_mass)));
+    let mass = coupling.and_then(|coupling| coupling.effective_mass.as_ref());
+    doubts.extend(mass.and_then(|mass| MASS.doubt("coupling.effective_mass", mass)));
+    for body in file.body.iter().flat_map(|bodies| bodies.get_ref()).map(Spanned::get_ref) {
+        doubts.extend(MASS.doubt(&format!("body `{}`: mass", body.name.get_ref()), &body.mass));
+    }
     doubts
 }
 

@@ -1,0 +1,409 @@
+//! Contacts that share bodies: the tables `[[body]]`, what each contact says of its two bodies, and what doesn't go with them.
+
+use super::file::{ContactTable, SceneFile, SharedBodyTable};
+use super::inverse_masses::{self, End, FreeBody, Inertia, InverseMasses, Vector};
+use super::names::check_identifier;
+use crate::layout::shortened;
+use crate::mistake::{Mistake, check_range};
+use crate::nearest::unknown;
+use crate::numbers::{in_message, out_of_range};
+use crate::table;
+use std::collections::{HashMap, HashSet};
+use std::ops::{Range, RangeInclusive};
+use toml::{Spanned, Value};
+
+/// The body that never moves. Every scene has it.
+const GROUND: &str = "ground";
+
+/// Largest number of contacts of a unit whose bodies are shared. The matrix of the inverse masses grows with its square.
+pub const MOST_CONTACTS: usize = 256;
+
+/// Allowed moments of inertia \[kg m^2\], and sizes of the products of inertia.
+const INERTIAS: RangeInclusive<f64> = 1e-60..=1e60;
+const PRODUCTS: RangeInclusive<f64> = -1e60..=1e60;
+
+/// Allowed coordinates of a contact on its body \[m\].
+const ARMS: RangeInclusive<f64> = -1e6..=1e6;
+
+/// Allowed masses \[kg\]: those of the parameter `effective_mass`.
+fn masses() -> RangeInclusive<f64> {
+    let limits = table::variable("effective_mass");
+    limits.minimum.unwrap_or(f64::MIN_POSITIVE)..=limits.maximum.unwrap_or(f64::MAX)
+}
+
+/// The inverse effective masses of the scene `file`, if its contacts share bodies. `damped` is the name
+/// of a law whose force depends on the rate.
+///
+/// # Errors
+/// The first mistake in the bodies, or what doesn't go with them.
+pub fn check(file: &SceneFile, damped: Option<&str>) -> Result<Option<InverseMasses>, Mistake> {
+    let inputs = file.coupling.as_ref().and_then(|coupling| coupling.get_ref().inverse_masses.as_ref());
+    let inverse_masses = match (&file.body, inputs) {
+        (None, None) => {
+            refuse_ends(file, "needs tables [[body]], which say what the bodies weigh; the scene has none")?;
+            return Ok(None);
+        }
+        (Some(_), Some(inputs)) => {
+            let message = "coupling.inverse_masses = \"input\" doesn't go with tables [[body]], from which the inverse masses \
+                           follow; leave one of them out";
+            return Err(Mistake(inputs.span(), message.into()));
+        }
+        (None, Some(inputs)) => {
+            refuse_ends(
+                file,
+                "has no effect: with coupling.inverse_masses = \"input\" the masses are inputs of the unit",
+            )?;
+            refuse_masses(file, "the masses are those of coupling.inverse_masses")?;
+            check_count(inputs.span(), file)?;
+            InverseMasses::Inputs
+        }
+        (Some(bodies), None) => {
+            refuse_masses(file, "the masses are those of the tables [[body]]")?;
+            let Some(first) = bodies.get_ref().first() else {
+                let message = "the list of bodies is empty; leave it out, or give tables [[body]] with name and mass";
+                return Err(Mistake(bodies.span(), message.into()));
+            };
+            let Some(contacts) = contacts_of(file) else {
+                let message =
+                    "tables [[body]] need tables [[contact]], each with `between` and the names of two bodies";
+                return Err(Mistake(first.span(), message.into()));
+            };
+            check_count(first.span(), file)?;
+            of_bodies(bodies.get_ref(), contacts)?
+        }
+    };
+    refuse_friction(file)?;
+    refuse_rates(file, damped)?;
+    Ok(Some(inverse_masses))
+}
+
+fn contacts_of(file: &SceneFile) -> Option<&[Spanned<ContactTable>]> {
+    file.contact.as_ref().map(|contacts| contacts.get_ref().as_slice())
+}
+
+/// A mistake in a contact.
+fn wrong(contact: &ContactTable, span: Range<usize>, message: &str) -> Mistake {
+    Mistake(span, format!("contact `{}`: {message}", contact.name.get_ref()))
+}
+
+/// Rejects more contacts than the matrix is made for. `place` is where the scene says that they share bodies.
+fn check_count(place: Range<usize>, file: &SceneFile) -> Result<(), Mistake> {
+    let count_of = |contact: &Spanned<ContactTable>| match &contact.get_ref().count {
+        Some(count) => usize::try_from(*count.get_ref()).unwrap_or(0),
+        None => 1,
+    };
+    let count: usize = contacts_of(file).unwrap_or_default().iter().map(count_of).sum();
+    if count <= MOST_CONTACTS {
+        return Ok(());
+    }
+    Err(Mistake(place, format!("there are {count} contacts: allowed are {MOST_CONTACTS} that share bodies")))
+}
+
+/// Rejects what contacts say of bodies where there are none, for this reason.
+fn refuse_ends(file: &SceneFile, why: &str) -> Result<(), Mistake> {
+    for contact in contacts_of(file).unwrap_or_default() {
+        let contact = contact.get_ref();
+        let keys = [
+            ("between", contact.between.as_ref().map(Spanned::span)),
+            ("direction", contact.direction.as_ref().map(Spanned::span)),
+            ("normal", contact.normal.as_ref().map(Spanned::span)),
+            ("arms", contact.arms.as_ref().map(Spanned::span)),
+        ];
+        if let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) {
+            return Err(wrong(contact, span, &format!("{key} {why}")));
+        }
+    }
+    Ok(())
+}
+
+/// Rejects the masses of contacts that share no bodies, for this reason.
+fn refuse_masses(file: &SceneFile, why: &str) -> Result<(), Mistake> {
+    let refused = |name: &str, mass: &Spanned<f64>| {
+        let message = format!("{name} = {} is a second mass: {why}; leave it out", in_message(*mass.get_ref()));
+        Err(Mistake(mass.span(), message))
+    };
+    for contact in contacts_of(file).unwrap_or_default().iter().map(Spanned::get_ref) {
+        if let Some(mass) = &contact.effective_mass {
+            return refused(&format!("{}.effective_mass", contact.name.get_ref()), mass);
+        }
+    }
+    if let Some(coupling) = file.coupling.as_ref().map(Spanned::get_ref) {
+        if let Some(mass) = &coupling.effective_mass {
+            return refused("coupling.effective_mass", mass);
+        }
+        if let Some(mass) = coupling.inputs.iter().find(|input| input.get_ref() == "effective_mass") {
+            return Err(Mistake(mass.span(), format!("coupling.inputs = [\"effective_mass\"]: {why}; leave it out")));
+        }
+    }
+    // the impact on a contact of bodies with inputs needs one, for the predictions
+    let impact = file.impact.as_ref().filter(|_| file.body.is_some());
+    match impact.and_then(|impact| impact.get_ref().mass.as_ref()) {
+        Some(mass) => refused("impact.mass", mass),
+        None => Ok(()),
+    }
+}
+
+/// Rejects friction.
+fn refuse_friction(file: &SceneFile) -> Result<(), Mistake> {
+    let Some(friction) = &file.friction else { return Ok(()) };
+    Err(Mistake(
+        friction.span(),
+        "[friction]: friction of contacts that share bodies isn't available yet; leave it out".into(),
+    ))
+}
+
+/// Rejects laws whose force or strength depends on the rate.
+fn refuse_rates(file: &SceneFile, damped: Option<&str>) -> Result<(), Mistake> {
+    if let (Some(name), Some(loading)) = (damped, &file.law.loading) {
+        let message = format!(
+            "law.loading = \"{name}\" doesn't go with contacts that share bodies: its force depends on the rate, and its damping \
+             on one mass; a plastic law or \"hertz\" does, also with law.elastic_restitution"
+        );
+        return Err(Mistake(loading.span(), message));
+    }
+    let impactor = file.impactor.as_ref().and_then(|impactor| impactor.get_ref().0.rate.as_ref());
+    let target = file.target.as_ref().and_then(|target| target.get_ref().rate.as_ref());
+    let Some((body, rate)) = impactor.map(|rate| ("impactor", rate)).or(target.map(|rate| ("target", rate))) else {
+        return Ok(());
+    };
+    let message = format!(
+        "{body}.rate doesn't go with contacts that share bodies: the strength of an impact follows from its mass and speed, and \
+         theirs depend on the other contacts; give the strength of the impact (yield_strength)"
+    );
+    Err(Mistake(rate.span(), message))
+}
+
+/// The bodies of a scene.
+struct Bodies<'a> {
+    /// The names of those that are free to move.
+    names: Vec<&'a str>,
+    free: Vec<FreeBody>,
+    /// The index of each name; `None` is the ground.
+    index: HashMap<&'a str, Option<usize>>,
+}
+
+impl<'a> Bodies<'a> {
+    fn of(tables: &'a [Spanned<SharedBodyTable>]) -> Result<Bodies<'a>, Mistake> {
+        let mut bodies = Bodies { names: Vec::new(), free: Vec::new(), index: HashMap::from([(GROUND, None)]) };
+        for table in tables {
+            let SharedBodyTable { name, mass, inertia } = table.get_ref();
+            check_identifier(name)?;
+            let text = name.get_ref().as_str();
+            if text == GROUND {
+                let message =
+                    "name = \"ground\" is the body that never moves, and is always there: call this one otherwise";
+                return Err(Mistake(name.span(), message.into()));
+            }
+            if bodies.index.insert(text, Some(bodies.free.len())).is_some() {
+                return Err(Mistake(name.span(), format!("name = {text:?} is taken by another body")));
+            }
+            check_range(("mass", "kg"), &format!("body `{text}`: "), mass, masses())?;
+            let inertia = inertia.as_ref().map(|inertia| check_inertia(text, inertia)).transpose()?;
+            bodies.names.push(text);
+            bodies.free.push(FreeBody { mass: *mass.get_ref(), inertia });
+        }
+        Ok(bodies)
+    }
+
+    /// The two bodies of a `contact`.
+    fn between(&self, contact: &Spanned<ContactTable>) -> Result<[Option<usize>; 2], Mistake> {
+        let table = contact.get_ref();
+        let Some(between) = &table.between else {
+            let message = "`between` is missing: every contact of a scene with tables [[body]] names its two bodies";
+            return Err(wrong(table, contact.span(), message));
+        };
+        let list = || names_in_message(between.get_ref());
+        let [one, other] = between.get_ref().as_slice() else {
+            let message = format!("between = {} must name two bodies", list());
+            return Err(wrong(table, between.span(), &message));
+        };
+        let find = |name: &Spanned<String>| {
+            self.index.get(name.get_ref().as_str()).copied().ok_or_else(|| {
+                let known = [GROUND].into_iter().chain(self.names.iter().copied());
+                wrong(table, name.span(), &unknown("body", name.get_ref(), known))
+            })
+        };
+        let ends = [find(one)?, find(other)?];
+        if ends[0] == ends[1] {
+            let message = format!("between = {} must name two different bodies", list());
+            return Err(wrong(table, between.span(), &message));
+        }
+        Ok(ends)
+    }
+}
+
+fn names_in_message(names: &[Spanned<String>]) -> String {
+    let names = names.iter().map(|name| format!("{:?}", name.get_ref())).collect::<Vec<_>>();
+    shortened(&format!("[{}]", names.join(", ")))
+}
+
+fn numbers_in_message(numbers: &[f64]) -> String {
+    let numbers = numbers.iter().map(|number| in_message(*number)).collect::<Vec<_>>();
+    shortened(&format!("[{}]", numbers.join(", ")))
+}
+
+/// The forms of an inertia, for messages.
+const FORMS: &str =
+    "allowed are one number (a ball), three (principal, along x, y, z) or six (xx, yy, zz, xy, xz, yz) [kg m^2]";
+
+/// The inertia of the body `name`.
+fn check_inertia(name: &str, given: &Spanned<Value>) -> Result<Inertia, Mistake> {
+    let no = |message: String| Mistake(given.span(), format!("body `{name}`: inertia{message}"));
+    let number = |value: &Value| match value {
+        Value::Float(number) => Some(*number),
+        Value::Integer(number) => Some(*number as f64),
+        _ => None,
+    };
+    let numbers: Option<Vec<f64>> = match given.get_ref() {
+        Value::Array(values) => values.iter().map(number).collect(),
+        value => number(value).map(|number| vec![number]),
+    };
+    let Some(numbers) = numbers else {
+        let text = shortened(&given.get_ref().to_string());
+        return Err(no(format!(" = {text} is neither a number nor a list of numbers: {FORMS}")));
+    };
+    let elements = match *numbers {
+        [ball] => [ball, ball, ball, 0.0, 0.0, 0.0],
+        [x, y, z] => [x, y, z, 0.0, 0.0, 0.0],
+        [xx, yy, zz, xy, xz, yz] => [xx, yy, zz, xy, xz, yz],
+        _ => return Err(no(format!(" = {} has {} numbers: {FORMS}", numbers_in_message(&numbers), numbers.len()))),
+    };
+    for (index, number) in numbers.iter().enumerate() {
+        let allowed = if index < 3 { INERTIAS } else { PRODUCTS };
+        if !allowed.contains(number) {
+            let place = if numbers.len() == 1 { String::new() } else { format!("[{}]", index + 1) };
+            return Err(no(format!("{place} {}", out_of_range(*number, &allowed, "kg m^2"))));
+        }
+    }
+    Inertia::of(elements).ok_or_else(|| {
+        no(format!(
+            " = {} is not positive definite: about some axis the moment isn't positive; allowed are products xy, xz, yz that are \
+             small enough beside xx, yy, zz, such as xy^2 < xx yy",
+            numbers_in_message(&numbers)
+        ))
+    })
+}
+
+/// The matrix for these `contacts` of the bodies in `tables`.
+fn of_bodies(
+    tables: &[Spanned<SharedBodyTable>],
+    contacts: &[Spanned<ContactTable>],
+) -> Result<InverseMasses, Mistake> {
+    let bodies = Bodies::of(tables)?;
+    let normals = contacts.iter().any(|contact| contact.get_ref().normal.is_some());
+    let (mut all, mut touched) = (Vec::new(), HashSet::new());
+    for contact in contacts {
+        let table = contact.get_ref();
+        if let Some(count) = &table.count {
+            let message = format!(
+                "count = {} doesn't go with bodies: each contact needs two of its own; give it a table [[contact]]",
+                count.get_ref()
+            );
+            return Err(wrong(table, count.span(), &message));
+        }
+        let between = bodies.between(contact)?;
+        touched.extend(between);
+        let normal = if normals { normal_of(contact)? } else { line_of(table)? };
+        let arms = arms_of(table, between)?;
+        let mut ends = Vec::new();
+        for (place, (body, sign)) in between.into_iter().zip([1.0, -1.0]).enumerate() {
+            let Some(body) = body else { continue };
+            let end = End::of(&bodies.free, body, normal.map(|part| sign * part), arms[place]);
+            ends.push(end.ok_or_else(|| {
+                let name = bodies.names[body];
+                let message = format!(
+                    "arms[{}] = {} isn't parallel to the normal, so that the force turns the body `{name}`: give its inertia",
+                    place + 1,
+                    numbers_in_message(&arms[place])
+                );
+                wrong(table, table.arms.as_ref().map_or(0..0, |arms| arms.get_ref()[place].span()), &message)
+            })?);
+        }
+        all.push(ends);
+    }
+    if let Some(index) = (0..tables.len()).find(|index| !touched.contains(&Some(*index))) {
+        let message = format!("body `{}` is in no contact: name it in `between`, or leave it out", bodies.names[index]);
+        return Err(Mistake(tables[index].span(), message));
+    }
+    let matrix = InverseMasses::Constant(inverse_masses::triangle(&bodies.free, &all));
+    let allowed = masses();
+    for (index, contact) in contacts.iter().enumerate() {
+        let mass = matrix.effective_mass(index, contacts.len()).expect("the matrix is constant");
+        if !allowed.contains(&mass) {
+            let message = format!("the effective mass of its bodies {}", out_of_range(mass, &allowed, "kg"));
+            return Err(wrong(contact.get_ref(), contact.span(), &message));
+        }
+    }
+    Ok(matrix)
+}
+
+/// The normal of a `contact` on a line, from its first body to its second. The line is the axis x.
+fn line_of(contact: &ContactTable) -> Result<Vector, Mistake> {
+    if let Some(arms) = &contact.arms {
+        let message = "arms need `normal`: bodies on one line don't turn";
+        return Err(wrong(contact, arms.span(), message));
+    }
+    match contact.direction.as_ref().map(Spanned::get_ref) {
+        None | Some(1) => Ok([1.0, 0.0, 0.0]),
+        Some(-1) => Ok([-1.0, 0.0, 0.0]),
+        Some(other) => {
+            let message = format!(
+                "direction = {other} is out of range: allowed are 1, the second body is on the positive side of the line, and -1"
+            );
+            Err(wrong(contact, contact.direction.as_ref().map_or(0..0, Spanned::span), &message))
+        }
+    }
+}
+
+/// The normal of a contact in space, from its first body to its second.
+fn normal_of(contact: &Spanned<ContactTable>) -> Result<Vector, Mistake> {
+    let table = contact.get_ref();
+    if let Some(direction) = &table.direction {
+        let message = format!(
+            "direction = {} doesn't go with `normal`, of this contact or of another: give each contact of the scene a normal",
+            direction.get_ref()
+        );
+        return Err(wrong(table, direction.span(), &message));
+    }
+    let Some(normal) = &table.normal else {
+        let message = "`normal` is missing: another contact of the scene has one, and so each needs one";
+        return Err(wrong(table, contact.span(), message));
+    };
+    let numbers = normal.get_ref();
+    let vector = <[f64; 3]>::try_from(numbers.as_slice()).ok().and_then(inverse_masses::direction);
+    vector.ok_or_else(|| {
+        let message = format!(
+            "normal = {} is no direction: allowed are three finite numbers x, y, z that are not all zero",
+            numbers_in_message(numbers)
+        );
+        wrong(table, normal.span(), &message)
+    })
+}
+
+/// The place of a `contact` relative to the centre of mass of each of its two bodies \[m\].
+fn arms_of(contact: &ContactTable, between: [Option<usize>; 2]) -> Result<[Vector; 2], Mistake> {
+    let Some(arms) = &contact.arms else { return Ok([[0.0; 3]; 2]) };
+    let given = arms.get_ref();
+    if given.len() != 2 {
+        let message = format!("arms has {} vectors: allowed are two, one for each body in `between`", given.len());
+        return Err(wrong(contact, arms.span(), &message));
+    }
+    let mut vectors = [[0.0; 3]; 2];
+    for (place, (arm, vector)) in given.iter().zip(&mut vectors).enumerate() {
+        let numbers = arm.get_ref();
+        let said = || format!("arms[{}] = {}", place + 1, numbers_in_message(numbers));
+        *vector = match numbers.as_slice() {
+            [] => [0.0; 3],
+            &[x, y, z] if [x, y, z].iter().all(|part| ARMS.contains(part)) => [x, y, z],
+            _ => {
+                let message = format!("{} is no arm: allowed are three numbers from -1e6 to 1e6 m, or none", said());
+                return Err(wrong(contact, arm.span(), &message));
+            }
+        };
+        if between[place].is_none() && *vector != [0.0; 3] {
+            let message = format!("{}: \"{GROUND}\" never moves and takes no arm: allowed is []", said());
+            return Err(wrong(contact, arm.span(), &message));
+        }
+    }
+    Ok(vectors)
+}
