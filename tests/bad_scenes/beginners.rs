@@ -315,6 +315,10 @@ fn an_implausible_number_causes_a_question() {
             "[coupling]\neffective_mass = 1.0\n[[contact]]\nname = \"left\"\neffective_mass = 4e7\n",
             "left.effective_mass = 40e6 kg; did you mean 40000?",
         ),
+        (
+            "[[body]]\nname = \"ball\"\nmass = 4e7\n[[contact]]\nname = \"left\"\nbetween = [\"ball\", \"ground\"]\n",
+            "body `ball`: mass = 40e6 kg; did you mean 40000?",
+        ),
     ] {
         let doubted = doubted(&format!("{SCENE}{tables}"));
         assert!(doubted.contains(question) && doubted.lines().count() == 1, "nothing of {question} in {doubted}");

@@ -4,6 +4,7 @@ mod beginners;
 mod contacts;
 mod friction;
 mod laws;
+mod shared_bodies;
 
 use brinell_testing::{command, refusal};
 use command::{contents, empty_folder, run};

@@ -200,6 +200,7 @@ fn every_key_of_a_scene_is_explained_and_no_other() {
         ("### `[impact]`", "ImpactTable"),
         ("### `[friction]`", "FrictionTable"),
         ("### `[coupling]`", "CouplingTable"),
+        ("### `[[body]]`", "SharedBodyTable"),
         ("### `[[contact]]`", "ContactTable"),
     ];
     for (heading, structure) in tables {

@@ -77,6 +77,9 @@ fn in_words_of_the_file(message: &str) -> String {
         let is = KINDS.iter().find(|(kind, _)| value.starts_with(kind)).map_or(value, |(_, words)| words);
         return format!("this is {is}, expected {}", wanted(expected));
     }
+    if problem.starts_with("invalid value: integer") {
+        return "the number is too large for a whole number".into();
+    }
     if NO_NUMBER.iter().any(|theirs| problem.starts_with(theirs)) {
         return "this is no number: numbers are written like 0.3, 206e9 or -5".into();
     }

@@ -261,7 +261,7 @@ fn rigid_bodies_in_space_have_the_matrix_of_their_jacobian() {
         for (index, Rigid { mass, text, .. }) in bodies.iter().enumerate() {
             let _ = write!(tables, "[[body]]\nname = \"body_{index}\"\nmass = {mass:e}\ninertia = {text}\n");
         }
-        let count = bodies.len() + random.usize(..4);
+        let count = bodies.len() + random.usize(..9);
         for index in 0..count {
             // each body is in a contact
             let one = if index < bodies.len() { Some(index) } else { Some(random.usize(..bodies.len())) };
