@@ -319,6 +319,11 @@ fn an_implausible_number_causes_a_question() {
             "[[body]]\nname = \"ball\"\nmass = 4e7\n[[contact]]\nname = \"left\"\nbetween = [\"ball\", \"ground\"]\n",
             "body `ball`: mass = 40e6 kg; did you mean 40000?",
         ),
+        (
+            "[[body]]\nname = \"box\"\nmass = 0.3\ninertia = [1.2e5, 2.6e5, 3.5e5]\n[[contact]]\nname = \"left\"\n\
+             between = [\"box\", \"ground\"]\n",
+            "body `box`: inertia[1] = 120e3 kg m^2; did you mean 120e-6? (the mass is 300 g, and radii of gyration are",
+        ),
     ] {
         let doubted = doubted(&format!("{SCENE}{tables}"));
         assert!(doubted.contains(question) && doubted.lines().count() == 1, "nothing of {question} in {doubted}");

@@ -137,11 +137,11 @@ fn a_mass_of_a_body_that_is_none_is_refused_with_the_range() {
 fn an_inertia_of_another_form_is_refused_with_the_forms() {
     let forms = ["one number (a ball)", "three (principal, along x, y, z)", "six (xx, yy, zz, xy, xz, yz)"];
     for (inertia, said) in [
-        ("\"1e-4 kg m2\"", "inertia = \"1e-4 kg m2\" is neither"),
-        ("[1e-4, true, 1e-4]", "inertia = [0.0001, true, 0.0001] is neither"),
+        ("\"1e-4 kg m2\"", "inertia = \"1e-4 kg m2\" is no number"),
+        ("[1e-4, true, 1e-4]", "inertia[2] = true is no number"),
         ("[]", "inertia = [] has 0 numbers"),
         ("[1e-4, 2e-4]", "inertia = [0.0001, 0.0002] has 2 numbers"),
-        ("[[1e-4, 0, 0], [0, 1e-4, 0], [0, 0, 1e-4]]", "is neither"),
+        ("[[1e-4, 0, 0], [0, 1e-4, 0], [0, 0, 1e-4]]", "inertia[1] as a list is no number"),
     ] {
         let parts = [&["body `box`: ", said][..], &forms].concat();
         refused(BOX, "[1.2e-4, 2.6e-4, 3.5e-4]", &format!("§{inertia}"), &parts);

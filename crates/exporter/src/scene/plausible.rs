@@ -2,10 +2,11 @@
 
 use super::bodies::Body;
 use super::file::{BodyTable, PowerLawTable, SceneFile};
+use super::shared_bodies::number_in;
 use crate::mistake::Mistake;
 use crate::numbers::{plain, quantity};
 use std::ops::RangeInclusive;
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 /// The plausible range of a number of a contact.
 struct Expected<'a> {
@@ -100,9 +101,26 @@ pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
     let mass = coupling.and_then(|coupling| coupling.effective_mass.as_ref());
     doubts.extend(mass.and_then(|mass| MASS.doubt("coupling.effective_mass", mass)));
     for body in file.body.iter().flat_map(|bodies| bodies.get_ref()).map(Spanned::get_ref) {
-        doubts.extend(MASS.doubt(&format!("body `{}`: mass", body.name.get_ref()), &body.mass));
+        let name = format!("body `{}`: ", body.name.get_ref());
+        doubts.extend(MASS.doubt(&format!("{name}mass"), &body.mass));
+        let inertia = body.inertia.as_ref();
+        doubts.extend(inertia.and_then(|inertia| of_inertia(&format!("{name}inertia"), inertia, *body.mass.get_ref())));
     }
     doubts
+}
+
+/// The doubt about the first moment of inertia of a body with this `mass` \[kg\], from its radius of gyration.
+fn of_inertia(key: &str, inertia: &Spanned<Value>, mass: f64) -> Option<Mistake> {
+    let (first, place) = match inertia.get_ref() {
+        Value::Array(moments) => (moments.first()?, "[1]"),
+        moment => (moment, ""),
+    };
+    let moment = number_in(first).ok().filter(|_| mass > 0.0)?;
+    let why = format!("the mass is {}, and radii of gyration are 1 um to 10 m", quantity(mass, "kg"));
+    // g mm^2 and kg mm^2 of drawing programs, and g cm^2
+    let expected =
+        Expected { range: 1e-12 * mass..=100.0 * mass, unit: "kg m^2", factors: &[1e-9, 1e-6, 1e-7], why: &why };
+    expected.question(&format!("{key}{place}"), moment).map(|message| Mistake(inertia.span(), message))
 }
 
 /// The doubts about a `body`. `owner` precedes its name.

@@ -246,22 +246,30 @@ fn numbers_in_message(numbers: &[f64]) -> String {
 const FORMS: &str =
     "allowed are one number (a ball), three (principal, along x, y, z) or six (xx, yy, zz, xy, xz, yz) [kg m^2]";
 
+/// The number that a value is; what it is if it is none.
+pub fn number_in(value: &Value) -> Result<f64, String> {
+    match value {
+        Value::Float(number) => Ok(*number),
+        Value::Integer(number) => Ok(*number as f64),
+        Value::String(text) => Err(format!("= {:?}", shortened(text))),
+        Value::Boolean(value) => Err(format!("= {value}")),
+        Value::Datetime(_) => Err("as a date".into()),
+        Value::Array(_) => Err("as a list".into()),
+        Value::Table(_) => Err("as a table".into()),
+    }
+}
+
 /// The inertia of the body `name`.
 fn check_inertia(name: &str, given: &Spanned<Value>) -> Result<Inertia, Mistake> {
     let no = |message: String| Mistake(given.span(), format!("body `{name}`: inertia{message}"));
-    let number = |value: &Value| match value {
-        Value::Float(number) => Some(*number),
-        Value::Integer(number) => Some(*number as f64),
-        _ => None,
+    let (values, is_list) = match given.get_ref() {
+        Value::Array(values) => (values.as_slice(), true),
+        value => (std::slice::from_ref(value), false),
     };
-    let numbers: Option<Vec<f64>> = match given.get_ref() {
-        Value::Array(values) => values.iter().map(number).collect(),
-        value => number(value).map(|number| vec![number]),
-    };
-    let Some(numbers) = numbers else {
-        let text = shortened(&given.get_ref().to_string());
-        return Err(no(format!(" = {text} is neither a number nor a list of numbers: {FORMS}")));
-    };
+    let place = |index: usize| if is_list { format!("[{}]", index + 1) } else { String::new() };
+    let number =
+        |(index, value)| number_in(value).map_err(|what| no(format!("{} {what} is no number: {FORMS}", place(index))));
+    let numbers = values.iter().enumerate().map(number).collect::<Result<Vec<f64>, Mistake>>()?;
     let elements = match *numbers {
         [ball] => [ball, ball, ball, 0.0, 0.0, 0.0],
         [x, y, z] => [x, y, z, 0.0, 0.0, 0.0],
@@ -271,8 +279,7 @@ fn check_inertia(name: &str, given: &Spanned<Value>) -> Result<Inertia, Mistake>
     for (index, number) in numbers.iter().enumerate() {
         let allowed = if index < 3 { INERTIAS } else { PRODUCTS };
         if !allowed.contains(number) {
-            let place = if numbers.len() == 1 { String::new() } else { format!("[{}]", index + 1) };
-            return Err(no(format!("{place} {}", out_of_range(*number, &allowed, "kg m^2"))));
+            return Err(no(format!("{} {}", place(index), out_of_range(*number, &allowed, "kg m^2"))));
         }
     }
     Inertia::of(elements).ok_or_else(|| {

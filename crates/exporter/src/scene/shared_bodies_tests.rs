@@ -72,10 +72,12 @@ fn a_chain_has_the_masses_of_its_links_to_the_bit() {
             let mut tables: String = names.iter().zip(masses).map(|(name, mass)| body(name, mass)).collect();
             let mut inverse: Vec<f64> = masses.iter().map(|mass| 1.0 / mass).collect();
             if walls[0] {
-                (names.insert(0, "ground".into()), inverse.insert(0, 0.0));
+                names.insert(0, "ground".into());
+                inverse.insert(0, 0.0);
             }
             if walls[1] {
-                (names.push("ground".into()), inverse.push(0.0));
+                names.push("ground".into());
+                inverse.push(0.0);
             }
             for (index, pair) in names.windows(2).enumerate() {
                 let (bodies, direction) = match turned && index % 2 == 1 {
@@ -152,9 +154,7 @@ fn rank((entries, count): &(Vec<f64>, usize)) -> usize {
         let row = all[pivot].clone();
         for &other in &left {
             let factor = all[other][pivot] / row[pivot];
-            for column in 0..*count {
-                all[other][column] -= factor * row[column];
-            }
+            all[other].iter_mut().zip(&row).for_each(|(element, pivot)| *element -= factor * pivot);
         }
     }
     count - left.len()
@@ -223,11 +223,10 @@ fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
         let best = best.expect("a row is left");
         matrix.swap(column, best);
         right.swap(column, best);
+        let pivot = matrix[column].clone();
         for row in column + 1..count {
-            let factor = matrix[row][column] / matrix[column][column];
-            for k in column..count {
-                matrix[row][k] -= factor * matrix[column][k];
-            }
+            let factor = matrix[row][column] / pivot[column];
+            matrix[row].iter_mut().zip(&pivot).for_each(|(element, pivot)| *element -= factor * pivot);
             right[row] -= factor * right[column];
         }
     }
