@@ -16,7 +16,7 @@ use toml::{Spanned, Value};
 const GROUND: &str = "ground";
 
 /// Largest number of contacts of a unit whose bodies are shared. The matrix of the inverse masses grows with its square.
-pub const MOST_CONTACTS: usize = 256;
+const MOST_SHARING: usize = 256;
 
 /// Allowed moments of inertia \[kg m^2\], and sizes of the products of inertia.
 const INERTIAS: RangeInclusive<f64> = 1e-60..=1e60;
@@ -31,8 +31,8 @@ fn masses() -> RangeInclusive<f64> {
     limits.minimum.unwrap_or(f64::MIN_POSITIVE)..=limits.maximum.unwrap_or(f64::MAX)
 }
 
-/// The inverse effective masses of the scene `file`, if its contacts share bodies. `damped` is the name
-/// of a law whose force depends on the rate.
+/// The inverse effective masses of the scene `file`, if its contacts share bodies. `damped` is the name of a law whose force
+/// depends on the rate.
 ///
 /// # Errors
 /// The first mistake in the bodies, or what doesn't go with them.
@@ -93,10 +93,10 @@ fn check_count(place: Range<usize>, file: &SceneFile) -> Result<(), Mistake> {
         None => 1,
     };
     let count: usize = contacts_of(file).unwrap_or_default().iter().map(count_of).sum();
-    if count <= MOST_CONTACTS {
+    if count <= MOST_SHARING {
         return Ok(());
     }
-    Err(Mistake(place, format!("there are {count} contacts: allowed are {MOST_CONTACTS} that share bodies")))
+    Err(Mistake(place, format!("there are {count} contacts: allowed are {MOST_SHARING} that share bodies")))
 }
 
 /// Rejects what contacts say of bodies where there are none, for this reason.
