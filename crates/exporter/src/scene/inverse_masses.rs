@@ -1,8 +1,8 @@
 //! The matrix of inverse effective masses: how a force at one contact accelerates the others, through the bodies that they share.
 
-/// The matrix `W` \[1/kg\] of contacts that share bodies. With the forces `F` and the accelerations `a` by all that the unit doesn't
-/// know, the closing rates follow `dv/dt = a - W F`. It is symmetric and positive semidefinite, and singular for redundant contacts
-/// such as four feet on a plane.
+/// The matrix `W` \[1/kg\] of contacts that share bodies. With the forces `F` and the accelerations `a` by all that the unit
+/// doesn't know, the closing rates follow `dv/dt = a - W F`. It is symmetric and positive semidefinite, and singular for redundant
+/// contacts such as four feet on a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InverseMasses {
     /// From the bodies of the scene: the upper triangle, row by row, of `n (n + 1)/2` numbers; see [`place`]. Every entry on the
@@ -13,7 +13,8 @@ pub enum InverseMasses {
 }
 
 impl InverseMasses {
-    /// The mass that the force of this `contact` of `count` accelerates by itself, `1/W_ii` \[kg\]; `None` if the entries are inputs.
+    /// The mass that the force of this `contact` of `count` accelerates by itself, `1/W_ii` \[kg\]; `None` if the entries are
+    /// inputs.
     pub fn effective_mass(&self, contact: usize, count: usize) -> Option<f64> {
         match self {
             InverseMasses::Constant(entries) => Some(1.0 / entries[place(count, contact, contact)]),
@@ -22,8 +23,8 @@ impl InverseMasses {
     }
 }
 
-/// The place of the entry of two contacts, counted from 0 in the order of the scene, in the upper triangle of a matrix for `count`
-/// contacts.
+/// The place of the entry of two contacts, counted from 0 in the order of the scene, in the upper triangle of a matrix for
+/// `count` contacts.
 pub fn place(count: usize, one: usize, other: usize) -> usize {
     let (row, column) = (one.min(other), one.max(other));
     debug_assert!(column < count, "there are {count} contacts");
@@ -44,8 +45,8 @@ pub(super) struct Inertia {
 }
 
 impl Inertia {
-    /// The inertia with the elements xx, yy, zz, xy, xz, yz of its tensor \[kg m^2\]; `None` unless that is positive definite, and
-    /// by more than the rounding of its elements.
+    /// The inertia with the elements xx, yy, zz, xy, xz, yz of its tensor \[kg m^2\]; `None` unless that is positive definite,
+    /// and by more than the rounding of its elements.
     pub(super) fn of([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Option<Inertia> {
         let (yx, zx) = (xy / xx, xz / xx);
         let second = yy - yx * xy;
@@ -121,8 +122,8 @@ pub(super) fn direction(vector: Vector) -> Option<Vector> {
     Some(scaled.map(|part| part / length))
 }
 
-/// The upper triangle, row by row, of `W = J M^-1 J^T` for contacts with these ends: the sum over the ends that two contacts have at
-/// the same body of `n.n'/m + (r x n).I^-1 (r' x n')`. Contacts without a common body have an exact zero.
+/// The upper triangle, row by row, of `W = J M^-1 J^T` for contacts with these ends: the sum over the ends that two contacts have
+/// at the same body of `n.n'/m + (r x n).I^-1 (r' x n')`. Contacts without a common body have an exact zero.
 pub(super) fn triangle(bodies: &[FreeBody], contacts: &[Vec<End>]) -> Vec<f64> {
     let response = |one: &End, other: &End| {
         let FreeBody { mass, inertia } = bodies[one.body];

@@ -237,8 +237,8 @@ fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
     right
 }
 
-/// The closing rate of a contact of two bodies with the velocities (v, omega) of all bodies: the velocity of the first minus that of
-/// the second, where they touch, along the normal.
+/// The closing rate of a contact of two bodies with the velocities (v, omega) of all bodies: the velocity of the first minus that
+/// of the second, where they touch, along the normal.
 fn closing_rate(velocities: &[f64], ends: [Option<usize>; 2], normal: [f64; 3], arms: [[f64; 3]; 2]) -> f64 {
     let at = |body: Option<usize>, [x, y, z]: [f64; 3]| {
         let Some(body) = body else { return 0.0 };
@@ -249,8 +249,8 @@ fn closing_rate(velocities: &[f64], ends: [Option<usize>; 2], normal: [f64; 3], 
     at(ends[0], arms[0]) - at(ends[1], arms[1])
 }
 
-/// Random bodies with random contacts in space: the matrix of the scene is `J M^-1 J^T`, where J is the change of the closing rates
-/// with each velocity, and M the matrix of all masses and inertias.
+/// Random bodies with random contacts in space: the matrix of the scene is `J M^-1 J^T`, where J is the change of the closing
+/// rates with each velocity, and M the matrix of all masses and inertias.
 #[test]
 fn rigid_bodies_in_space_have_the_matrix_of_their_jacobian() {
     let random = &mut Rng::with_seed(44);
