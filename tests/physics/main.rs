@@ -55,5 +55,7 @@ mod rate_motion;
 mod reference_impacts;
 mod reference_values;
 mod scale_of_mass;
+mod shared_motion;
+mod shared_tables;
 mod two_roundings;
 mod work_counters;

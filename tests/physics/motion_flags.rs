@@ -3,9 +3,11 @@
 
 use crate::arithmetic::{control, set_control};
 use crate::physics::{AnyModel, Random, all_models, pair_of};
+use crate::shared_motion::{Group, random_bodies};
 use brinell_contact::momentum::impulse;
 use brinell_contact::motion::{Drive, follow};
 use brinell_contact::path::Course;
+use brinell_contact::shared::{self, InverseMasses, Work};
 use brinell_contact::{Contact, History, Model, Surface, loading, unloading};
 
 /// Invalid operation, division by zero and overflow, as bits of the control and status register.
@@ -74,6 +76,41 @@ fn no_motion_raises_an_exception() {
             speed = outcome.speed;
         }
     }
+}
+
+#[test]
+fn no_motion_of_shared_bodies_raises_an_exception() {
+    let mut random = Random(17);
+    let mut done = 0;
+    for index in 0..2_000 {
+        let (mut group, _) = random_bodies(&mut random, 2 + index % 5);
+        for rate in &mut group.rates {
+            *rate *= match random.next() {
+                0.0..0.1 => 0.0,
+                0.1..0.2 => 1e-160,
+                0.2..0.3 => 1e-9,
+                _ => 1.0,
+            };
+        }
+        for acceleration in &mut group.accelerations {
+            *acceleration = signed(&mut random, 1e-6, 1e6);
+        }
+        let step = signed(&mut random, 1e-9, 1e-3).abs().max(1e-9);
+        let models = group.models.clone();
+        let entries = group.entries.clone();
+        let masses = InverseMasses::new(models.len(), &entries).expect("a triangle");
+        let mut work: Vec<_> = group.contacts.iter().map(|&contact| Work::new(contact)).collect();
+        for _ in 0..2 {
+            let Group { contacts, accelerations, rates, .. } = &mut group;
+            let model = |contact: usize| &models[contact];
+            let before = format!("{contacts:?} {rates:?} {accelerations:?} {step:e} s");
+            let (result, flags) =
+                raised(|| shared::follow(contacts, model, &masses, accelerations, rates, &mut work, step));
+            assert_eq!(flags, 0, "{index}: {before} of {models:?}: {result:?}");
+            done += u32::from(result.is_ok());
+        }
+    }
+    assert!(done > 3_000, "{done}");
 }
 
 /// A course of any size, and the length of its step [s].

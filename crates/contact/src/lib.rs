@@ -62,6 +62,7 @@
 //! | [`motion`] | the motion of bodies of known mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 //! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
+//! | [`shared`] | contacts that share bodies move together |
 //! | [`rate`] | strain rate: the strength of an impact from its closing speed |
 //! | [`two_bodies`] | two bodies pressed together, from the law `brinell` of each |
 //! | [`strength`] | hardening and Poisson's ratio as one effective strength |
@@ -100,6 +101,7 @@ pub mod rate;
 pub mod regime;
 mod runge_kutta;
 pub mod segment;
+pub mod shared;
 pub mod strength;
 pub mod tangential;
 pub mod two_bodies;

@@ -6,6 +6,42 @@ use super::loading::Loading;
 use super::segment::Segment;
 use super::unloading::{Peak, Unloading};
 
+/// The numbers of a smooth piece: all but the model, whose law they belong to.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbers {
+    kind: Kind,
+    /// Lower end of the piece \[m\].
+    pub lower: f64,
+    /// Upper end of the piece \[m\].
+    pub upper: f64,
+    segment: Segment,
+    is_whole: bool,
+    unloading: Option<(Peak, Segment)>,
+}
+
+impl Numbers {
+    /// No piece of any law.
+    pub const NOTHING: Numbers = Numbers {
+        kind: Kind::Elastic,
+        lower: 0.0,
+        upper: 0.0,
+        segment: Segment::NOTHING,
+        is_whole: true,
+        unloading: None,
+    };
+
+    /// The segment that covers the whole piece, if there is one.
+    #[inline(always)]
+    pub fn whole(&self) -> Option<&Segment> {
+        self.is_whole.then_some(&self.segment)
+    }
+
+    /// Whether the piece is a part of the loading curve beyond yield, where unloading follows another path.
+    pub fn is_loading(&self) -> bool {
+        self.kind == Kind::Loading
+    }
+}
+
 /// A smooth piece of a law.
 pub struct Piece<'a, L, U> {
     model: &'a Model<L, U>,
@@ -69,6 +105,18 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     pub fn on_path(model: &'a Model<L, U>, path: Segment) -> Piece<'a, L, U> {
         let Segment { lower, upper, .. } = path;
         Piece { model, kind: Kind::Unloading, lower, upper, segment: path, is_whole: true, unloading: None }
+    }
+
+    /// The piece of `model` that has these `numbers`.
+    pub(crate) fn of_numbers(model: &'a Model<L, U>, numbers: &Numbers) -> Piece<'a, L, U> {
+        let Numbers { kind, lower, upper, segment, is_whole, unloading } = *numbers;
+        Piece { model, kind, lower, upper, segment, is_whole, unloading }
+    }
+
+    /// The piece without its model.
+    pub(crate) fn numbers(&self) -> Numbers {
+        let Piece { kind, lower, upper, segment, is_whole, unloading, .. } = *self;
+        Numbers { kind, lower, upper, segment, is_whole: is_whole || self.is_whole(), unloading }
     }
 
     /// The unloading piece from `largest` \[m\], beyond yield.

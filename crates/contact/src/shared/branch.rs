@@ -1,0 +1,210 @@
+//! The branch that one contact is on: apart, on the path of its dent, or on a piece of the loading curve. Each is smooth, and goes
+//! on beyond its ends for the trials of the integration.
+
+use crate::history::History;
+use crate::loading::Loading;
+use crate::numbers::{largest, smallest};
+use crate::piece::{Numbers, Piece};
+use crate::segment::Segment;
+use crate::unloading::Unloading;
+use crate::{Model, Surface};
+use core::hint::black_box;
+use libm::sqrt;
+
+/// The kind of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// No force.
+    Apart,
+    /// The path between the surface and the largest indentation, in both directions; without yield, the elastic curve.
+    Path,
+    /// A piece of the loading curve beyond yield.
+    Loading,
+}
+
+/// An event of one contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// It leaves the surface.
+    Part,
+    /// It reaches the surface.
+    Touch,
+    /// It turns on the loading curve.
+    Turn,
+    /// It reaches the end of a piece of the loading curve.
+    Corner,
+    /// It reaches the largest indentation on its path.
+    End,
+    /// A fresh surface forgets the dent.
+    Forget,
+}
+
+/// An event with the number of the motion that falls through zero there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Watched {
+    /// `sign (threshold - indentation)` \[m\].
+    Indentation {
+        /// The event.
+        event: Event,
+        /// \[m\]
+        threshold: f64,
+        /// 1 for a contact that comes deeper to the threshold, -1 for one that comes back to it.
+        sign: f64,
+    },
+    /// The rate \[m/s\], at a turn.
+    Rate,
+}
+
+/// The branch of a contact.
+#[derive(Clone, Copy)]
+pub struct Branch {
+    pub kind: Kind,
+    /// The piece; of a contact that is apart, the path that it would meet.
+    numbers: Numbers,
+    /// The largest indentation of the dent \[m\].
+    pub largest: f64,
+}
+
+impl Branch {
+    /// No branch of any law.
+    pub const NOTHING: Branch = Branch { kind: Kind::Apart, numbers: Numbers::NOTHING, largest: 0.0 };
+
+    /// The branch of a contact with this `history` that closes at `rate` \[m/s\].
+    pub fn of<L: Loading, U: Unloading>(history: &History, model: &Model<L, U>, rate: f64) -> Branch {
+        let (indentation, largest) = (history.indentation(), history.max_indentation());
+        let known = if U::SEGMENTED { history.path_of_dent() } else { None };
+        let path = match known {
+            Some(path) => Piece::on_path(model, path),
+            None => Piece::at(model, indentation, largest, false),
+        };
+        let branch = Branch { kind: Kind::Path, numbers: path.numbers(), largest };
+        let surface = branch.surface();
+        let is_apart = indentation < surface || (indentation == surface && rate < 0.0);
+        if is_apart {
+            Branch { kind: Kind::Apart, ..branch }
+        } else if rate > 0.0 && indentation >= largest && indentation > surface {
+            Branch::loading(model, indentation, largest)
+        } else {
+            branch
+        }
+    }
+
+    /// The piece of the loading curve from `indentation` \[m\] on, or the elastic curve.
+    fn loading<L: Loading, U: Unloading>(model: &Model<L, U>, indentation: f64, largest: f64) -> Branch {
+        let numbers = Piece::at(model, indentation, largest, true).numbers();
+        Branch { kind: if numbers.is_loading() { Kind::Loading } else { Kind::Path }, numbers, largest }
+    }
+
+    /// The indentation of the surface \[m\]: on the loading curve, that of the piece.
+    pub fn surface(&self) -> f64 {
+        self.numbers.lower
+    }
+
+    /// Number of evaluations that one evaluation counts for.
+    pub fn cost(&self, costly: u32) -> u32 {
+        match self.kind {
+            Kind::Apart => 0,
+            _ if self.numbers.whole().is_some() => 1,
+            _ => costly,
+        }
+    }
+
+    /// What the contact waits for.
+    pub fn watched(&self, surface: Surface, indentation: f64) -> [Option<Watched>; 2] {
+        let Numbers { lower, upper, .. } = self.numbers;
+        let at = |event, threshold: f64, sign| {
+            threshold.is_finite().then_some(Watched::Indentation { event, threshold, sign })
+        };
+        match self.kind {
+            Kind::Apart => {
+                let forgets = surface == Surface::Fresh && indentation > 0.0 && self.largest > 0.0;
+                [at(Event::Touch, lower, 1.0), if forgets { at(Event::Forget, 0.0, -1.0) } else { None }]
+            }
+            Kind::Path => [at(Event::Part, lower, -1.0), at(Event::End, upper, 1.0)],
+            Kind::Loading => [at(Event::Corner, upper, 1.0), Some(Watched::Rate)],
+        }
+    }
+
+    /// The branch after `event` at `indentation` \[m\]; for [`Event::Forget`] the one with the history that has forgotten.
+    pub fn after<L: Loading, U: Unloading>(&self, event: Event, model: &Model<L, U>, indentation: f64) -> Branch {
+        let Branch { numbers, largest: before, .. } = *self;
+        match event {
+            Event::Part => Branch { kind: Kind::Apart, ..*self },
+            Event::Touch => Branch { kind: Kind::Path, ..*self },
+            Event::Corner => Branch::loading(model, numbers.upper, largest(numbers.upper, before)),
+            Event::End => Branch::loading(model, numbers.upper, largest(numbers.upper, before)),
+            Event::Turn | Event::Forget => {
+                let largest = largest(indentation, before);
+                let numbers = Piece::at(model, largest, largest, false).numbers();
+                Branch { kind: Kind::Path, numbers, largest }
+            }
+        }
+    }
+
+    /// Notes the `indentation` \[m\] that the contact has reached on its branch.
+    pub fn note(&mut self, indentation: f64) {
+        if self.kind != Kind::Apart {
+            self.largest = largest(indentation, self.largest);
+        }
+    }
+
+    /// Whether the force grows as a fractional power from the surface, so that it is smooth in the root of the height but not in
+    /// time.
+    pub fn begins_rough(&self) -> bool {
+        let begins = |segment: &Segment| segment.power != 0.0 && segment.origin == self.numbers.lower;
+        self.kind == Kind::Path && self.numbers.whole().is_none_or(begins)
+    }
+
+    /// Force \[N\] at `indentation` \[m\]; `None` for a [law without segments](Branch::force_without_segments).
+    #[inline(always)]
+    pub fn force(&self, indentation: f64) -> Option<f64> {
+        if self.kind == Kind::Apart {
+            return Some(0.0);
+        }
+        self.numbers.whole().map(|segment| {
+            let z = indentation - segment.origin;
+            // below the origin the power has ended; the rest goes on
+            let rise = if z > 0.0 { segment.power * sqrt(black_box(z)) } else { 0.0 };
+            segment.constant + z * (segment.linear + rise + segment.square * z)
+        })
+    }
+
+    /// Force \[N\] where the height above the surface is the square of `w` \[m^0.5\]. It goes on smoothly below zero. `None` for a
+    /// [law without segments](Branch::force_without_segments), whose force is odd in `w`.
+    #[inline(always)]
+    pub fn force_of_root(&self, w: f64) -> Option<f64> {
+        let z = w * w;
+        let segment = self.numbers.whole()?;
+        Some(segment.constant + z * (segment.linear + segment.power * w + segment.square * z))
+    }
+
+    /// The force of a law without segments \[N\]. Beyond the end of a piece it goes on along the tangent.
+    #[inline(never)]
+    pub fn force_without_segments<L: Loading, U: Unloading>(&self, indentation: f64, model: &Model<L, U>) -> f64 {
+        let piece = Piece::of_numbers(model, &self.numbers);
+        let end = piece.upper.next_down();
+        if indentation < end {
+            return piece.force(largest(indentation, smallest(0.0, piece.lower)));
+        }
+        piece.force(end) + piece.stiffness(end) * (indentation - end)
+    }
+
+    /// Stiffness \[N/m\] at `indentation` \[m\].
+    pub fn stiffness<L: Loading, U: Unloading>(&self, indentation: f64, model: &Model<L, U>) -> f64 {
+        match self.numbers.whole() {
+            _ if self.kind == Kind::Apart => 0.0,
+            Some(segment) => segment.stiffness(indentation),
+            None => {
+                Piece::of_numbers(model, &self.numbers).stiffness(smallest(indentation, self.numbers.upper.next_down()))
+            }
+        }
+    }
+
+    /// The segment that tells how stiff the contact can become: that of its path, else the elastic one.
+    pub fn stiff_segment<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> Segment {
+        match (self.kind, self.numbers.whole()) {
+            (Kind::Path | Kind::Apart, Some(&segment)) => segment,
+            _ => model.loading.segment(&model.pair, 0.0),
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Contacts that share bodies: a force at one contact accelerates the others.
+//!
+//! A box on its feet, a ball between walls, a stack, a cradle: a body with two contacts moves by the forces of both. Within a step
+//! all contacts are integrated together,
+//!
+//! ```text
+//! d(rate)/dt = a - W F(indentations, histories),    W = J M^-1 J^T
+//! ```
+//!
+//! with the [matrix of inverse effective masses](InverseMasses) `W` and the accelerations `a` held. The contacts are sorted into
+//! blocks that are coupled; a contact alone moves as [`motion`] moves it, to the last bit. Between two events
+//! the motion is analytic but for the power with which a force begins: a Runge-Kutta pair of order 8 (`dop853`) follows it, in time
+//! or in the `clock` of a contact that has just touched. An event changes the `branch` of one contact (`block`).
+//!
+//! The impulse `P` and its integral `Q` are states of the motion, so that the bodies move by them exactly:
+//!
+//! ```text
+//! rate(h) = rate(0) + a h - W P,    indentation(h) = indentation(0) + rate(0) h + a h^2/2 - W Q
+//! ```
+//!
+//! # Accuracy
+//! Rates and indentations are off by about 1e-12 of their scale a step: `sqrt(2 E W_ii)` for the energy `E` of the motion, and
+//! that times the shortest time of an oscillation.
+
+mod block;
+mod branch;
+mod clock;
+mod curve;
+mod dop853;
+pub mod inverse_masses;
+mod work;
+
+pub use inverse_masses::{InverseMasses, NotInverseMasses};
+pub use work::Work;
+
+use crate::history::History;
+use crate::loading::Loading;
+use crate::motion::{self, Drive, NoMotion};
+use crate::numbers::largest;
+use crate::regime::TooDeep;
+use crate::unloading::Unloading;
+use crate::{Model, TooDeep as Deep};
+use block::Block;
+use core::borrow::Borrow;
+use work::Instant;
+
+/// A contact whose motion can be coupled with that of others.
+pub trait SharedContact<M>: Copy {
+    /// The loading law.
+    type Loading: Loading;
+
+    /// The unloading law.
+    type Unloading: Unloading;
+
+    /// The elastoplastic part of the model.
+    fn plastic_model(model: &M) -> &Model<Self::Loading, Self::Unloading>;
+
+    /// The elastoplastic state.
+    fn plastic(&self) -> &History;
+
+    /// The same to change.
+    fn plastic_mut(&mut self) -> &mut History;
+
+    /// Moves a contact that is not coupled with others.
+    ///
+    /// # Errors
+    /// [`NoMotion`].
+    fn follow_alone(&mut self, model: &M, drive: &Drive, rate: f64, step: f64) -> Result<motion::Outcome, NoMotion>;
+}
+
+impl<L: Loading, U: Unloading> SharedContact<Model<L, U>> for History {
+    type Loading = L;
+    type Unloading = U;
+
+    fn plastic_model(model: &Model<L, U>) -> &Model<L, U> {
+        model
+    }
+
+    fn plastic(&self) -> &History {
+        self
+    }
+
+    fn plastic_mut(&mut self) -> &mut History {
+        self
+    }
+
+    fn follow_alone(
+        &mut self,
+        model: &Model<L, U>,
+        drive: &Drive,
+        rate: f64,
+        step: f64,
+    ) -> Result<motion::Outcome, NoMotion> {
+        motion::follow(self, model, drive, rate, step)
+    }
+}
+
+/// The result of a step. Impulses and their moments are in the [`Work`] of each contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Number of evaluations of the force of a contact that is not apart, over all contacts. An evaluation of a law without segments counts
+    /// as ten.
+    pub evaluations: u32,
+}
+
+/// The reason why a step could not be computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refused {
+    /// The numbers of contacts, accelerations, rates, working memories and inverse masses do not belong together.
+    Sizes,
+    /// The indentation of this contact, from 0 on, left the range of the law, or one of its numbers is not finite.
+    TooDeep(usize, Deep),
+    /// The step takes more than [`MOST_EVALUATIONS`](motion::MOST_EVALUATIONS).
+    TooLong {
+        /// Time left \[s\] when they were spent: a step without it would have been computed.
+        left: f64,
+    },
+}
+
+/// Largest rate \[m/s\] and acceleration \[m/s^2\]: their squares are finite.
+const LARGEST: f64 = 1e100;
+
+/// Moves all contacts through `step` \[s\] > 0. `accelerations` \[m/s^2\] are the closing accelerations by all forces but those of
+/// these contacts, constant over the step; `rates` \[m/s\] are the closing rates, at the start and then at the end. `work` needs one
+/// entry for each contact, and then has the impulses. `model` gives the model of a contact.
+///
+/// # Errors
+/// [`Refused`]; no contact and no rate has changed then.
+pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
+    contacts: &mut [C],
+    model: impl Fn(usize) -> B,
+    masses: &InverseMasses,
+    accelerations: &[f64],
+    rates: &mut [f64],
+    work: &mut [Work<C>],
+    step: f64,
+) -> Result<Outcome, Refused> {
+    let count = masses.count();
+    if [contacts.len(), accelerations.len(), rates.len(), work.len()] != [count; 4] {
+        return Err(Refused::Sizes);
+    }
+    let given = contacts.iter().zip(accelerations).zip(&*rates).zip(&mut *work);
+    for (place, (((contact, &acceleration), &rate), member)) in given.enumerate() {
+        for number in [acceleration, rate, step] {
+            let is_finite = number > -LARGEST && number < LARGEST;
+            if !is_finite {
+                return Err(Refused::TooDeep(place, TooDeep { indentation: number }));
+            }
+        }
+        let indentation = contact.plastic().indentation();
+        member.contact = *contact;
+        member.acceleration = acceleration;
+        member.now = Instant { numbers: [indentation, rate, 0.0, 0.0], force: 0.0, net: acceleration };
+        member.trial = member.now;
+        member.deepest = 0.0;
+    }
+    find_blocks(work, masses);
+    let mut evaluations = 0_u32;
+    for first in 0..count {
+        let Some(row) = work.get_mut(first..) else { break };
+        let is_alone = !row.iter().skip(1).any(|member| member.block == first);
+        let Some(member) = row.first_mut().filter(|member| member.block == first) else { continue };
+        let spent = if is_alone {
+            follow_alone(member, model(first).borrow(), step).map_err(|reason| match reason {
+                NoMotion::TooDeep(deep) => Refused::TooDeep(first, deep),
+                NoMotion::TooLong => Refused::TooLong { left: step },
+            })?
+        } else {
+            let mut block = Block::new(row, masses, &model, first, step);
+            block.run()?;
+            block.evaluations
+        };
+        evaluations = evaluations.saturating_add(spent);
+    }
+    for ((contact, rate), member) in contacts.iter_mut().zip(rates).zip(work) {
+        (*contact, *rate) = (member.contact, member.now.rate());
+    }
+    Ok(Outcome { evaluations })
+}
+
+/// Moves a contact that is coupled with no other. Returns the number of evaluations.
+fn follow_alone<C: SharedContact<M>, M>(member: &mut Work<C>, model: &M, step: f64) -> Result<u32, NoMotion> {
+    let Work { acceleration, inverse_mass, .. } = *member;
+    let [before, rate, ..] = member.now.numbers;
+    let mass = 1.0 / inverse_mass;
+    let drive = Drive { mass, acceleration };
+    let motion::Outcome { speed, taken, evaluations, deepest } =
+        member.contact.follow_alone(model, &drive, rate, step)?;
+    let after = member.contact.plastic().indentation();
+    // what the force has kept the bodies from coming closer
+    let kept = step * (rate + 0.5 * acceleration * step) - (after - before);
+    let moment = if taken > 0.0 { mass * largest(kept, 0.0) } else { 0.0 };
+    member.now.numbers = [after, speed, mass * taken, moment];
+    member.deepest = deepest;
+    Ok(evaluations)
+}
+
+/// Sorts the contacts into blocks, each with the number of its first contact.
+fn find_blocks<C>(work: &mut [Work<C>], masses: &InverseMasses) {
+    for (place, (member, row)) in work.iter_mut().zip(masses.rows(0)).enumerate() {
+        member.block = place;
+        member.inverse_mass = row.first().copied().unwrap_or(0.0);
+        member.reach = row.iter().rposition(|&entry| entry != 0.0).unwrap_or(0);
+    }
+    // every round passes the smallest number on; there are at most as many rounds as contacts
+    for _ in 0..work.len() {
+        let mut changed = false;
+        let mut rest = &mut *work;
+        for row in masses.rows(0) {
+            let Some((member, others)) = core::mem::take(&mut rest).split_first_mut() else { break };
+            let coupled = row.iter().skip(1).zip(&mut *others).filter(|(entry, _)| **entry != 0.0);
+            for (_, other) in coupled {
+                let least = core::cmp::min(member.block, other.block);
+                changed |= member.block != other.block;
+                (member.block, other.block) = (least, least);
+            }
+            rest = others;
+        }
+        if !changed {
+            break;
+        }
+    }
+}
+
+/// Work of the contact forces over a step \[J\], from the impulses and their moments. It is exact for any `W`, singular ones and
+/// driven walls too, and equals the change of the energies of the contacts.
+///
+/// `P.r0 + a.(h P - Q) - P.W P/2`, with the `rates` \[m/s\] at the start and the `accelerations` \[m/s^2\] of the step.
+pub fn work_of_step<C>(
+    work: &[Work<C>],
+    masses: &InverseMasses,
+    rates: &[f64],
+    accelerations: &[f64],
+    step: f64,
+) -> f64 {
+    let mut sum = 0.0;
+    for ((member, &rate), &acceleration) in work.iter().zip(rates).zip(accelerations) {
+        sum += member.impulse() * rate + acceleration * (step * member.impulse() - member.moment());
+    }
+    for (place, row) in masses.rows(0).enumerate() {
+        let impulse = work.get(place).map_or(0.0, Work::impulse);
+        let others = work.iter().skip(place).zip(row);
+        let mut product = 0.0;
+        for (offset, (other, entry)) in others.enumerate() {
+            product += entry * other.impulse() * if offset == 0 { 0.5 } else { 1.0 };
+        }
+        sum -= impulse * product;
+    }
+    sum
+}
