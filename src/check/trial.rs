@@ -1,13 +1,13 @@
 //! The impact of a scene on one contact of its FMU, compared with the prediction.
 
 use super::impact::{STEPS_PER_CONTACT, Simulated, simulate, way_of};
-use super::{Row, oblique};
+use super::{Row, oblique, together};
 use crate::importer::{Archive, Description, ImportError, Unit};
 use crate::master::Contact;
 use brinell_contact::impact::Prediction;
 use brinell_exporter::layout::table;
 use brinell_exporter::numbers::{percent, quantity};
-use brinell_exporter::scene::{Parameter, Scene};
+use brinell_exporter::scene::{InverseMasses, Parameter, Scene};
 use serde::Serialize;
 
 /// The impact on one contact.
@@ -39,6 +39,10 @@ impl Trial {
         let name = given.name.is_some().then(|| prefix.trim_end_matches('.').to_string());
         let mut trial =
             Trial { contact: name, count: given.count, skipped: None, step, rows: Vec::new(), disturbed: Vec::new() };
+        if let Some(InverseMasses::Constant(entries)) = &scene.inverse_masses {
+            trial.rows = together::compare(archive, unit, scene, group, entries)?;
+            return Ok(trial);
+        }
         // the impact begins at first contact; a gap that is a constant of the FMU has to be crossed
         let (settable, given_gap) = gap(scene, group);
         let gap = if settable.is_some() { 0.0 } else { given_gap };
@@ -59,7 +63,7 @@ impl Trial {
         }
         if scene.loss.is_some_and(|loss| !loss.follows_rate()) {
             // the bodies move farther than the indentation, by the distance that the plate gives way
-            trial.rows.retain(|row| !["largest indentation", "dent", "contact time"].contains(&row.quantity));
+            trial.rows.retain(|row| !["largest indentation", "dent", "contact time"].contains(&row.quantity.as_ref()));
         }
         let after = forces(&mut contact, &at_rest)?;
         let changed = at_rest.into_iter().zip(before.iter().zip(&after)).filter(|(_, (before, after))| before != after);
@@ -129,7 +133,7 @@ impl std::fmt::Display for Trial {
         let mut rows = vec![vec![name, "predicted".into(), "simulated".into(), "difference".into()]];
         for Row { quantity: name, unit, predicted, simulated, difference } in &self.rows {
             rows.push(vec![
-                (*name).into(),
+                name.to_string(),
                 quantity(*predicted, unit),
                 quantity(*simulated, unit),
                 percent(*difference),

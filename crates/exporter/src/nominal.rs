@@ -43,6 +43,8 @@ impl Nominal {
             "max_friction" => self.friction * max_force,
             "tangential_momentum" => self.friction * 2.0 * energy / self.speed,
             "momentum" => 2.0 * energy / self.speed,
+            // an impulse of this size acts for half of the time
+            "moment" => energy / self.speed * self.prediction.contact_time(),
             other => unreachable!("variables.toml names the nominal size {other}, which nobody computes"),
         };
         Some(one_digit(size, f64::round))

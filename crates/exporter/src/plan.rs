@@ -6,7 +6,7 @@ use crate::interface::{Entry, entries};
 use crate::nominal::{Experiment, experiment};
 use crate::predict;
 use crate::rods::Waves;
-use crate::scene::{Group, Parameter, Scene};
+use crate::scene::{Group, InverseMasses, Parameter, Scene};
 use crate::table::{self, Feature};
 use crate::validity;
 use brinell_contact::impact::Prediction;
@@ -85,9 +85,9 @@ fn moves_separately(scene: &Scene) -> bool {
     scene.coupling.is_some() && scene.inverse_masses.is_none() && scene.contact_count() > 1
 }
 
-/// A scene without a unit: one whose contacts share bodies.
+/// A scene without a unit: the inverse masses of its contacts would be inputs.
 #[derive(Debug, thiserror::Error)]
-#[error("units of contacts that share bodies ([[body]], coupling.inverse_masses) can't be exported yet")]
+#[error("units with coupling.inverse_masses = \"input\" can't be exported yet; those of tables [[body]] can")]
 pub struct NoUnit;
 
 /// Rejects a `scene` that is right but whose unit can't be made yet.
@@ -95,7 +95,7 @@ pub struct NoUnit;
 /// # Errors
 /// [`NoUnit`]
 pub fn check_unit(scene: &Scene) -> Result<(), NoUnit> {
-    if scene.inverse_masses.is_some() { Err(NoUnit) } else { Ok(()) }
+    if scene.inverse_masses == Some(InverseMasses::Inputs) { Err(NoUnit) } else { Ok(()) }
 }
 
 /// The kinds of the FMU of `scene`, whose laws have this `energy` balance.

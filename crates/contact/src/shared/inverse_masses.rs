@@ -53,6 +53,9 @@ pub const fn entries(count: usize) -> usize {
 }
 
 impl<'a> InverseMasses<'a> {
+    /// That of no contact.
+    pub const NONE: InverseMasses<'a> = InverseMasses { count: 0, entries: &[] };
+
     /// The matrix of `count` contacts from its upper triangle, row by row \[1/kg\].
     ///
     /// # Errors

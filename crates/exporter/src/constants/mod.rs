@@ -5,7 +5,7 @@ mod laws;
 mod parameters;
 
 use crate::plan::Plan;
-use crate::scene::{Coupling, Group, Scene};
+use crate::scene::{Coupling, Group, InverseMasses, Scene};
 use crate::table::{Causality, Symbol, Variable};
 use std::fmt::{Display, Write};
 
@@ -33,7 +33,11 @@ pub fn write(plan: &Plan, guid: &str) -> String {
         file.add("impact_mass", literal(scene.impact.mass));
     }
     let forces = presence(scene.contact_count() > 1 && !scene.is_rate_dependent());
-    file.add("parts", format_args!("{{ Forces = {forces}, {} }}", parts(scene)));
+    if let Some(InverseMasses::Constant(entries)) = &scene.inverse_masses {
+        file.add("inverse_masses", list(entries.iter().map(|&entry| literal(entry))));
+    }
+    let shared = presence(scene.inverse_masses.is_some());
+    file.add("parts", format_args!("{{ Forces = {forces}, {}, Shared = {shared} }}", parts(scene)));
     parameters::add_settable(&mut file, scene, entries);
     parameters::add_sources(&mut file, scene);
     let mut kinds: Vec<&Variable> = entries.iter().map(|entry| entry.variable).collect();

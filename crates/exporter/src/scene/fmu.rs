@@ -87,8 +87,16 @@ pub fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) ->
     }
 }
 
+/// What an FMU has that some outputs need.
+pub struct Has {
+    pub mass: bool,
+    pub shared_bodies: bool,
+    pub friction: bool,
+}
+
 /// The outputs beside the force, each once.
-pub fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool, friction: bool) -> Result<Vec<String>, Mistake> {
+pub fn check_outputs(chosen: &[Spanned<String>], has: &Has) -> Result<Vec<String>, Mistake> {
+    let Has { mass: knows_mass, shared_bodies, friction } = *has;
     let is_listed =
         |variable: &&table::Variable| variable.causality == Causality::Output && variable.second_of.is_none();
     let available = || VARIABLES.iter().filter(is_listed).map(|variable| variable.name.as_str());
@@ -110,6 +118,10 @@ pub fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool, friction: boo
         if text == "closing_speed" && !knows_mass {
             let message =
                 "the output closing_speed needs [coupling] effective_mass: the FMU must move the bodies itself";
+            return Err(Mistake(name.span(), message.into()));
+        }
+        if text == "impulse_moment" && !shared_bodies {
+            let message = "the output impulse_moment needs contacts that share bodies: tables [[body]]";
             return Err(Mistake(name.span(), message.into()));
         }
         if table::variable(text).friction && !friction {

@@ -198,6 +198,10 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             numbers[0] = step;
             "the bodies rebound too often to be followed within communicationStepSize = ~ s"
         }
+        Fault::TooLongTogether { step, possible } => {
+            (numbers[0], numbers[1]) = (step, possible);
+            "the contacts touch, part and turn too often to be followed within communicationStepSize = ~ s: a step of ~ s is possible"
+        }
         Fault::DerivativeOrder { order, largest } => {
             numbers[0] = f64::from(order);
             if S::Contact::DERIVATIVES == 0 && largest == 0 {

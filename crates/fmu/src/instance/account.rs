@@ -93,8 +93,11 @@ impl<S: Scene> Instance<S> {
     /// Whether the FMU moves the bodies.
     pub(super) const MOVES: bool = <S::Coupling as Coupling>::Ending::IS_PRESENT;
 
-    /// Effective mass of `contact` \[kg\].
+    /// Effective mass of `contact` \[kg\]. Of contacts that share bodies, it is that of this contact alone.
     pub(super) fn mass(&self, contact: usize) -> f64 {
+        if S::Shared::IS_PRESENT {
+            return 1.0 / self.inverse_masses().of(contact, contact);
+        }
         match self.contacts.masses.as_ref().get(contact) {
             Some(&mass) if S::has_input(Real::EffectiveMass) => mass,
             _ => S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values),
@@ -112,19 +115,43 @@ impl<S: Scene> Instance<S> {
 
     /// The part of the given rate of `contact` that the importer has yet to remove \[m/s\].
     pub(super) fn owed(&self, contact: usize) -> f64 {
-        self.contacts.accounts.as_ref().get(contact).map_or(0.0, |account| account.debt / self.mass(contact))
+        let accounts = self.contacts.accounts.as_ref();
+        match is_parallel::<S>() {
+            true => self.response(contact, |other| accounts.get(other).map_or(0.0, |account| account.debt)),
+            false => 0.0,
+        }
+    }
+
+    /// The change of the closing speed of `contact` by these impulses \[N.s\] at the contacts that share its bodies: how much it
+    /// loses \[m/s\]. With forces \[N\], it is an acceleration.
+    pub(super) fn response(&self, contact: usize, impulse: impl Fn(usize) -> f64) -> f64 {
+        if !S::Shared::IS_PRESENT {
+            return impulse(contact) / self.mass(contact);
+        }
+        let masses = self.inverse_masses();
+        (0..S::CONTACTS).map(|other| masses.of(contact, other) * impulse(other)).sum()
     }
 
     /// Records the end of a `step` \[s\] of `contact`: its `speed` \[m/s\] and its `mean_force` \[N\].
     pub(super) fn end_step(&mut self, contact: usize, speed: f64, mean_force: f64, step: f64) {
         let mass = self.mass(contact);
+        let change = self.book(contact, speed, mean_force, step);
+        if let Some(ending) = self.contacts.endings.as_mut().get_mut(contact) {
+            ending.jump = change / mass;
+        }
+    }
+
+    /// Records the end of a step except for the jump, and returns the change of the impulse of a step that causes it \[N.s\].
+    pub(super) fn book(&mut self, contact: usize, speed: f64, mean_force: f64, step: f64) -> f64 {
         let Contacts { endings, accounts, .. } = &mut self.contacts;
-        let Some(ending) = endings.as_mut().get_mut(contact) else { return };
+        let Some(ending) = endings.as_mut().get_mut(contact) else { return 0.0 };
         let force = match accounts.as_mut().get_mut(contact) {
             Some(account) => account.book(mean_force * step, ending.force, step),
             None => mean_force,
         };
-        *ending = Ending { speed, force, jump: (force - ending.force) * step / mass };
+        let change = (force - ending.force) * step;
+        *ending = Ending { speed, force, jump: 0.0 };
+        change
     }
 
     /// Checks whether the rate of `contact` for the next step comes from an importer with the other order of execution.

@@ -139,11 +139,14 @@ impl<S: Scene> Instance<S> {
             Real::RegimeNumber
             | Real::SlidingNumber
             | Real::MeanForce
+            | Real::ImpulseMoment
             | Real::PredictedForce
             | Real::PredictedTangentialForce
             | Real::SecondPredictedTangentialForce => return Some((0.0, 0.0)),
             // the force changes with the distance
-            Real::ClosingSpeed if Self::MOVES => return Some((slope, -stiffness * rate / self.mass(contact))),
+            Real::ClosingSpeed if Self::MOVES => {
+                return Some((slope, -self.response(contact, |other| self.growth_of_force(other))));
+            }
             // the heat is not a function of the indentation, but the remaining part of the work is
             Real::DissipatedEnergy if S::Contact::FOLLOWS_RATE => Real::ElasticEnergy,
             variable => variable,
@@ -155,6 +158,12 @@ impl<S: Scene> Instance<S> {
             by_time(slopes(history, &model, |contact| of_state::<S>(variable, contact, &model, rate)));
         let rest = output == Real::DissipatedEnergy && S::Contact::FOLLOWS_RATE;
         Some(if rest { (work.0 - first, work.1 - second) } else { (first, second) })
+    }
+
+    /// The derivative of the force of `contact` with respect to time \[N/s\]; for a force that depends on the rate, without that part.
+    fn growth_of_force(&self, contact: usize) -> f64 {
+        let rate = self.end_of(contact).0;
+        self.histories().get(contact).map_or(0.0, |history| history.stiffness(rate) * rate)
     }
 
     /// The derivative of a variable with respect to the input of contact `by` at the present time. It is zero except for

@@ -102,6 +102,13 @@ pub enum Fault {
         /// The step size \[s\].
         step: f64,
     },
+    /// A step in which contacts that share bodies touch, part and turn more often than can be computed.
+    TooLongTogether {
+        /// The step size \[s\].
+        step: f64,
+        /// A step that could have been computed \[s\].
+        possible: f64,
+    },
     /// A derivative of an order that does not exist.
     DerivativeOrder {
         /// The requested order.

@@ -13,6 +13,7 @@ mod saved;
 mod stability;
 mod start;
 mod stepping;
+mod together;
 mod validity;
 mod variables;
 
@@ -23,6 +24,7 @@ pub use stepping::Plain;
 use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
 use account::{Account, Ending, Miswired};
 use brinell_contact::behaviour::is_finite_at;
+use brinell_contact::shared::Work;
 use brinell_contact::{Contact, TooDeep};
 use clock::Clock;
 use coupling::{Curve, Momentum};
@@ -58,6 +60,10 @@ struct Contacts<S: Scene> {
     /// Number of next steps to examine.
     looks: <S::Watch as Presence>::Of<u32, [u32; 1]>,
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
+    /// Moments of the impulses of the last step, if contacts share bodies \[N.s^2\].
+    moments: IfPresent<S::Shared, S, f64>,
+    /// Working memory of a step of all contacts together.
+    works: IfPresent<S::Shared, S, Work<S::Contact>>,
 }
 
 /// Values that follow from the parameters.

@@ -29,7 +29,8 @@ impl<S: Scene> Instance<S> {
         + if <S::Coupling as Coupling>::Ending::IS_PRESENT { Ending::WORDS } else { 0 }
         + if <S::Coupling as Coupling>::Account::IS_PRESENT { Account::WORDS } else { 0 }
         + <S::Coupling as Coupling>::Acceleration::IS_PRESENT as usize
-        + <S::Coupling as Coupling>::Mass::IS_PRESENT as usize;
+        + <S::Coupling as Coupling>::Mass::IS_PRESENT as usize
+        + S::Shared::IS_PRESENT as usize;
 
     /// Number of words that hold an instance.
     pub const WORDS: usize =
@@ -150,8 +151,9 @@ impl<S: Scene> Instance<S> {
                 (bodies.radius, bodies.modulus) = (radius, modulus);
             }
         }
-        let Contacts { histories, rates, curves, momenta, endings, accounts, accelerations, masses, .. } =
+        let Contacts { histories, rates, curves, momenta, endings, accounts, accelerations, masses, moments, .. } =
             &mut self.contacts;
+        let mut moments = moments.as_mut().iter_mut();
         let (mut endings, mut accounts) = (endings.as_mut().iter_mut(), accounts.as_mut().iter_mut());
         let (mut accelerations, mut masses) = (accelerations.as_mut().iter_mut(), masses.as_mut().iter_mut());
         let (mut curves, mut momenta) = (curves.as_mut().iter_mut(), momenta.as_mut().iter_mut());
@@ -191,6 +193,7 @@ impl<S: Scene> Instance<S> {
                 let [mass] = load_numbers(&mut words)?;
                 is_mass(mass).then_some(mass)
             })?;
+            put(moments.next(), in_earnest, || load_numbers(&mut words).map(|[moment]| moment))?;
         }
         if in_earnest {
             self.settings.values = values;
@@ -208,15 +211,15 @@ impl<S: Scene> Instance<S> {
 
     /// Passes the data that `contact` keeps for its importer to `store`.
     fn save_coupling(&self, contact: usize, store: &mut impl FnMut(u64)) {
-        let Contacts { endings, accounts, accelerations, masses, .. } = &self.contacts;
+        let Contacts { endings, accounts, accelerations, masses, moments, .. } = &self.contacts;
         if let Some(ending) = endings.as_ref().get(contact) {
             ending.save(store);
         }
         if let Some(account) = accounts.as_ref().get(contact) {
             account.save(store);
         }
-        let inputs = [accelerations.as_ref().get(contact), masses.as_ref().get(contact)];
-        inputs.into_iter().flatten().for_each(|input| store(input.to_bits()));
+        let numbers = [accelerations.as_ref(), masses.as_ref(), moments.as_ref()].map(|all| all.get(contact));
+        numbers.into_iter().flatten().for_each(|input| store(input.to_bits()));
     }
 }
 

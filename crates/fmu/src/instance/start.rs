@@ -119,6 +119,8 @@ impl<S: Scene> Instance<S> {
                 miswired: Store::filled(Miswired::default()),
                 watched: Store::filled(Watched::default()),
                 looks: Store::filled(0),
+                moments: Store::filled(0.0),
+                works: Store::filled(Work::new(history)),
             },
             settings: Settings { largest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
             deep: Deep { contact: 0, indentation: 0.0 },
@@ -192,7 +194,8 @@ impl<S: Scene> Instance<S> {
             }
             first = end;
         }
-        let Contacts { accounts, miswired, watched, looks, .. } = &mut self.contacts;
+        let Contacts { accounts, miswired, watched, looks, moments, .. } = &mut self.contacts;
+        moments.as_mut().fill(0.0);
         accounts.as_mut().fill(Account::default());
         miswired.as_mut().fill(Miswired::default());
         watched.as_mut().fill(Watched::default());

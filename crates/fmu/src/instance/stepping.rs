@@ -159,6 +159,12 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts of an instance that is not simple, or none of them.
     #[inline]
     fn advance_all(&mut self, end: f64, step: f64) -> Result<(), Fault> {
+        if S::Shared::IS_PRESENT {
+            self.advance_together(step)?;
+            self.contacts.last_step.as_mut().fill(step);
+            self.clock.time = end;
+            return Ok(());
+        }
         if S::CONTACTS > 1 {
             // within the limits of rate and time, a law with segments cannot fail
             let looks_ahead = self.clock.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));

@@ -163,6 +163,7 @@ impl<S: Scene> Instance<S> {
                 Some(ending) => ending.force,
                 None => momentum().map_or(f64::NAN, |momentum| momentum.mean_force),
             },
+            Real::ImpulseMoment => self.contacts.moments.as_ref().get(contact).copied().unwrap_or(f64::NAN),
             Real::PredictedForce => self.predicted_force(contact, history),
             Real::ClosingSpeed if Self::MOVES => self.own_speed(contact).unwrap_or(rate),
             Real::RegimeNumber => self.integer((Integer::Regime, contact)).into(),

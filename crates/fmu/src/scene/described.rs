@@ -129,6 +129,22 @@ macro_rules! __laws {
         }
     };
 
+    (together plain) => {
+        #[inline(always)]
+        fn follow_together(
+            contacts: &mut [Self::Contact],
+            model: impl Fn(usize) -> Self::Model,
+            masses: &$crate::contact::shared::InverseMasses,
+            accelerations: &[f64],
+            rates: &mut [f64],
+            work: &mut [$crate::contact::shared::Work<Self::Contact>],
+            step: f64,
+        ) -> Result<$crate::contact::shared::Outcome, $crate::contact::shared::Refused> {
+            $crate::contact::shared::follow(contacts, model, masses, accelerations, rates, work, step)
+        }
+    };
+    (together $other:tt) => {};
+
     (model $pair:ident $surface:ident $value:ident $density:ident; damped $law:ident $fields:tt) => {{
         // the names of approximations among the constants
         #[allow(unused_imports)]
@@ -212,6 +228,7 @@ macro_rules! __value {
 /// - `surface`, `density`: one for all tables, or one for each; density of the target \[kg/m^3\];
 /// - `laws`: what is added to them, the loading law and the unloading law, or a rate-dependent law, each in a form and with its
 ///   constants;
+/// - `inverse_masses`: those of contacts that share bodies, the upper triangle row by row \[1/kg\];
 /// - `parts`: the parts of an instance;
 /// - `settable`: name, unit, smallest, largest and start value of each parameter that can be set. `runs`, if contacts have own
 ///   values: where the values of each end, and its first contact. `tunable`: ranges of values that can be set between steps;
@@ -229,6 +246,7 @@ macro_rules! __scene {
         laws: $kind:tt { $($laws:tt)+ },
         $(guard: $guard:literal,)?
         $(impact_mass: $mass:expr,)?
+        $(inverse_masses: [$($inverse_mass:expr),+],)?
         parts: { $($part:ident = $presence:ty),+ },
         settable: {
             $($set:literal $unit:literal [$minimum:expr, $maximum:expr] = $start:expr,)*
@@ -300,6 +318,12 @@ macro_rules! __scene {
                 $crate::__laws!(follow $kind);
             $(const GUARD: Option<$crate::scene::Guard<Self>> =
                 Some($crate::scene::Guard { words: $guard, acts: <Self::Contact>::is_held_back });)?
+
+            $crate::__laws!(together $kind);
+
+            fn inverse_masses() -> &'static [f64] {
+                &[$($($inverse_mass),+)?]
+            }
 
             fn guid() -> &'static [u8] {
                 $guid.as_bytes()

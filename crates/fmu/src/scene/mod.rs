@@ -16,6 +16,7 @@ pub use storage::{Absent, Presence, Present, Store};
 pub use variable::{Integer, Parameter, Real, Settable};
 
 use brinell_contact::motion::Follow;
+use brinell_contact::shared::{InverseMasses, Outcome, Refused, Work};
 use brinell_contact::tangential::{Friction, RoughModel};
 use brinell_contact::{Body, Contact, Model, OtherBody, Pair, TwoBodies};
 
@@ -51,6 +52,9 @@ pub trait Scene: Sized {
 
     /// Whether the scene detects steps that are too long for a mass like that of its impact.
     type Watch: Presence;
+
+    /// Whether contacts share bodies, so that all of them move together.
+    type Shared: Presence;
 
     /// The function that moves the bodies through a step, if the scene knows their mass.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
@@ -109,6 +113,29 @@ pub trait Scene: Sized {
     #[inline(always)]
     fn impact_mass() -> f64 {
         f64::NAN
+    }
+
+    /// The inverse effective masses of contacts that share bodies: the upper triangle of the matrix, row by row \[1/kg\].
+    #[inline(always)]
+    fn inverse_masses() -> &'static [f64] {
+        &[]
+    }
+
+    /// Moves all contacts through a step, if they share bodies: [`shared::follow`](brinell_contact::shared::follow).
+    ///
+    /// # Errors
+    /// [`Refused`]; nothing has changed then.
+    #[inline(always)]
+    fn follow_together(
+        _contacts: &mut [Self::Contact],
+        _model: impl Fn(usize) -> Self::Model,
+        _masses: &InverseMasses,
+        _accelerations: &[f64],
+        _rates: &mut [f64],
+        _work: &mut [Work<Self::Contact>],
+        _step: f64,
+    ) -> Result<Outcome, Refused> {
+        Err(Refused::Sizes)
     }
 
     /// Whether `variable`, which is not the rate, is an input of the scene.

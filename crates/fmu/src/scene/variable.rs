@@ -200,6 +200,8 @@ variables! {
         PredictedForce = "predicted_force",
         /// Closing speed at the end of a step \[m/s\].
         ClosingSpeed = "closing_speed",
+        /// Moment of the impulse of the last step \[N.s^2\].
+        ImpulseMoment = "impulse_moment",
         /// Acceleration by all forces except the contact force, an input \[m/s^2\].
         ExternalAcceleration = "external_acceleration",
         /// Number of the regime.

@@ -80,6 +80,7 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
     type Prediction = K::Prediction;
     type Coupling = K::Coupling;
     type Watch = K::Watch;
+    type Shared = super::Absent;
 
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
 
