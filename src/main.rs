@@ -39,7 +39,7 @@ mod tangential_curve;
 mod truth;
 
 use arguments::{Arguments, Command, PlatformArguments};
-use brinell_exporter::plan::{Plan, check_unit};
+use brinell_exporter::plan::Plan;
 use brinell_exporter::prebuilt::Library;
 use brinell_exporter::{constants, numbers};
 use clap::Parser;
@@ -144,7 +144,6 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Man { output }) => about::manual(output)?,
         Some(Command::Constants { scene }) => {
             let scene = scene_file::read(scene)?;
-            check_unit(&scene)?;
             print!("{}", constants::write(&Plan::of(&scene), "unpacked"));
         }
         Some(Command::Kind { scene }) => {

@@ -5,7 +5,8 @@ use crate::importer::{Archive, ImportError, Unit};
 use brinell_contact::shared::{InverseMasses, Refused, Work, follow};
 use brinell_contact::{History, Model};
 use brinell_contact::{loading::AnyLoading, unloading::AnyUnloading};
-use brinell_exporter::scene::{Scene, place};
+use brinell_exporter::interface::{INVERSE_MASS, inverse_mass_inputs};
+use brinell_exporter::scene::{self, Scene, place};
 
 /// Number of steps of a check.
 const STEPS: u32 = 3;
@@ -29,6 +30,20 @@ impl Together<'_> {
         let model = |contact: usize| &self.models[contact];
         follow(&mut self.contacts, model, &self.masses, &still, &mut self.rates, &mut work, step)?;
         Ok(work.iter().map(Work::impulse).collect())
+    }
+}
+
+/// The inverse masses of a check \[1/kg\]: those of the scene, or for inputs those of bodies in a row, twice the mass of the scene's
+/// impact each.
+pub fn entries(masses: &scene::InverseMasses, scene: &Scene) -> Vec<f64> {
+    match masses {
+        scene::InverseMasses::Constant(entries) => entries.clone(),
+        scene::InverseMasses::Inputs => {
+            let inverse = 0.5 / scene.impact.mass;
+            let entry = |apart: usize| [2.0 * inverse, -inverse].get(apart).copied().unwrap_or(0.0);
+            let count = scene.contact_count();
+            (0..count).flat_map(|row| (0..count - row).map(entry)).collect()
+        }
     }
 }
 
@@ -97,6 +112,11 @@ fn simulate(
     let mut instance = unit.instantiate()?;
     instance.setup_experiment(0.0)?;
     instance.call("fmi2EnterInitializationMode")?;
+    let inputs = inverse_mass_inputs(scene) > 0;
+    for (row, column) in (0..count).flat_map(|row| (row..count).map(move |column| (row, column))).filter(|_| inputs) {
+        let reference = archive.description.real(&format!("{INVERSE_MASS}[{},{}]", row + 1, column + 1))?;
+        instance.set_real(reference, entries[place(count, row, column)])?;
+    }
     instance.call("fmi2ExitInitializationMode")?;
     let parallel = scene.coupling.is_some_and(|coupling| coupling.parallel);
     let mut before = forces.iter().map(|force| instance.real(*force)).collect::<Result<Vec<_>, _>>()?;

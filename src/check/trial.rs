@@ -7,7 +7,7 @@ use crate::master::Contact;
 use brinell_contact::impact::Prediction;
 use brinell_exporter::layout::table;
 use brinell_exporter::numbers::{percent, quantity};
-use brinell_exporter::scene::{InverseMasses, Parameter, Scene};
+use brinell_exporter::scene::{Parameter, Scene};
 use serde::Serialize;
 
 /// The impact on one contact.
@@ -39,8 +39,8 @@ impl Trial {
         let name = given.name.is_some().then(|| prefix.trim_end_matches('.').to_string());
         let mut trial =
             Trial { contact: name, count: given.count, skipped: None, step, rows: Vec::new(), disturbed: Vec::new() };
-        if let Some(InverseMasses::Constant(entries)) = &scene.inverse_masses {
-            trial.rows = together::compare(archive, unit, scene, group, entries)?;
+        if let Some(masses) = &scene.inverse_masses {
+            trial.rows = together::compare(archive, unit, scene, group, &together::entries(masses, scene))?;
             return Ok(trial);
         }
         // the impact begins at first contact; a gap that is a constant of the FMU has to be crossed

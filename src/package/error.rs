@@ -4,7 +4,6 @@ use crate::files::FileError;
 use crate::prebuilt::PrebuiltError;
 use brinell_exporter::layout::shown;
 use brinell_exporter::package::PackError;
-use brinell_exporter::plan::NoUnit;
 use brinell_exporter::platform::NoPlatform;
 use std::io;
 use std::path::PathBuf;
@@ -14,8 +13,6 @@ use std::path::PathBuf;
 pub enum ExportError {
     #[error("{0}")]
     File(#[from] FileError),
-    #[error("{0}")]
-    Unit(#[from] NoUnit),
     #[error("{0}")]
     Platform(#[from] NoPlatform),
     #[error("{0}")]

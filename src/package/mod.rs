@@ -18,7 +18,7 @@ use crate::prebuilt::{PrebuiltError, StoredUnit};
 use crate::sources;
 use brinell_exporter::constants;
 use brinell_exporter::package::{GUID_TO_COME, Packed, guid, identified, pack};
-use brinell_exporter::plan::{Plan, check_unit};
+use brinell_exporter::plan::Plan;
 use brinell_exporter::platform::Platform;
 use folder::Cache;
 use rustc::Rustc;
@@ -106,7 +106,6 @@ pub struct Origin {
 /// # Errors
 /// [`ExportError`]
 pub fn make(plan: &Plan, way: LibraryWay, platforms: &[Platform]) -> Result<Libraries, ExportError> {
-    check_unit(plan.scene)?;
     match way {
         LibraryWay::Compiled => compile(plan, platforms),
         LibraryWay::Prebuilt => Ok(fill_in(plan, platforms)?),

@@ -1,7 +1,7 @@
 //! The variables of the FMU of a scene, in order. XML, constants and documentation are all made from this list.
 
 use crate::nominal;
-use crate::scene::{Group, Parameter, Scene};
+use crate::scene::{Group, InverseMasses, Parameter, Scene};
 use crate::table::{self, Causality, Feature, Follows, VARIABLES, Variable};
 use brinell_contact::damped::Damped;
 
@@ -59,6 +59,10 @@ impl Entry<'_> {
         match self.group {
             Some(group) if self.per_contact => format!("{}{}", group.prefix(index), self.component()),
             Some(group) => group.variable(name),
+            None if name == INVERSE_MASS => {
+                let (row, column) = row_and_column(self.count, index);
+                format!("{name}[{},{}]", row + 1, column + 1)
+            }
             None => name.clone(),
         }
     }
@@ -73,6 +77,7 @@ impl Entry<'_> {
         let (first, last) = (self.name(0), self.name(self.count - 1));
         match self.count {
             1 => first,
+            _ if self.variable.name == INVERSE_MASS => format!("{first} to {}", last.trim_start_matches(INVERSE_MASS)),
             count => last.replacen(&format!("[{count}]"), &format!("[1..{count}]"), 1),
         }
     }
@@ -162,7 +167,48 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
         follows_at_start: None,
         nominal: None,
     }));
+    let count = inverse_mass_inputs(scene);
+    if count > 0 {
+        let variable = table::variable(INVERSE_MASS);
+        entries.push(Entry {
+            variable,
+            description: variable.description(kinds),
+            minimum: None,
+            group: None,
+            reference: entries.last().map_or(0, |last| last.reference + last.count),
+            count,
+            per_contact: false,
+            start: Some(0.0),
+            dependencies: Vec::new(),
+            follows: None,
+            follows_tangential: Vec::new(),
+            is_first: false,
+            follows_at_start: None,
+            nominal: None,
+        });
+    }
     entries
+}
+
+/// The name of the inputs for the inverse masses of contacts that share bodies, before their indices.
+pub const INVERSE_MASS: &str = "inverse_mass";
+
+/// The number of these inputs: the upper triangle of the matrix.
+pub fn inverse_mass_inputs(scene: &Scene) -> usize {
+    let contacts = scene.contact_count();
+    if scene.inverse_masses == Some(InverseMasses::Inputs) { contacts * (contacts + 1) / 2 } else { 0 }
+}
+
+/// Row and column of the entry with this `place` in an upper triangle of `count` entries, row by row.
+fn row_and_column(count: usize, mut place: usize) -> (usize, usize) {
+    let mut length = (0..).take_while(|contacts| contacts * (contacts + 1) / 2 <= count).last().unwrap_or(0);
+    let mut row = 0;
+    while place >= length {
+        place -= length;
+        length -= 1;
+        row += 1;
+    }
+    (row, row + place)
 }
 
 /// Whether `variable` has a second direction.

@@ -6,7 +6,7 @@ use crate::interface::{Entry, entries};
 use crate::nominal::{Experiment, experiment};
 use crate::predict;
 use crate::rods::Waves;
-use crate::scene::{Group, InverseMasses, Parameter, Scene};
+use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Feature};
 use crate::validity;
 use brinell_contact::impact::Prediction;
@@ -83,19 +83,6 @@ impl Plan<'_> {
 /// Whether the FMU moves the bodies of several contacts, each by itself.
 fn moves_separately(scene: &Scene) -> bool {
     scene.coupling.is_some() && scene.inverse_masses.is_none() && scene.contact_count() > 1
-}
-
-/// A scene without a unit: the inverse masses of its contacts would be inputs.
-#[derive(Debug, thiserror::Error)]
-#[error("units with coupling.inverse_masses = \"input\" can't be exported yet; those of tables [[body]] can")]
-pub struct NoUnit;
-
-/// Rejects a `scene` that is right but whose unit can't be made yet.
-///
-/// # Errors
-/// [`NoUnit`]
-pub fn check_unit(scene: &Scene) -> Result<(), NoUnit> {
-    if scene.inverse_masses == Some(InverseMasses::Inputs) { Err(NoUnit) } else { Ok(()) }
 }
 
 /// The kinds of the FMU of `scene`, whose laws have this `energy` balance.

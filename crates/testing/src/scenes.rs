@@ -136,6 +136,7 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Coupling = K::Coupling;
     type Watch = K::Watch;
     type Shared = Absent;
+    type InverseMasses = [f64; 0];
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
     const GUARD: Option<Guard<Self>> = match K::GUARD {
         Some(acts) => Some(Guard { words: "", acts }),

@@ -4,6 +4,7 @@ pub mod kind;
 mod laws;
 mod parameters;
 
+use crate::interface::{INVERSE_MASS, inverse_mass_inputs};
 use crate::plan::Plan;
 use crate::scene::{Coupling, Group, InverseMasses, Scene};
 use crate::table::{Causality, Symbol, Variable};
@@ -37,11 +38,13 @@ pub fn write(plan: &Plan, guid: &str) -> String {
         file.add("inverse_masses", list(entries.iter().map(|&entry| literal(entry))));
     }
     let shared = presence(scene.inverse_masses.is_some());
-    file.add("parts", format_args!("{{ Forces = {forces}, {}, Shared = {shared} }}", parts(scene)));
+    let inputs = inverse_mass_inputs(scene);
+    let bodies = format!("Shared = {shared}, InverseMasses = [f64; {inputs}]");
+    file.add("parts", format_args!("{{ Forces = {forces}, {}, {bodies} }}", parts(scene)));
     parameters::add_settable(&mut file, scene, entries);
     parameters::add_sources(&mut file, scene);
     let mut kinds: Vec<&Variable> = entries.iter().map(|entry| entry.variable).collect();
-    kinds.retain(|variable| variable.causality != Causality::Parameter);
+    kinds.retain(|variable| variable.causality != Causality::Parameter && variable.name != INVERSE_MASS);
     kinds.dedup_by_key(|variable| variable.name.as_str());
     file.add("kinds", kinds.len());
     file.add_places(kinds.into_iter().enumerate());

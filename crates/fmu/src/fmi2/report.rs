@@ -202,6 +202,15 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             (numbers[0], numbers[1]) = (step, possible);
             "the contacts touch, part and turn too often to be followed within communicationStepSize = ~ s: a step of ~ s is possible"
         }
+        Fault::InverseMass { row, column, value } => {
+            *numbers = [row as f64 + 1.0, column as f64 + 1.0, value];
+            "inverse_mass[~,~] = ~ must be a finite number, and positive if both indices are the same; set all of them before the step"
+        }
+        Fault::Indefinite { contact, with } => {
+            (numbers[0], numbers[1]) = (contact as f64 + 1.0, with as f64 + 1.0);
+            "the inputs inverse_mass are those of no bodies: contact number ~ is coupled too strongly, above all with number ~, for \
+             their inverse masses (the matrix must be positive semidefinite)"
+        }
         Fault::DerivativeOrder { order, largest } => {
             numbers[0] = f64::from(order);
             if S::Contact::DERIVATIVES == 0 && largest == 0 {

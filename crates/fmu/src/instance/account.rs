@@ -9,6 +9,7 @@
 
 use super::*;
 use crate::scene::Real;
+use brinell_contact::numbers::quotient;
 use brinell_contact::words::{load_numbers, store_numbers};
 
 /// The end of the last step, as reported to the importer.
@@ -96,7 +97,8 @@ impl<S: Scene> Instance<S> {
     /// Effective mass of `contact` \[kg\]. Of contacts that share bodies, it is that of this contact alone.
     pub(super) fn mass(&self, contact: usize) -> f64 {
         if S::Shared::IS_PRESENT {
-            return 1.0 / self.inverse_masses().of(contact, contact);
+            let inverse = self.inverse_masses().of(contact, contact);
+            return quotient(1.0, inverse, inverse > 0.0, f64::MAX);
         }
         match self.contacts.masses.as_ref().get(contact) {
             Some(&mass) if S::has_input(Real::EffectiveMass) => mass,

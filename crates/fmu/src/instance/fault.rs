@@ -109,6 +109,22 @@ pub enum Fault {
         /// A step that could have been computed \[s\].
         possible: f64,
     },
+    /// An inverse mass that is not finite, or of one contact and not positive.
+    InverseMass {
+        /// The contact of the first index, counted from 0.
+        row: usize,
+        /// The contact of the second index.
+        column: usize,
+        /// The inverse mass \[1/kg\].
+        value: f64,
+    },
+    /// Inverse masses that no bodies have: those of a contact are too small for its coupling with others.
+    Indefinite {
+        /// The contact, counted from 0.
+        contact: usize,
+        /// The contact that it is coupled with most strongly.
+        with: usize,
+    },
     /// A derivative of an order that does not exist.
     DerivativeOrder {
         /// The requested order.

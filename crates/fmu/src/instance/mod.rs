@@ -62,6 +62,11 @@ struct Contacts<S: Scene> {
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
     /// Moments of the impulses of the last step, if contacts share bodies \[N.s^2\].
     moments: IfPresent<S::Shared, S, f64>,
+    /// Inverse effective masses that are inputs \[1/kg\].
+    inverse_masses: S::InverseMasses,
+    /// Working memory to check them, and whether they are right.
+    scratch: S::InverseMasses,
+    checked: bool,
     /// Working memory of a step of all contacts together.
     works: IfPresent<S::Shared, S, Work<S::Contact>>,
 }

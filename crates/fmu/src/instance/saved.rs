@@ -33,8 +33,12 @@ impl<S: Scene> Instance<S> {
         + S::Shared::IS_PRESENT as usize;
 
     /// Number of words that hold an instance.
-    pub const WORDS: usize =
-        2 + count(Self::TIMES) + <S::Values as Store<f64>>::LENGTH + 2 * S::GROUPS + Self::CONTACT_WORDS * S::CONTACTS;
+    pub const WORDS: usize = 2
+        + count(Self::TIMES)
+        + <S::Values as Store<f64>>::LENGTH
+        + S::InverseMasses::LENGTH
+        + 2 * S::GROUPS
+        + Self::CONTACT_WORDS * S::CONTACTS;
 
     /// Makes this instance equal to `other` and returns true. If the parameters differ, or `other` is in fact of another scene, it
     /// changes nothing and returns false.
@@ -58,6 +62,9 @@ impl<S: Scene> Instance<S> {
         own.accounts.as_mut().copy_from_slice(given.accounts.as_ref());
         own.accelerations.as_mut().copy_from_slice(given.accelerations.as_ref());
         own.masses.as_mut().copy_from_slice(given.masses.as_ref());
+        own.moments.as_mut().copy_from_slice(given.moments.as_ref());
+        own.inverse_masses.as_mut().copy_from_slice(given.inverse_masses.as_ref());
+        own.checked = given.checked;
         // without derivatives, the stored curves are meaningless
         if other.clock.curved {
             own.curves.as_mut().copy_from_slice(given.curves.as_ref());
@@ -88,6 +95,7 @@ impl<S: Scene> Instance<S> {
         store(flags);
         store_kept([self.clock.time, self.clock.stop(), last_step], Self::TIMES, &mut store);
         store_numbers(self.settings.values.as_ref(), &mut store);
+        store_numbers(self.contacts.inverse_masses.as_ref(), &mut store);
         for bodies in self.settings.bodies.as_ref() {
             store_numbers(&[bodies.radius, bodies.modulus], &mut store);
         }
@@ -135,6 +143,12 @@ impl<S: Scene> Instance<S> {
             [*value] = load_numbers(&mut words)?;
             if !allows(&settable, *value) {
                 return None;
+            }
+        }
+        for place in 0..S::InverseMasses::LENGTH {
+            let [entry] = load_numbers(&mut words)?;
+            if in_earnest && let Some(slot) = self.contacts.inverse_masses.as_mut().get_mut(place) {
+                *slot = entry;
             }
         }
         let unfit = !matches!(phase, Phase::StepComplete | Phase::Terminated);
@@ -196,6 +210,7 @@ impl<S: Scene> Instance<S> {
             put(moments.next(), in_earnest, || load_numbers(&mut words).map(|[moment]| moment))?;
         }
         if in_earnest {
+            self.contacts.checked = false;
             self.settings.values = values;
             self.stamp_parameters();
             self.clock = clock;

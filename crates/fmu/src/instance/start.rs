@@ -120,6 +120,9 @@ impl<S: Scene> Instance<S> {
                 watched: Store::filled(Watched::default()),
                 looks: Store::filled(0),
                 moments: Store::filled(0.0),
+                inverse_masses: Store::filled(0.0),
+                scratch: Store::filled(0.0),
+                checked: false,
                 works: Store::filled(Work::new(history)),
             },
             settings: Settings { largest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
@@ -139,6 +142,8 @@ impl<S: Scene> Instance<S> {
         self.forget_tangential_rates();
         self.contacts.last_step.as_mut().fill(0.0);
         self.contacts.accelerations.as_mut().fill(0.0);
+        self.contacts.inverse_masses.as_mut().fill(0.0);
+        self.contacts.checked = false;
         for (contact, mass) in self.contacts.masses.as_mut().iter_mut().enumerate() {
             *mass = S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values);
         }

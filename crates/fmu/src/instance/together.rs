@@ -3,18 +3,40 @@
 use super::*;
 use brinell_contact::numbers::largest;
 use brinell_contact::path::Course;
-use brinell_contact::shared::{InverseMasses, Refused};
+use brinell_contact::shared::{InverseMasses, NotInverseMasses, Refused};
+
+/// The inverse effective masses of contacts that share bodies \[1/kg\]: the constants of the scene, or these `inputs`.
+fn masses_of<S: Scene>(inputs: &S::InverseMasses) -> InverseMasses<'_> {
+    let entries = if S::InverseMasses::LENGTH > 0 { inputs.as_ref() } else { S::inverse_masses() };
+    InverseMasses::new(S::CONTACTS, entries).unwrap_or(InverseMasses::NONE)
+}
 
 impl<S: Scene> Instance<S> {
     /// The inverse effective masses of contacts that share bodies \[1/kg\].
     pub(super) fn inverse_masses(&self) -> InverseMasses<'_> {
-        InverseMasses::new(S::CONTACTS, S::inverse_masses()).unwrap_or(InverseMasses::NONE)
+        masses_of::<S>(&self.contacts.inverse_masses)
+    }
+
+    /// Checks the inverse masses that are inputs, if they have changed.
+    fn check_inverse_masses(&mut self) -> Result<(), Fault> {
+        let Contacts { inverse_masses, scratch, checked, .. } = &mut self.contacts;
+        if S::InverseMasses::LENGTH == 0 || *checked {
+            return Ok(());
+        }
+        masses_of::<S>(inverse_masses).check(scratch.as_mut()).map_err(|wrong| match wrong {
+            NotInverseMasses::Entry { row, column, value } => Fault::InverseMass { row, column, value },
+            NotInverseMasses::Indefinite { contact, with, .. } => Fault::Indefinite { contact, with },
+            NotInverseMasses::Count { needed, given } => Fault::Indefinite { contact: needed, with: given },
+        })?;
+        *checked = true;
+        Ok(())
     }
 
     /// Moves all contacts for `step` \[s\], or none of them.
     #[cold]
     #[inline(never)]
     pub(super) fn advance_together(&mut self, step: f64) -> Result<(), Fault> {
+        self.check_inverse_masses()?;
         let mut rates = <S::Contacts<f64>>::filled(0.0);
         let mut accelerations = <S::Contacts<f64>>::filled(0.0);
         for (contact, (rate, acceleration)) in rates.as_mut().iter_mut().zip(accelerations.as_mut()).enumerate() {
@@ -66,8 +88,8 @@ impl<S: Scene> Instance<S> {
         rates: &mut S::Contacts<f64>,
         step: f64,
     ) -> Result<(), Fault> {
-        let Instance { contacts: Contacts { histories, works, .. }, settings, .. } = self;
-        let masses = InverseMasses::new(S::CONTACTS, S::inverse_masses()).unwrap_or(InverseMasses::NONE);
+        let Instance { contacts: Contacts { histories, works, inverse_masses, .. }, settings, .. } = self;
+        let masses = masses_of::<S>(inverse_masses);
         let model = |contact: usize| settings.model(S::group(contact));
         let (rates, works) = (rates.as_mut(), works.as_mut());
         let followed =

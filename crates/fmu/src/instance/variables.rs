@@ -48,6 +48,10 @@ impl<S: Scene> Instance<S> {
             Real::IndentationRate => self.contacts.rates.as_mut().get_mut(contact),
             Real::ExternalAcceleration => self.contacts.accelerations.as_mut().get_mut(contact),
             Real::EffectiveMass => self.contacts.masses.as_mut().get_mut(contact),
+            Real::InverseMass => {
+                self.contacts.checked = false;
+                self.contacts.inverse_masses.as_mut().get_mut(contact)
+            }
             Real::Parameter(index) => self.settings.values.as_mut().get_mut(index),
             _ => None,
         };
@@ -146,6 +150,9 @@ impl<S: Scene> Instance<S> {
 
     /// The present value of a variable.
     pub fn real(&self, (variable, contact): (Real, usize)) -> f64 {
+        if variable == Real::InverseMass {
+            return self.contacts.inverse_masses.as_ref().get(contact).copied().unwrap_or(f64::NAN);
+        }
         let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
             return f64::NAN;
         };
@@ -180,7 +187,7 @@ impl<S: Scene> Instance<S> {
                     _ => f64::NAN,
                 }
             }
-            Real::ClosingSpeed | Real::ExternalAcceleration | Real::EffectiveMass => f64::NAN,
+            Real::ClosingSpeed | Real::ExternalAcceleration | Real::EffectiveMass | Real::InverseMass => f64::NAN,
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
             output => match output.quantity() {
                 Some(quantity) => history.tangential(&model, quantity),
@@ -267,6 +274,7 @@ fn check_input(variable: Real, value: f64) -> Result<(), Fault> {
         Real::ExternalAcceleration if !value.is_finite() => {
             Err(Fault::NotFinite { name: "external_acceleration", value })
         }
+        Real::InverseMass if !value.is_finite() => Err(Fault::NotFinite { name: "inverse_mass", value }),
         _ => Ok(()),
     }
 }

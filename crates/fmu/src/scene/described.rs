@@ -402,7 +402,10 @@ macro_rules! __scene {
                     $($place_of_real => Real::$real,)*
                     KINDS.. => {
                         let index = (kind - KINDS) as usize * CONTACTS + contact;
-                        return (index < VALUES).then_some((Real::Parameter(index), 0));
+                        let length = <Self::InverseMasses as $crate::scene::Store<f64>>::LENGTH;
+                        let place = index.checked_sub(VALUES).filter(|&place| place < length);
+                        let entry = place.map(|place| (Real::InverseMass, place));
+                        return if index < VALUES { Some((Real::Parameter(index), 0)) } else { entry };
                     }
                     _ => return None,
                 };

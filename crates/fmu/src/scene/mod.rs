@@ -55,6 +55,8 @@ pub trait Scene: Sized {
 
     /// Whether contacts share bodies, so that all of them move together.
     type Shared: Presence;
+    /// The inverse masses of contacts that share bodies, if they are inputs: the upper triangle of the matrix, row by row.
+    type InverseMasses: Store<f64>;
 
     /// The function that moves the bodies through a step, if the scene knows their mass.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
@@ -115,7 +117,8 @@ pub trait Scene: Sized {
         f64::NAN
     }
 
-    /// The inverse effective masses of contacts that share bodies: the upper triangle of the matrix, row by row \[1/kg\].
+    /// The inverse effective masses of contacts that share bodies, unless they are inputs: the upper triangle of the matrix, row by row
+    /// \[1/kg\].
     #[inline(always)]
     fn inverse_masses() -> &'static [f64] {
         &[]
@@ -144,6 +147,7 @@ pub trait Scene: Sized {
         match variable {
             Real::ExternalAcceleration => <Self::Coupling as Coupling>::Acceleration::IS_PRESENT,
             Real::EffectiveMass => <Self::Coupling as Coupling>::Mass::IS_PRESENT,
+            Real::InverseMass => Self::InverseMasses::LENGTH > 0,
             _ => variable.tangential_rate().is_some_and(|direction| direction < Self::Contact::DIRECTIONS),
         }
     }

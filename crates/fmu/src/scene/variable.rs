@@ -204,6 +204,9 @@ variables! {
         ImpulseMoment = "impulse_moment",
         /// Acceleration by all forces except the contact force, an input \[m/s^2\].
         ExternalAcceleration = "external_acceleration",
+        /// An inverse mass of contacts that share bodies, an input \[1/kg\]. Instead of a contact, it has the place of the entry in the
+        /// upper triangle of the matrix.
+        InverseMass = "inverse_mass",
         /// Number of the regime.
         RegimeNumber = "regime_number",
         /// Tangential rate, an input \[m/s\].
@@ -250,7 +253,7 @@ impl Real {
 
     /// Whether it is an input.
     pub fn is_input(self) -> bool {
-        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::EffectiveMass)
+        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::EffectiveMass | Real::InverseMass)
             || self.tangential_rate().is_some()
     }
 

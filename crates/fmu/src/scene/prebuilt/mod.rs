@@ -81,6 +81,7 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
     type Coupling = K::Coupling;
     type Watch = K::Watch;
     type Shared = super::Absent;
+    type InverseMasses = [f64; 0];
 
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
 
