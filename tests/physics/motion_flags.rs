@@ -3,12 +3,14 @@
 
 use crate::arithmetic::{control, set_control};
 use crate::physics::{AnyModel, Random, all_models, pair_of};
-use crate::shared_motion::{Group, random_bodies};
+use crate::shared_losses::random_losing_bodies;
+use crate::shared_motion::random_bodies;
 use brinell_contact::momentum::impulse;
 use brinell_contact::motion::{Drive, follow};
 use brinell_contact::path::Course;
-use brinell_contact::shared::{self, InverseMasses, Work};
+use brinell_contact::shared::{self, InverseMasses, SharedContact, Work};
 use brinell_contact::{Contact, History, Model, Surface, loading, unloading};
+use std::fmt::Debug;
 
 /// Invalid operation, division by zero and overflow, as bits of the control and status register.
 const TRAPPED: u32 = 0b1101;
@@ -78,39 +80,50 @@ fn no_motion_raises_an_exception() {
     }
 }
 
+/// Moves `contacts` that share bodies twice, and returns the number of successful steps. None may raise an exception.
+fn shared_steps<M: Debug, C: SharedContact<M> + Debug>(
+    random: &mut Random,
+    models: &[M],
+    mut contacts: Vec<C>,
+    entries: &[f64],
+    mut rates: Vec<f64>,
+) -> u32 {
+    for rate in &mut rates {
+        *rate *= match random.next() {
+            0.0..0.1 => 0.0,
+            0.1..0.2 => 1e-160,
+            0.2..0.3 => 1e-9,
+            _ => 1.0,
+        };
+    }
+    let accelerations: Vec<f64> = rates.iter().map(|_| signed(random, 1e-6, 1e6)).collect();
+    let step = signed(random, 1e-9, 1e-3).abs().max(1e-9);
+    let masses = InverseMasses::new(models.len(), entries).expect("a triangle");
+    let mut work: Vec<_> = contacts.iter().map(|&contact| Work::new(contact)).collect();
+    let mut done = 0;
+    for _ in 0..2 {
+        let model = |contact: usize| &models[contact];
+        let before = format!("{contacts:?} {rates:?} {accelerations:?} {step:e} s");
+        let (result, flags) =
+            raised(|| shared::follow(&mut contacts, model, &masses, &accelerations, &mut rates, &mut work, step));
+        assert_eq!(flags, 0, "{before} of {models:?}: {result:?}");
+        done += u32::from(result.is_ok());
+    }
+    done
+}
+
 #[test]
 fn no_motion_of_shared_bodies_raises_an_exception() {
     let mut random = Random(17);
     let mut done = 0;
     for index in 0..2_000 {
-        let (mut group, _) = random_bodies(&mut random, 2 + index % 5);
-        for rate in &mut group.rates {
-            *rate *= match random.next() {
-                0.0..0.1 => 0.0,
-                0.1..0.2 => 1e-160,
-                0.2..0.3 => 1e-9,
-                _ => 1.0,
-            };
-        }
-        for acceleration in &mut group.accelerations {
-            *acceleration = signed(&mut random, 1e-6, 1e6);
-        }
-        let step = signed(&mut random, 1e-9, 1e-3).abs().max(1e-9);
-        let models = group.models.clone();
-        let entries = group.entries.clone();
-        let masses = InverseMasses::new(models.len(), &entries).expect("a triangle");
-        let mut work: Vec<_> = group.contacts.iter().map(|&contact| Work::new(contact)).collect();
-        for _ in 0..2 {
-            let Group { contacts, accelerations, rates, .. } = &mut group;
-            let model = |contact: usize| &models[contact];
-            let before = format!("{contacts:?} {rates:?} {accelerations:?} {step:e} s");
-            let (result, flags) =
-                raised(|| shared::follow(contacts, model, &masses, accelerations, rates, &mut work, step));
-            assert_eq!(flags, 0, "{index}: {before} of {models:?}: {result:?}");
-            done += u32::from(result.is_ok());
-        }
+        let (group, _) = random_bodies(&mut random, 2 + index % 5);
+        done += shared_steps(&mut random, &group.models, group.contacts, &group.entries, group.rates);
+        let (group, _) = random_losing_bodies(&mut random, 1 + index % 5);
+        done += shared_steps(&mut random, &group.models, group.contacts, &group.entries, group.rates);
     }
-    assert!(done > 3_000, "{done}");
+    println!("{done} of 8000 steps");
+    assert!(done > 7_000, "{done}");
 }
 
 /// A course of any size, and the length of its step [s].

@@ -1,6 +1,7 @@
 //! The state of a contact with losses.
 
 mod behaviour;
+mod shared;
 
 use super::bodies;
 use super::held::{Spent, on_segment, on_the_way};

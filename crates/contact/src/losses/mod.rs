@@ -199,7 +199,8 @@ impl Loss for AnyLoss {
 
 /// A loss on given bodies, during a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Damping {
+pub struct Damping {
+    /// Its form.
     pub form: Form,
     /// `chi`, `kappa` or `alpha`.
     pub factor: f64,
@@ -217,13 +218,13 @@ impl Damping {
     }
 
     /// The same, never negative.
-    pub fn gain(&self, rate: f64) -> f64 {
+    pub(crate) fn gain(&self, rate: f64) -> f64 {
         largest(self.factor_at(rate), 0.0)
     }
 
     /// The force \[N\] for the elastoplastic `force` \[N\] and `stiffness` \[N/m\] at `rate` \[m/s\]; it is negative where the surface would
     /// have to pull.
-    pub fn pull(&self, force: f64, stiffness: impl FnOnce() -> f64, rate: f64) -> f64 {
+    pub(crate) fn pull(&self, force: f64, stiffness: impl FnOnce() -> f64, rate: f64) -> f64 {
         match self.form {
             Form::Proportional => force * self.factor_at(rate),
             Form::Radiation => {
@@ -235,12 +236,12 @@ impl Damping {
     }
 
     /// The same, never negative.
-    pub fn force(&self, force: f64, stiffness: f64, rate: f64) -> f64 {
+    pub(crate) fn force(&self, force: f64, stiffness: f64, rate: f64) -> f64 {
         largest(self.pull(force, || stiffness, rate), 0.0)
     }
 
     /// The speed at which the target gives way to `force` \[N\], in m/s.
-    pub fn retreat(&self, force: f64) -> f64 {
+    pub(crate) fn retreat(&self, force: f64) -> f64 {
         if self.form == Form::Mobility { self.factor * force } else { 0.0 }
     }
 }

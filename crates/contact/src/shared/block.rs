@@ -1,12 +1,14 @@
 //! The motion of contacts that are coupled, from event to event: the integration between two events, and the place of each event.
 
-use super::branch::{Event, Kind, Watched};
+use super::branch::{Branch, Event, Kind, Watched};
 use super::clock::Clock;
 use super::curve::Curve;
 use super::dop853::{self, STAGES, Slopes};
 use super::inverse_masses::InverseMasses;
+use super::loss::Loss;
 use super::work::{Instant, Scales, Work};
 use super::{Refused, SharedContact};
+use crate::losses::Damping;
 use crate::motion::MOST_EVALUATIONS;
 use crate::numbers::{largest, quotient, root, smallest};
 use crate::{Model, Surface};
@@ -39,7 +41,7 @@ const FIRST: f64 = 0.4;
 const GROWTH: f64 = 3.0;
 
 /// Largest number of steps in search of an event; two or three are usual.
-const APPROACHES: u32 = 8;
+const APPROACHES: u32 = 40;
 
 /// Correction of the length of a step to an event, relative to the length, below which the event is found.
 const FOUND: f64 = 1e-12;
@@ -52,6 +54,29 @@ const GROWN: f64 = 1.2;
 
 /// The place of no contact.
 const NO_CLOCK: usize = usize::MAX;
+
+/// The same for an event at which the force has a kink and no jump: the place matters by its square.
+const FOUND_KINK: f64 = 1e-8;
+
+/// A part of a bracket so near its start that the number is at its threshold there.
+const AT_START: f64 = 1e-6;
+
+/// Two lengths of a step between which an event lies, each with the number that falls through zero there.
+struct Bracket {
+    before: (f64, f64),
+    beyond: (f64, f64),
+}
+
+impl Bracket {
+    /// The next length to try after `length`, where the number is `value`: by the secant, and every fourth time halfway.
+    fn next(&mut self, length: f64, value: f64, attempt: u32) -> f64 {
+        *(if value > 0.0 { &mut self.before } else { &mut self.beyond }) = (length, value);
+        let ((low, above), (high, below)) = (self.before, self.beyond);
+        let part = quotient(above, above - below, above - below > 1e-100 * above, 0.5);
+        let part = if attempt % 4 == 3 || !(part > AT_START && part < 1.0) { 0.5 } else { part };
+        low + part * (high - low)
+    }
+}
 
 /// What ends a step of the integration early.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,9 +105,6 @@ pub(super) struct Block<'a, C, M, B, F> {
     next: f64,
     /// Whether a contact has just touched.
     touched: bool,
-    /// The contact that has changed its branch without motion, because it would otherwise move across a threshold: it stays there
-    /// until it has moved.
-    held: Option<usize>,
     /// Number of evaluations that one of all forces counts for.
     cost: u32,
     /// Slopes of time and of the root of the height, by the clock.
@@ -112,7 +134,6 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             energy: 0.0,
             next: step,
             touched: false,
-            held: None,
             cost: 0,
             ticks: Slopes::NONE,
             ticked: [0.0; 2],
@@ -121,18 +142,18 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
     }
 
     /// The contacts of the block, with their places in the row.
-    fn members(&self) -> impl Iterator<Item = (usize, &Work<C>)> {
+    pub(super) fn members(&self) -> impl Iterator<Item = (usize, &Work<C>)> {
         let first = self.first;
         self.work.iter().enumerate().filter(move |(_, member)| member.block == first)
     }
 
-    fn members_mut(&mut self) -> impl Iterator<Item = (usize, &mut Work<C>)> {
+    pub(super) fn members_mut(&mut self) -> impl Iterator<Item = (usize, &mut Work<C>)> {
         let first = self.first;
         self.work.iter_mut().enumerate().filter(move |(_, member)| member.block == first)
     }
 
     /// Calls `read` with the model of the contact at `place`.
-    fn with_model<T>(&self, place: usize, read: impl FnOnce(&Model<C::Loading, C::Unloading>) -> T) -> T {
+    pub(super) fn with_model<T>(&self, place: usize, read: impl FnOnce(&Model<C::Loading, C::Unloading>) -> T) -> T {
         let model = (self.model)(self.first + place);
         read(C::plastic_model(model.borrow()))
     }
@@ -144,13 +165,18 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
     pub fn run(&mut self) -> Result<(), Refused> {
         self.enter();
         self.rescale();
+        self.count(self.cost)?;
         if self.cost > 0 {
             self.next = smallest(FIRST * self.scales.time, self.left);
         }
         while self.left > 0.0 {
             self.count(1)?;
             self.change_branches()?;
-            self.go_on()?;
+            if self.rests() {
+                self.rest();
+            } else {
+                self.go_on()?;
+            }
         }
         self.leave()
     }
@@ -167,9 +193,36 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         for (place, member) in self.members_mut() {
             let model = model(first + place);
             let (history, rate) = (member.contact.plastic(), member.now.rate());
-            member.branch = super::branch::Branch::of(history, C::plastic_model(model.borrow()), rate);
+            let plastic = C::plastic_model(model.borrow());
+            member.branch = Branch::of(history, plastic, rate);
+            member.loss = member.contact.damping().map(|damping| Loss {
+                damping: Damping { swiftest: largest(fabs(rate), damping.swiftest), ..damping },
+                leads: 0.0,
+                slack: false,
+                before: history.work(plastic),
+            });
         }
         self.evaluate_now();
+        self.scale_losses();
+    }
+
+    /// Gives a scale to the damping of contacts that are pressed at the start and have never moved.
+    fn scale_losses(&mut self) {
+        let Block { model, first, .. } = *self;
+        for (place, member) in self.members_mut() {
+            let is_pressed = member.branch.kind != Kind::Apart;
+            let Some(loss) = member.loss.as_mut().filter(|loss| is_pressed && loss.damping.swiftest == 0.0) else {
+                continue;
+            };
+            let model = model(first + place);
+            let indentation = member.now.indentation();
+            let stiffness = member.branch.stiffness(indentation, C::plastic_model(model.borrow()));
+            let height = largest(indentation - member.branch.surface(), 0.0);
+            loss.damping.swiftest = root(member.inverse_mass * stiffness) * height;
+            if loss.damping.swiftest == 0.0 {
+                loss.begin();
+            }
+        }
     }
 
     /// Forces and accelerations at present.
@@ -183,7 +236,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         self.cost = cost;
         self.evaluate(NO_CLOCK, 0.0);
         for (_, member) in self.members_mut() {
-            (member.now.force, member.now.net) = (member.trial.force, member.trial.net);
+            member.now = member.trial;
         }
     }
 
@@ -194,13 +247,32 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             let branch = &member.branch;
             let (by_root, indentation) = (place == place_of_clock, member.trial.indentation());
             let known = if by_root { branch.force_of_root(w) } else { branch.force(indentation) };
-            member.trial.force = known.unwrap_or_else(|| {
+            let elastic = known.unwrap_or_else(|| {
                 let model = model(first + place);
                 let model = C::plastic_model(model.borrow());
                 let at = if by_root { branch.surface() + w * w } else { indentation };
                 let force = branch.force_without_segments(at, model);
                 if by_root && w < 0.0 { -force } else { force }
             });
+            let trial = &mut member.trial;
+            trial.elastic = elastic;
+            (trial.force, trial.approach) = (elastic, trial.rate());
+            if let Some(loss) = &member.loss
+                && branch.kind != Kind::Apart
+            {
+                if loss.needs_stiffness() {
+                    let model = model(first + place);
+                    let model = C::plastic_model(model.borrow());
+                    trial.stiffness = match by_root {
+                        true => branch.stiffness_of_root(w, model),
+                        false => branch.stiffness(indentation, model),
+                    };
+                    trial.easing = loss.easing(trial.stiffness);
+                }
+                (trial.force, trial.approach) = loss.force_and_approach(elastic, trial.stiffness, trial.rate());
+            } else {
+                trial.easing = 0.0;
+            }
             member.trial.net = member.acceleration;
         }
         accelerate(self.work, masses, first);
@@ -212,14 +284,10 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             let mut changed = false;
             for place in 0..self.work.len() {
                 let Some(member) = self.work.get(place).filter(|member| member.block == self.first) else { continue };
-                if self.held == Some(place) {
-                    continue;
-                }
                 let surface = self.with_model(place, |model| model.surface);
-                let watched = member.branch.watched(surface, member.now.indentation());
-                let due = watched.iter().flatten().find_map(|watched| member.due(watched, &self.scales));
-                if let Some(event) = due {
-                    self.happen(place, event)?;
+                let due = member.watches(surface).find(|watched| member.is_due(watched, &self.scales));
+                if let Some(watched) = due {
+                    self.happen(place, &watched)?;
                     changed = true;
                 }
             }
@@ -233,11 +301,20 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
     }
 
     /// Changes the branch of the contact at `place` at an event.
-    fn happen(&mut self, place: usize, event: Event) -> Result<(), Refused> {
+    fn happen(&mut self, place: usize, watched: &Watched) -> Result<(), Refused> {
         self.count(EVENT)?;
+        let event = watched.event();
         let model = (self.model)(self.first + place);
         let model = C::plastic_model(model.borrow());
         let Some(member) = self.work.get_mut(place) else { return Ok(()) };
+        let is_still = member.is_still(&self.scales);
+        if let Some(loss) = &mut member.loss {
+            let sign = if let Watched::Rate { sign, .. } = watched { *sign } else { 0.0 };
+            loss.happen(event, member.now.approach, sign);
+            if event == Event::Touch && is_still {
+                loss.begin();
+            }
+        }
         let parts_from = (event == Event::Part).then(|| member.branch.surface());
         let forgets = event == Event::Forget || parts_from.is_some_and(|surface| surface <= 0.0);
         if forgets && model.surface == Surface::Fresh {
@@ -245,7 +322,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             member.deepest = largest(member.deepest, member.branch.largest);
             settle(member, model, at, false).map_err(|deep| Refused::TooDeep(self.first + place, deep))?;
             let rate = smallest(member.now.rate(), -f64::MIN_POSITIVE);
-            member.branch = super::branch::Branch::of(member.contact.plastic(), model, rate);
+            member.branch = Branch::of(member.contact.plastic(), model, rate);
             return Ok(());
         }
         member.branch = member.branch.after(event, model, member.now.indentation());
@@ -297,6 +374,8 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             let way = if way < f64::INFINITY { way } else { 0.0 };
             let stiffness = segment.linear + 1.5 * segment.power * sqrt(way) + 2.0 * segment.square * way;
             swiftest = largest(member.inverse_mass * stiffness, swiftest);
+            let decay = member.loss.as_ref().map_or(0.0, |loss| loss.decay(stiffness, member.inverse_mass));
+            swiftest = largest(decay * decay, swiftest);
         }
         self.scales.time = quotient(1.0, sqrt(swiftest), swiftest > 0.0, self.left);
     }
@@ -327,7 +406,6 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             }
         };
         self.finish()?;
-        self.held = None;
         let is_last = clock.is_none() && length >= self.left;
         let passed = self.passed(clock.as_ref(), length);
         let growth = if factor < GROWTH { factor } else { GROWTH };
@@ -340,7 +418,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             self.rescale();
             return Ok(());
         };
-        let (target, length) = self.approach(clock.as_ref(), target, part * length)?;
+        let (target, length) = self.approach(clock.as_ref(), target, part * length, length)?;
         // the time of a step by the clock beyond the surface goes back
         self.next = if clock.is_some() { time } else { passed * smallest(growth, 1.0) };
         let passed = if length > 0.0 { self.passed(clock.as_ref(), length) } else { 0.0 };
@@ -351,9 +429,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             Target::Time => self.left = 0.0,
             Target::Event(place, watched) => {
                 self.left = if length >= self.left && clock.is_none() { 0.0 } else { largest(self.left - passed, 0.0) };
-                self.held = (length <= 0.0).then_some(place);
-                let event = if let Watched::Indentation { event, .. } = watched { event } else { Event::Turn };
-                self.happen(place, event)?;
+                self.happen(place, &watched)?;
                 self.evaluate_now();
             }
         }
@@ -379,6 +455,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             for (_, member) in self.members_mut() {
                 let ([indentation, rate, impulse, moment], a) = (member.now.numbers, member.acceleration);
                 let way = length * (rate + 0.5 * a * length);
+                member.trial = member.now;
                 member.trial.numbers = [indentation + way, rate + a * length, impulse, moment + impulse * length];
             }
             return Ok(0.0);
@@ -398,10 +475,13 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             let pace = if clock.is_some() { w } else { 1.0 };
             let mut rate_of_clock = 0.0;
             for (place, member) in self.members_mut() {
-                let Instant { numbers: [_, rate, impulse, _], force, net } = member.trial;
-                member.slopes.set(stage, [pace * rate, pace * net, pace * force, pace * impulse]);
+                let Instant { numbers: [_, rate, impulse, _], force, net, approach, .. } = member.trial;
+                member.slopes.set(stage, [pace * approach, pace * net, pace * force, pace * impulse]);
+                if member.loss.is_some() {
+                    member.power.set(stage, [pace * force * rate]);
+                }
                 if clock.is_some_and(|clock| clock.place == place) {
-                    rate_of_clock = rate;
+                    rate_of_clock = approach;
                 }
             }
             self.ticks.set(stage, [pace, 0.5 * rate_of_clock]);
@@ -419,6 +499,10 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         };
         for (_, member) in self.members_mut() {
             member.trial.numbers = member.slopes.at_end(&member.now.numbers, length);
+            if member.loss.is_some() {
+                let [work] = member.power.at_end(&[member.now.work], length);
+                member.trial.work = work;
+            }
             let ([way5, rate5, ..], [way3, rate3, ..]) = member.slopes.differences();
             let [indentation, rate, ..] = member.trial.numbers;
             let unit = TOLERANCE * member.speed(&scales);
@@ -444,7 +528,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         let paces = self.paces(clock);
         for (_, member) in self.members_mut() {
             // a turn on the way without yield, which is no event
-            if member.branch.kind == Kind::Path && member.now.rate() > 0.0 && member.trial.rate() < 0.0 {
+            if member.branch.kind == Kind::Path && member.now.approach > 0.0 && member.trial.approach < 0.0 {
                 let top = indentation_over(member, &paces, length).top();
                 member.branch.note(top.unwrap_or(0.0));
             }
@@ -458,7 +542,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         let Some(clock) = clock else { return [[1.0, 0.0]; 2] };
         let Some(member) = self.work.get(clock.place) else { return [[1.0, 0.0]; 2] };
         let [_, end] = self.ticked;
-        [[clock.root, 0.5 * member.now.rate()], [end, 0.5 * member.trial.rate()]]
+        [[clock.root, 0.5 * member.now.approach], [end, 0.5 * member.trial.approach]]
     }
 
     /// The first event of the step that was tried, but for one, and the part of the step at which it comes.
@@ -474,7 +558,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
                 Watched::Indentation { event: Event::Part, threshold: clock.surface, sign: -1.0 },
             );
             if w < 0.0 && but != Some(parts) {
-                let bend = |instant: &Instant, w: f64| 0.5 * w * instant.net * length * length;
+                let bend = |instant: &Instant, w: f64| 0.5 * w * instant.bend() * length * length;
                 let member = self.work.get(clock.place)?;
                 let (start, stop) = (bend(&member.now, from), bend(&member.trial, to));
                 let curve = Curve::quintic([from, slope * length, start], [to, last * length, stop]);
@@ -496,23 +580,39 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         for (place, member) in self.members() {
             let surface = self.with_model(place, |model| model.surface);
             let is_clock = clock.is_some_and(|clock| clock.place == place);
-            let watches = member.branch.watched(surface, member.now.indentation());
-            for watched in watches.into_iter().flatten() {
+            for watched in member.watches(surface) {
                 let parts = matches!(watched, Watched::Indentation { event: Event::Part, .. });
-                if but == Some(Target::Event(place, watched)) || is_clock && parts {
+                // beyond the surface the clock goes back
+                let is_beyond = matches!(watched, Watched::Pull { .. }) && is_clock && self.ticked[1] < 0.0;
+                if but == Some(Target::Event(place, watched)) || is_clock && parts || is_beyond {
                     continue;
                 }
+                let (now, trial) = (&member.now, &member.trial);
+                let mut near = member.near(&watched, &self.scales);
                 let curve = match watched {
                     Watched::Indentation { threshold, sign, .. } => {
                         indentation_over(member, &paces, length).below(threshold, sign)
                     }
-                    Watched::Rate => {
+                    Watched::Rate { threshold, sign, .. } => {
                         let [[from, _], [to, _]] = paces;
-                        let (now, trial) = (&member.now, &member.trial);
-                        Curve::cubic([now.rate(), from * now.net * length], [trial.rate(), to * trial.net * length])
+                        let (start, stop) = (from * now.bend() * length, to * trial.bend() * length);
+                        Curve::cubic([now.approach, start], [trial.approach, stop]).below(threshold, sign)
+                    }
+                    Watched::Bend { sign } => {
+                        // in units of rate, by the part of the step
+                        let [[from, _], [to, _]] = paces;
+                        let (start, stop) = (from * now.bend() * length, to * trial.bend() * length);
+                        let rate =
+                            Curve::cubic([sign * now.approach, sign * start], [sign * trial.approach, sign * stop]);
+                        near = largest(near * length * largest(from, to), member.near(&Watched::TURN, &self.scales));
+                        rate.slope()
+                    }
+                    Watched::Pull { .. } => {
+                        let (start, stop) = (member.value(&watched, now), member.value(&watched, trial));
+                        Curve::cubic([start, stop - start], [stop, stop - start])
                     }
                 };
-                if let Some(part) = curve.first_fall(end, member.near(&watched, &self.scales))
+                if let Some(part) = curve.first_fall(end, near)
                     && (part < end || first.is_none())
                 {
                     end = part;
@@ -525,25 +625,45 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
 
     /// Repeats the step with the length that ends at the target, starting with `length`; another target may come first. Returns the
     /// target and the length, zero for a target that is here.
-    fn approach(&mut self, clock: Option<&Clock>, target: Target, length: f64) -> Result<(Target, f64), Refused> {
+    fn approach(
+        &mut self,
+        clock: Option<&Clock>,
+        target: Target,
+        length: f64,
+        whole: f64,
+    ) -> Result<(Target, f64), Refused> {
         let (mut target, mut length) = (target, length);
-        for _ in 0..APPROACHES {
+        let mut bracket = self.bracket(clock, &target, whole);
+        for attempt in 0..APPROACHES {
             if length <= 0.0 {
                 return Ok((target, 0.0));
             }
             self.attempt(clock, length)?;
             self.finish()?;
             let (gap, slope) = self.gap(clock, &target);
-            let leads = slope < 0.0 && fabs(gap) < -0.5 * slope * length;
-            let change = quotient(gap, -slope, leads, 0.0);
+            let (change, found) = match slope {
+                Some(slope) => {
+                    let leads = slope < 0.0 && fabs(gap) < -0.5 * slope * length;
+                    (quotient(gap, -slope, leads, 0.0), FOUND)
+                }
+                None => (bracket.next(length, gap, attempt) - length, FOUND_KINK),
+            };
             let other = self.first_target(clock, length, Some(target));
             if let Some((other, part)) = other
-                && (part - 1.0) * length < change - FOUND * length
+                && (part - 1.0) * length < change - found * length
             {
+                let before = length;
                 (target, length) = (other, part * length);
+                bracket = self.bracket(clock, &target, before);
                 continue;
             }
-            if fabs(change) <= FOUND * length || fabs(gap) <= self.exact(&target) {
+            if fabs(change) <= found * length || fabs(gap) <= self.exact(&target) {
+                if slope.is_none() && gap > 0.0 {
+                    // short of a kink, the force before it would come back at once
+                    length *= 1.0 + 4.0 * FOUND_KINK;
+                    self.attempt(clock, length)?;
+                    self.finish()?;
+                }
                 break;
             }
             length += change;
@@ -551,37 +671,60 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         Ok((target, length))
     }
 
-    /// The number of the motion that falls through zero at the target, and its slope, at the end of the step that was tried.
-    fn gap(&self, clock: Option<&Clock>, target: &Target) -> (f64, f64) {
+    /// The lengths between which the target lies, after a step of length `whole` that went beyond.
+    fn bracket(&self, clock: Option<&Clock>, target: &Target, whole: f64) -> Bracket {
+        let start = match target {
+            Target::Event(place, watched) => {
+                self.work.get(*place).map_or(0.0, |member| member.value(watched, &member.now))
+            }
+            Target::Time => self.left,
+        };
+        let (beyond, _) = self.gap(clock, target);
+        Bracket { before: (0.0, largest(start, 0.0)), beyond: (whole, smallest(beyond, 0.0)) }
+    }
+
+    /// The number of the motion that falls through zero at the target, and its slope if it is known, at the end of the step that was
+    /// tried.
+    fn gap(&self, clock: Option<&Clock>, target: &Target) -> (f64, Option<f64>) {
         let [_, [pace, slope]] = self.paces(clock);
         let [time, w] = self.ticked;
-        let Target::Event(place, watched) = *target else { return (self.left - time, -pace) };
-        let Some(member) = self.work.get(place) else { return (0.0, -1.0) };
+        let Target::Event(place, watched) = *target else { return (self.left - time, Some(-pace)) };
+        let Some(member) = self.work.get(place) else { return (0.0, None) };
+        let (value, trial) = (member.value(&watched, &member.trial), &member.trial);
         match watched {
             Watched::Indentation { event: Event::Part, .. } if clock.is_some_and(|clock| clock.place == place) => {
-                (w, slope)
+                (w, Some(slope))
             }
-            Watched::Indentation { threshold, sign, .. } => {
-                (sign * (threshold - member.trial.indentation()), -sign * pace * member.trial.rate())
-            }
-            Watched::Rate => (member.trial.rate(), pace * member.trial.net),
+            Watched::Indentation { sign, .. } => (value, Some(-sign * pace * trial.approach)),
+            Watched::Rate { sign, .. } => (value, Some(-sign * pace * trial.bend())),
+            Watched::Bend { .. } | Watched::Pull { .. } => (value, None),
         }
     }
 
-    /// A gap that is rounding.
+    /// A gap that is rounding. A number that was at the threshold already only has to be clear of it.
     fn exact(&self, target: &Target) -> f64 {
         let Target::Event(place, watched) = target else { return 0.0 };
-        self.work.get(*place).map_or(0.0, |member| 0.01 * member.near(watched, &self.scales))
+        self.work.get(*place).map_or(0.0, |member| {
+            let near = member.near(watched, &self.scales);
+            if member.value(watched, &member.now) > near { 0.01 * near } else { 2.0 * near }
+        })
     }
 
     /// Moves the histories to where the contacts are.
     fn leave(&mut self) -> Result<(), Refused> {
         for place in 0..self.work.len() {
             let model = (self.model)(self.first + place);
-            let model = C::plastic_model(model.borrow());
+            let plastic = C::plastic_model(model.borrow());
             let Some(member) = self.work.get_mut(place).filter(|member| member.block == self.first) else { continue };
-            let (at, rising) = (member.now.indentation(), member.now.rate() > 0.0);
-            settle(member, model, at, rising).map_err(|deep| Refused::TooDeep(self.first + place, deep))?;
+            let (at, rising) = (member.now.indentation(), member.now.approach > 0.0);
+            let refused = |deep| Refused::TooDeep(self.first + place, deep);
+            settle(member, plastic, at, rising).map_err(refused)?;
+            if let Some(loss) = &member.loss {
+                let is_apart = member.branch.kind == Kind::Apart;
+                let swiftest = if is_apart { 0.0 } else { loss.swiftest(member.now.approach) };
+                let heat = member.now.work - (member.contact.plastic().work(plastic) - loss.before);
+                member.contact.lose(model.borrow(), swiftest, heat).map_err(refused)?;
+            }
             member.deepest = largest(member.deepest, member.contact.plastic().max_indentation());
         }
         Ok(())
@@ -606,15 +749,15 @@ fn settle<C: SharedContact<M>, M>(
 /// The indentation over the step that was tried.
 fn indentation_over<C>(member: &Work<C>, paces: &[[f64; 2]; 2], length: f64) -> Curve {
     let [start, end] = [(&member.now, paces[0]), (&member.trial, paces[1])].map(|(instant, [pace, slope])| {
-        let rate = instant.rate();
-        [instant.indentation(), pace * rate * length, (slope * rate + pace * pace * instant.net) * length * length]
+        let rate = instant.approach;
+        [instant.indentation(), pace * rate * length, (slope * rate + pace * pace * instant.bend()) * length * length]
     });
     Curve::quintic(start, end)
 }
 
 /// Adds the accelerations by the contact forces: `-W F`. A row of the matrix ends with its last coupled contact.
 #[inline(always)]
-fn accelerate<C>(work: &mut [Work<C>], masses: &InverseMasses, first: usize) {
+pub(super) fn accelerate<C>(work: &mut [Work<C>], masses: &InverseMasses, first: usize) {
     let mut rest = work;
     for row in masses.rows(first) {
         let Some((member, others)) = core::mem::take(&mut rest).split_first_mut() else { return };

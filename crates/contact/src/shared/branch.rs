@@ -37,6 +37,14 @@ pub enum Event {
     End,
     /// A fresh surface forgets the dent.
     Forget,
+    /// The rate exceeds the largest one since the touch.
+    Lead,
+    /// A rate that leads is at its largest.
+    Peak,
+    /// The surface would have to pull: the force ends.
+    Slack,
+    /// The force comes back.
+    Grip,
 }
 
 /// An event with the number of the motion that falls through zero there.
@@ -51,8 +59,40 @@ pub enum Watched {
         /// 1 for a contact that comes deeper to the threshold, -1 for one that comes back to it.
         sign: f64,
     },
-    /// The rate \[m/s\], at a turn.
-    Rate,
+    /// `sign (threshold - rate of indentation)` \[m/s\].
+    Rate {
+        /// The event.
+        event: Event,
+        /// \[m/s\]
+        threshold: f64,
+        /// 1 for a rate that rises to the threshold, -1 for one that falls to it.
+        sign: f64,
+    },
+    /// The derivative of the rate of indentation \[m/s^2\] with this sign, at [`Event::Peak`].
+    Bend {
+        /// The direction in which the rate leads.
+        sign: f64,
+    },
+    /// The [pull](super::loss::Loss::pull) of the surface with this sign \[m/s\].
+    Pull {
+        /// The event.
+        event: Event,
+        /// 1 for a surface that comes to pull, -1 for one that ceases to.
+        sign: f64,
+    },
+}
+
+impl Watched {
+    /// The rate at a turn.
+    pub const TURN: Watched = Watched::Rate { event: Event::Turn, threshold: 0.0, sign: -1.0 };
+
+    /// The event.
+    pub fn event(&self) -> Event {
+        match *self {
+            Watched::Indentation { event, .. } | Watched::Rate { event, .. } | Watched::Pull { event, .. } => event,
+            Watched::Bend { .. } => Event::Peak,
+        }
+    }
 }
 
 /// The branch of a contact.
@@ -109,7 +149,7 @@ impl Branch {
         }
     }
 
-    /// What the contact waits for.
+    /// What the contact waits for on its branch.
     pub fn watched(&self, surface: Surface, indentation: f64) -> [Option<Watched>; 2] {
         let Numbers { lower, upper, .. } = self.numbers;
         let at = |event, threshold: f64, sign| {
@@ -121,7 +161,7 @@ impl Branch {
                 [at(Event::Touch, lower, 1.0), if forgets { at(Event::Forget, 0.0, -1.0) } else { None }]
             }
             Kind::Path => [at(Event::Part, lower, -1.0), at(Event::End, upper, 1.0)],
-            Kind::Loading => [at(Event::Corner, upper, 1.0), Some(Watched::Rate)],
+            Kind::Loading => [at(Event::Corner, upper, 1.0), Some(Watched::TURN)],
         }
     }
 
@@ -133,6 +173,7 @@ impl Branch {
             Event::Touch => Branch { kind: Kind::Path, ..*self },
             Event::Corner => Branch::loading(model, numbers.upper, largest(numbers.upper, before)),
             Event::End => Branch::loading(model, numbers.upper, largest(numbers.upper, before)),
+            Event::Lead | Event::Peak | Event::Slack | Event::Grip => *self,
             Event::Turn | Event::Forget => {
                 let largest = largest(indentation, before);
                 let numbers = Piece::at(model, largest, largest, false).numbers();
@@ -197,6 +238,14 @@ impl Branch {
             None => {
                 Piece::of_numbers(model, &self.numbers).stiffness(smallest(indentation, self.numbers.upper.next_down()))
             }
+        }
+    }
+
+    /// The same where the height above the surface is the square of `w` \[m^0.5\]; its sign does not matter.
+    pub fn stiffness_of_root<L: Loading, U: Unloading>(&self, w: f64, model: &Model<L, U>) -> f64 {
+        match self.numbers.whole() {
+            Some(segment) => segment.linear + w * (1.5 * segment.power + 2.0 * segment.square * w),
+            None => self.stiffness(self.numbers.lower + w * w, model),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The clock of a contact that has just touched, or is about to part.
 //!
 //! Its force is a fractional power of the height `z` above the surface, and not smooth in time. In the root `w` of the height it
-//! is: with `dt = w dtau`, `w' = v/2`, `t' = w`, and every slope is `w` times that in time. All is regular through `w = 0`.
+//! is: with `dt = w dtau`, `w' = d'/2`, `t' = w`, and every slope is `w` times that in time. All is regular through `w = 0`.
 
 use super::work::{Scales, Work};
 use crate::numbers::{quotient, root, smallest};
@@ -26,7 +26,7 @@ pub(super) struct Clock {
     pub place: usize,
     /// The root of its height \[m^0.5\].
     pub root: f64,
-    /// Its closing rate \[m/s\].
+    /// Its rate of indentation \[m/s\].
     rate: f64,
     /// The surface \[m\].
     pub surface: f64,
@@ -42,16 +42,16 @@ impl Clock {
         if !member.branch.begins_rough() {
             return None;
         }
-        let (rate, surface) = (member.now.rate(), member.branch.surface());
+        let (rate, surface) = (member.now.approach, member.branch.surface());
         let speed = fabs(rate);
         let height = member.now.indentation() - surface;
         let is_swift =
-            speed > LEAST_RATE * member.speed(scales) && rate * rate > BALLISTIC * height * fabs(member.now.net);
+            speed > LEAST_RATE * member.speed(scales) && rate * rate > BALLISTIC * height * fabs(member.now.bend());
         let is_near = height < STEPS * time * speed && (height > 0.0 || rate > 0.0);
         if !(is_swift && is_near) {
             return None;
         }
-        let (root, pull) = (root(height), fabs(member.now.net));
+        let (root, pull) = (root(height), fabs(member.now.bend()));
         let ballistic = quotient(0.5 * speed, pull, pull > 1e-100 * speed, f64::INFINITY);
         Some(Clock { place, root, rate, surface, until: height / speed, ballistic })
     }

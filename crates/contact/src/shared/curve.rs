@@ -69,8 +69,8 @@ impl Curve {
     }
 
     /// The first part of the step, up to `end`, at which the value has fallen from above zero to below it. A value that starts
-    /// at `near` or below and falls to below `-near` has crossed zero where it stops rising, or at the start. A dip between two
-    /// positive ends is found if the slope changes its sign.
+    /// within `near` has fallen where it is below `-near`: what it does in between is rounding. A dip between two positive ends is
+    /// found if the slope changes its sign.
     pub fn first_fall(&self, end: f64, near: f64) -> Option<f64> {
         let (start, last, slope) = (self.at(0.0), self.at(end), self.slope());
         let (rises, ends_rising) = (slope.at(0.0) > 0.0, slope.at(end) > 0.0);
@@ -85,7 +85,9 @@ impl Curve {
             return None;
         }
         let top = if rises { slope.root(0.0, end) } else { 0.0 };
-        (last < -near).then(|| if self.at(top) > 0.0 && rises { self.root(top, end) } else { top })
+        let Curve([value, a, b, c, d, e]) = *self;
+        let lower = Curve([value + near, a, b, c, d, e]);
+        (last < -near).then(|| if lower.at(top) > 0.0 { lower.root(top, end) } else { top })
     }
 
     /// The largest value inside the step, if there is a maximum.
@@ -107,10 +109,11 @@ mod tests {
         assert!((curve.first_fall(1.0, 0.0).unwrap() - 0.3).abs() < 1e-13);
         assert!((curve.first_fall(0.5, 0.0).unwrap() - 0.3).abs() < 1e-13);
         assert!(curve.first_fall(0.2, 0.0).is_none());
-        assert!(curve.below(1.0, -1.0).first_fall(1.0, 0.0).is_none());
+        assert!(curve.below(-1.0, -1.0).first_fall(1.0, 0.0).is_none());
         let falls = Curve::cubic([0.0, 1.0], [-1.0, -3.0]);
         assert!(falls.first_fall(1.0, 1e-12).unwrap() > 0.1, "it rises first");
-        assert_eq!(Curve::cubic([0.0, -1.0], [-1.0, -1.0]).first_fall(1.0, 1e-12), Some(0.0));
+        assert!((Curve::cubic([0.0, -1.0], [-1.0, -1.0]).first_fall(1.0, 0.1).unwrap() - 0.1).abs() < 1e-13);
+        assert_eq!(Curve::cubic([-0.2, -1.0], [-1.2, -1.0]).first_fall(1.0, 0.1), Some(0.0));
         assert!((Curve::cubic([0.0, 1.0], [0.0, -1.0]).top().unwrap() - 0.25).abs() < 1e-13);
     }
 }

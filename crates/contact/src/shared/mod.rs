@@ -8,7 +8,8 @@
 //! ```
 //!
 //! with the [matrix of inverse effective masses](InverseMasses) `W` and the accelerations `a` held. The contacts are sorted into
-//! blocks that are coupled; a contact alone moves as [`motion`] moves it, to the last bit. Between two events
+//! blocks that are coupled; a contact alone without a loss moves as [`motion`]
+//! moves it, to the last bit. Between two events
 //! the motion is analytic but for the power with which a force begins: a Runge-Kutta pair of order 8 (`dop853`) follows it, in time
 //! or in the `clock` of a contact that has just touched. An event changes the `branch` of one contact (`block`).
 //!
@@ -28,18 +29,21 @@ mod clock;
 mod curve;
 mod dop853;
 pub mod inverse_masses;
+mod loss;
+mod rest;
 mod work;
 
 pub use inverse_masses::{InverseMasses, NotInverseMasses};
 pub use work::Work;
 
+use crate::Model;
 use crate::history::History;
 use crate::loading::Loading;
+use crate::losses::Damping;
 use crate::motion::{self, Drive, NoMotion};
 use crate::numbers::largest;
 use crate::regime::TooDeep;
 use crate::unloading::Unloading;
-use crate::{Model, TooDeep as Deep};
 use block::Block;
 use core::borrow::Borrow;
 use work::Instant;
@@ -61,11 +65,29 @@ pub trait SharedContact<M>: Copy {
     /// The same to change.
     fn plastic_mut(&mut self) -> &mut History;
 
-    /// Moves a contact that is not coupled with others.
+    /// The loss, with the largest rate since the touch; `None` for a contact that loses nothing without yield.
+    fn damping(&self) -> Option<Damping> {
+        None
+    }
+
+    /// Adds the `heat` \[J\] of a step, and notes the largest rate since the touch \[m/s\]; zero while apart.
     ///
     /// # Errors
-    /// [`NoMotion`].
-    fn follow_alone(&mut self, model: &M, drive: &Drive, rate: f64, step: f64) -> Result<motion::Outcome, NoMotion>;
+    /// [`TooDeep`] for a heat that overflows.
+    fn lose(&mut self, _model: &M, _swiftest: f64, _heat: f64) -> Result<(), TooDeep> {
+        Ok(())
+    }
+
+    /// Moves a contact that is not coupled with others, if its motion alone has a closed form.
+    fn follow_alone(
+        &mut self,
+        _model: &M,
+        _drive: &Drive,
+        _rate: f64,
+        _step: f64,
+    ) -> Option<Result<motion::Outcome, NoMotion>> {
+        None
+    }
 }
 
 impl<L: Loading, U: Unloading> SharedContact<Model<L, U>> for History {
@@ -90,8 +112,8 @@ impl<L: Loading, U: Unloading> SharedContact<Model<L, U>> for History {
         drive: &Drive,
         rate: f64,
         step: f64,
-    ) -> Result<motion::Outcome, NoMotion> {
-        motion::follow(self, model, drive, rate, step)
+    ) -> Option<Result<motion::Outcome, NoMotion>> {
+        Some(motion::follow(self, model, drive, rate, step))
     }
 }
 
@@ -109,7 +131,7 @@ pub enum Refused {
     /// The numbers of contacts, accelerations, rates, working memories and inverse masses do not belong together.
     Sizes,
     /// The indentation of this contact, from 0 on, left the range of the law, or one of its numbers is not finite.
-    TooDeep(usize, Deep),
+    TooDeep(usize, TooDeep),
     /// The step takes more than [`MOST_EVALUATIONS`](motion::MOST_EVALUATIONS).
     TooLong {
         /// Time left \[s\] when they were spent: a step without it would have been computed.
@@ -150,7 +172,7 @@ pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
         let indentation = contact.plastic().indentation();
         member.contact = *contact;
         member.acceleration = acceleration;
-        member.now = Instant { numbers: [indentation, rate, 0.0, 0.0], force: 0.0, net: acceleration };
+        member.now = Instant::at(indentation, rate);
         member.trial = member.now;
         member.deepest = 0.0;
     }
@@ -160,15 +182,17 @@ pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
         let Some(row) = work.get_mut(first..) else { break };
         let is_alone = !row.iter().skip(1).any(|member| member.block == first);
         let Some(member) = row.first_mut().filter(|member| member.block == first) else { continue };
-        let spent = if is_alone {
-            follow_alone(member, model(first).borrow(), step).map_err(|reason| match reason {
+        let alone = if is_alone { follow_alone(member, model(first).borrow(), step) } else { None };
+        let spent = match alone {
+            Some(result) => result.map_err(|reason| match reason {
                 NoMotion::TooDeep(deep) => Refused::TooDeep(first, deep),
                 NoMotion::TooLong => Refused::TooLong { left: step },
-            })?
-        } else {
-            let mut block = Block::new(row, masses, &model, first, step);
-            block.run()?;
-            block.evaluations
+            })?,
+            None => {
+                let mut block = Block::new(row, masses, &model, first, step);
+                block.run()?;
+                block.evaluations
+            }
         };
         evaluations = evaluations.saturating_add(spent);
     }
@@ -178,21 +202,24 @@ pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
     Ok(Outcome { evaluations })
 }
 
-/// Moves a contact that is coupled with no other. Returns the number of evaluations.
-fn follow_alone<C: SharedContact<M>, M>(member: &mut Work<C>, model: &M, step: f64) -> Result<u32, NoMotion> {
+/// Moves a contact that is coupled with no other, if its motion has a closed form. Returns the number of evaluations.
+fn follow_alone<C: SharedContact<M>, M>(member: &mut Work<C>, model: &M, step: f64) -> Option<Result<u32, NoMotion>> {
     let Work { acceleration, inverse_mass, .. } = *member;
     let [before, rate, ..] = member.now.numbers;
     let mass = 1.0 / inverse_mass;
     let drive = Drive { mass, acceleration };
     let motion::Outcome { speed, taken, evaluations, deepest } =
-        member.contact.follow_alone(model, &drive, rate, step)?;
+        match member.contact.follow_alone(model, &drive, rate, step)? {
+            Ok(outcome) => outcome,
+            Err(reason) => return Some(Err(reason)),
+        };
     let after = member.contact.plastic().indentation();
     // what the force has kept the bodies from coming closer
     let kept = step * (rate + 0.5 * acceleration * step) - (after - before);
     let moment = if taken > 0.0 { mass * largest(kept, 0.0) } else { 0.0 };
     member.now.numbers = [after, speed, mass * taken, moment];
     member.deepest = deepest;
-    Ok(evaluations)
+    Some(Ok(evaluations))
 }
 
 /// Sorts the contacts into blocks, each with the number of its first contact.

@@ -1,7 +1,10 @@
 //! The numbers of one contact during a step.
 
-use super::branch::{Branch, Event, Watched};
+use super::branch::{Branch, Event, Kind, Watched};
 use super::dop853::{Numbers, Slopes};
+use super::loss::Loss;
+use super::rest::Solution;
+use crate::Surface;
 use crate::numbers::quotient;
 use libm::{fabs, sqrt};
 
@@ -24,6 +27,12 @@ pub struct Work<C> {
     /// The instant that a step of the integration tries.
     pub(super) trial: Instant,
     pub(super) slopes: Slopes<4>,
+    /// Of a contact with a loss.
+    pub(super) loss: Option<Loss>,
+    /// Power of the force of a contact with a loss \[W\].
+    pub(super) power: Slopes<1>,
+    /// Of a block that comes to rest.
+    pub(super) solution: Solution,
     /// The largest indentation of dents that were left behind \[m\].
     pub(super) deepest: f64,
 }
@@ -37,10 +46,40 @@ pub(super) struct Instant {
     pub force: f64,
     /// The derivative of the closing rate \[m/s^2\].
     pub net: f64,
+    /// Force without a loss \[N\].
+    pub elastic: f64,
+    /// Stiffness \[N/m\] of a contact whose loss needs it.
+    pub stiffness: f64,
+    /// Rate of indentation \[m/s\]: the closing rate, less that at which the target gives way.
+    pub approach: f64,
+    /// The rate at which a target gives way per rate of indentation \[1/s\].
+    pub easing: f64,
+    /// Work of the force of a contact with a loss \[J\].
+    pub work: f64,
 }
 
 impl Instant {
-    pub const NOTHING: Instant = Instant { numbers: [0.0; 4], force: 0.0, net: 0.0 };
+    pub const NOTHING: Instant = Instant {
+        numbers: [0.0; 4],
+        force: 0.0,
+        net: 0.0,
+        elastic: 0.0,
+        stiffness: 0.0,
+        approach: 0.0,
+        easing: 0.0,
+        work: 0.0,
+    };
+
+    /// A contact at this indentation \[m\], of bodies that close at `rate` \[m/s\].
+    pub fn at(indentation: f64, rate: f64) -> Instant {
+        Instant { numbers: [indentation, rate, 0.0, 0.0], approach: rate, ..Instant::NOTHING }
+    }
+
+    /// The derivative of the rate of indentation \[m/s^2\].
+    #[inline(always)]
+    pub fn bend(&self) -> f64 {
+        self.net - self.easing * self.approach
+    }
 
     #[inline(always)]
     pub fn indentation(&self) -> f64 {
@@ -68,6 +107,9 @@ impl<C> Work<C> {
             now: Instant::NOTHING,
             trial: Instant::NOTHING,
             slopes: Slopes::NONE,
+            loss: None,
+            power: Slopes::NONE,
+            solution: Solution::default(),
             deepest: 0.0,
         }
     }
@@ -112,40 +154,82 @@ impl<C> Work<C> {
         scales.root_energy * sqrt(self.inverse_mass)
     }
 
-    /// The distance from what is `watched` at which the contact counts as there \[m, m/s\].
+    /// The distance from what is `watched` at which the contact counts as there, in its unit.
     pub(super) fn near(&self, watched: &Watched, scales: &Scales) -> f64 {
         let speed = NEAR * self.speed(scales);
         match watched {
             Watched::Indentation { threshold, .. } => speed * scales.time + 4.0 * f64::EPSILON * fabs(*threshold),
-            Watched::Rate => speed,
+            Watched::Rate { .. } => speed + self.rounding_of_approach(),
+            Watched::Bend { .. } => self.rounding_of_net(scales),
+            Watched::Pull { .. } => speed * self.loss.map_or(0.0, |loss| loss.damping.factor),
         }
+    }
+
+    /// Rounding of the rate of indentation of a target that gives way \[m/s\].
+    fn rounding_of_approach(&self) -> f64 {
+        let Some(loss) = &self.loss else { return 0.0 };
+        let given = loss.easing(fabs(self.now.elastic));
+        if given > 0.0 { BALANCE * (fabs(self.now.rate()) + given) } else { 0.0 }
+    }
+
+    /// An acceleration that is rounding \[m/s^2\].
+    fn rounding_of_net(&self, scales: &Scales) -> f64 {
+        let swing = quotient(self.speed(scales), scales.time, scales.time > 0.0, 0.0);
+        BALANCE * (fabs(self.acceleration) + self.inverse_mass * fabs(self.now.force) + swing)
+    }
+
+    /// Whether the rate of indentation is that of a contact at rest.
+    pub(super) fn is_still(&self, scales: &Scales) -> bool {
+        fabs(self.now.approach) <= NEAR * self.speed(scales) + self.rounding_of_approach()
     }
 
     /// 1 for a contact that goes deeper, -1 for one that comes back, 0 for one at rest.
     fn direction(&self, scales: &Scales) -> f64 {
-        let (rate, net) = (self.now.rate(), self.now.net);
-        if fabs(rate) > NEAR * self.speed(scales) {
+        let (rate, bend) = (self.now.approach, self.now.bend());
+        if !self.is_still(scales) {
             return rate.signum();
         }
-        let rounding = BALANCE * (fabs(self.acceleration) + self.inverse_mass * fabs(self.now.force));
-        if fabs(net) > rounding { net.signum() } else { 0.0 }
+        if fabs(bend) > self.rounding_of_net(scales) { bend.signum() } else { 0.0 }
     }
 
-    /// The event that is due without any motion: the contact is at a threshold, or beyond it, and moves across.
-    pub(super) fn due(&self, watched: &Watched, scales: &Scales) -> Option<Event> {
-        let near = self.near(watched, scales);
+    /// The number that falls through zero at what is `watched`, at an `instant`.
+    pub(super) fn value(&self, watched: &Watched, instant: &Instant) -> f64 {
         match *watched {
-            Watched::Indentation { event, threshold, sign } => {
-                let is_there = sign * (threshold - self.now.indentation()) <= near;
-                (is_there && sign * self.direction(scales) > 0.0).then_some(event)
+            Watched::Indentation { threshold, sign, .. } => sign * (threshold - instant.indentation()),
+            Watched::Rate { threshold, sign, .. } => sign * (threshold - instant.approach),
+            Watched::Bend { sign } => sign * instant.bend(),
+            Watched::Pull { sign, .. } => {
+                let pull = |loss: &Loss| loss.pull(instant.elastic, instant.stiffness, instant.approach);
+                sign * self.loss.as_ref().map_or(0.0, pull)
             }
-            Watched::Rate => (self.now.rate() <= near && self.direction(scales) < 0.0).then_some(Event::Turn),
         }
+    }
+
+    /// Whether an event is due without any motion: the contact is at a threshold, or beyond it, and moves across.
+    pub(super) fn is_due(&self, watched: &Watched, scales: &Scales) -> bool {
+        let (near, value) = (self.near(watched, scales), self.value(watched, &self.now));
+        match *watched {
+            Watched::Indentation { sign, .. } => value <= near && sign * self.direction(scales) > 0.0,
+            Watched::Rate { event: Event::Turn, .. } => value <= near && self.direction(scales) < 0.0,
+            Watched::Rate { sign, .. } => {
+                value < -near || value <= near && sign * self.now.bend() > self.rounding_of_net(scales)
+            }
+            Watched::Bend { .. } | Watched::Pull { .. } => value < -near,
+        }
+    }
+
+    /// What the contact waits for.
+    pub(super) fn watches(&self, surface: Surface) -> impl Iterator<Item = Watched> + use<C> {
+        let on_branch = self.branch.watched(surface, self.now.indentation());
+        let is_pressed = self.branch.kind != Kind::Apart;
+        let of_loss =
+            self.loss.as_ref().filter(|_| is_pressed).map_or([None; 3], |loss| loss.watched(self.now.approach));
+        on_branch.into_iter().chain(of_loss).flatten()
     }
 
     /// About the elastic energy at present \[J\], for this `stiffness` \[N/m\].
     pub(super) fn stored(&self, stiffness: f64) -> f64 {
-        let force = fabs(self.now.force);
+        let force = fabs(self.now.elastic);
         let spring = quotient(0.6 * force * force, stiffness, stiffness > 1e-100 * force, 0.0);
         let most = 0.5 * force * fabs(self.now.indentation());
         if spring < most { spring } else { most }

@@ -1,0 +1,243 @@
+//! Contacts with losses that share bodies: what must hold for any step, and how they come to rest.
+
+use crate::physics::{AnyModel, Random, loading, model, pair_of, unloading};
+use crate::shared_motion::random_bodies;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses::{self, AnyLoss, Fitted, History, Plate, Solid, Waves, follow as follow_alone};
+use brinell_contact::motion::Drive;
+use brinell_contact::shared::{InverseMasses, Work, follow, work_of_step};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Contact, Surface};
+
+pub type LosingModel = losses::Model<AnyLoading, AnyUnloading, AnyLoss>;
+
+const STEEL: Solid = Solid { density: 7850.0, youngs_modulus: 206e9, poissons_ratio: 0.3 };
+
+/// Losses of every kind, one of which makes the surface come loose before the bodies part.
+pub const LOSSES: [AnyLoss; 4] = [
+    AnyLoss::Fitted(Fitted { restitution: 0.9 }),
+    AnyLoss::Fitted(Fitted { restitution: 0.3 }),
+    AnyLoss::Waves(Waves { target: STEEL }),
+    AnyLoss::Plate(Plate { target: STEEL, thickness: 0.01 }),
+];
+
+/// Contacts with losses that share bodies, in motion.
+#[derive(Clone)]
+pub struct Group {
+    pub models: Vec<LosingModel>,
+    pub contacts: Vec<History<AnyLoss>>,
+    pub entries: Vec<f64>,
+    pub accelerations: Vec<f64>,
+    pub rates: Vec<f64>,
+    impulses: Vec<f64>,
+    evaluations: u32,
+    imbalance: f64,
+}
+
+impl Group {
+    pub fn new(
+        models: Vec<LosingModel>,
+        gaps: &[f64],
+        entries: Vec<f64>,
+        accelerations: Vec<f64>,
+        rates: Vec<f64>,
+    ) -> Group {
+        let contacts = models.iter().zip(gaps).map(|(model, &gap)| History::start(model, gap).expect("within range"));
+        let (contacts, impulses) = (contacts.collect(), vec![0.0; gaps.len()]);
+        Group { models, contacts, entries, accelerations, rates, impulses, evaluations: 0, imbalance: 0.0 }
+    }
+
+    fn energy(&self) -> f64 {
+        let both = self.contacts.iter().zip(&self.models);
+        both.map(|(contact, model)| contact.elastic_energy(model) + contact.dissipated_energy(model)).sum()
+    }
+
+    fn step(&mut self, step: f64) {
+        let (before, rates, entries) = (self.energy(), self.rates.clone(), self.entries.clone());
+        let masses = InverseMasses::new(self.contacts.len(), &entries).expect("a triangle");
+        let mut work: Vec<Work<History<AnyLoss>>> = self.contacts.iter().map(|&contact| Work::new(contact)).collect();
+        let (models, accelerations) = (&self.models, &self.accelerations);
+        let model = |contact: usize| &models[contact];
+        let outcome = follow(&mut self.contacts, model, &masses, accelerations, &mut self.rates, &mut work, step);
+        self.evaluations += outcome.expect("a motion").evaluations;
+        self.impulses = work.iter().map(Work::impulse).collect();
+        let spent = work_of_step(&work, &masses, &rates, accelerations, step);
+        self.imbalance = self.imbalance.max((spent - (self.energy() - before)).abs());
+    }
+
+    fn depths(&self) -> Vec<f64> {
+        self.contacts.iter().map(|contact| Contact::<LosingModel>::indentation(contact)).collect()
+    }
+
+    fn difference(&self, other: &Group, speed: f64, depth: f64) -> f64 {
+        let rates = self.rates.iter().zip(&other.rates).map(|(one, other)| (one - other).abs() / speed);
+        let depths = self.depths().into_iter().zip(other.depths()).map(|(one, other)| (one - other).abs() / depth);
+        rates.chain(depths).fold(0.0, f64::max)
+    }
+}
+
+/// A contact of two steel balls of 10 mm.
+fn steel(law: (&str, &str), loss: AnyLoss) -> LosingModel {
+    let (loading, unloading) = (loading(law.0), unloading(law.1));
+    let plastic = AnyModel { pair: pair_of(5e-3, 1.13e11, 3e8), loading, unloading, surface: Surface::Dented };
+    losses::Model { plastic, loss }
+}
+
+const LAWS: [(&str, &str); 3] = [("hertz", "contact-radius"), ("brinell", "brinell"), ("kogut-etsion", "etsion")];
+
+/// Random bodies as [`random_bodies`] makes them, with a random loss at each contact, and their energy [J].
+pub fn random_losing_bodies(random: &mut Random, count: usize) -> (Group, f64) {
+    let (start, kinetic) = random_bodies(random, count);
+    let any = |random: &mut Random| LOSSES[(random.next() * LOSSES.len() as f64) as usize];
+    let models = start.models.iter().map(|&plastic| losses::Model { plastic, loss: any(random) }).collect();
+    let gaps: Vec<f64> = start.depths().iter().map(|depth| -depth).collect();
+    (Group::new(models, &gaps, start.entries, start.accelerations, start.rates), kinetic)
+}
+
+/// The inverse masses of three balls of 33 g on the ground.
+fn stack_of_three() -> Vec<f64> {
+    let one = 1.0 / 0.033;
+    vec![one, -one, 0.0, 2.0 * one, -one, 2.0 * one]
+}
+
+/// Three balls that fall from this height [m] above the ground, on each other.
+fn stack(law: (&str, &str), loss: AnyLoss, height: f64) -> Group {
+    let models = vec![steel(law, loss); 3];
+    Group::new(models, &[height, 0.0, 0.0], stack_of_three(), vec![9.81, 0.0, 0.0], vec![0.0; 3])
+}
+
+#[test]
+fn a_stack_with_losses_ends_in_the_same_way_however_time_is_cut() {
+    for law in LAWS {
+        for loss in LOSSES {
+            let mut start = stack(law, loss, 1e-6);
+            start.rates[0] = 0.4;
+            let mut whole = start.clone();
+            whole.step(4e-4);
+            let energy = 0.5 * 0.4 * 0.4 * 0.099;
+            assert!(whole.imbalance < 1e-10 * energy, "{law:?}, {loss:?}: {:e}", whole.imbalance);
+            for parts in [3, 10, 100, 1000] {
+                let mut cut = start.clone();
+                (0..parts).for_each(|_| cut.step(4e-4 / f64::from(parts)));
+                let difference = whole.difference(&cut, 0.4, 1e-5);
+                assert!(difference < 1e-9, "{law:?}, {loss:?}, {parts} parts: {difference:.1e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_contact_alone_moves_as_the_motion_of_a_single_contact() {
+    for law in LAWS {
+        for loss in LOSSES {
+            let model = steel(law, loss);
+            let mut group = Group::new(vec![model], &[0.0], vec![30.0], vec![9.81], vec![0.5]);
+            let mut alone = group.contacts[0];
+            let drive = Drive { mass: 1.0 / 30.0, acceleration: 9.81 };
+            let outcome = follow_alone(&mut alone, &model, &drive, 0.5, 2e-4).expect("a motion");
+            group.step(2e-4);
+            assert!(
+                (group.rates[0] - outcome.speed).abs() < 1e-10,
+                "{law:?}, {loss:?}: {} {}",
+                group.rates[0],
+                outcome.speed
+            );
+            let heat = (group.contacts[0].heat() - alone.heat()).abs();
+            assert!(heat < 1e-10 * 0.5 * 0.25 / 30.0, "{law:?}, {loss:?}: {heat:e} J");
+        }
+    }
+}
+
+#[test]
+fn random_bodies_with_losses_keep_the_balance_of_work() {
+    let mut random = Random(23);
+    for index in 0..200 {
+        let count = 2 + index % 7;
+        let (mut group, kinetic) = random_losing_bodies(&mut random, count);
+        let masses = InverseMasses::new(count, &group.entries).expect("a triangle");
+        let speed = (2.0 * kinetic * (0..count).map(|i| masses.of(i, i)).fold(0.0, f64::max)).sqrt();
+        let step = (1e-1 * group.models[0].plastic.pair.radius / speed).min(1e-2);
+        group.step(step);
+        assert!(group.imbalance < 1e-10 * kinetic, "{index}: {:e} of {kinetic:e} J", group.imbalance);
+    }
+}
+
+#[test]
+fn a_stack_that_is_dropped_comes_to_rest_and_stays_there() {
+    let mut group = stack(("brinell", "brinell"), LOSSES[0], 1e-3);
+    let mut time = 0.0;
+    loop {
+        group.step(1e-3);
+        time += 1e-3;
+        if group.rates == [0.0; 3] {
+            break;
+        }
+        assert!(time < 0.25, "{:?}", group.rates);
+    }
+    println!("at rest after {time:.3} s and {} evaluations", group.evaluations);
+    assert!(group.imbalance < 1e-12 * 0.099 * 9.81 * 1e-3, "{:e}", group.imbalance);
+    let (still, depths) = (group.clone(), group.depths());
+    group.evaluations = 0;
+    for _ in 0..100_000 {
+        group.step(1e-3);
+    }
+    assert!(group.evaluations <= 100_000 * 12, "{} evaluations", group.evaluations);
+    for contact in 0..3 {
+        assert!((group.depths()[contact] - depths[contact]).abs() < 1e-16, "{:?}, not {depths:?}", group.depths());
+        assert!(group.rates[contact].abs() < 1e-15, "{:?}", group.rates);
+        let weight = 0.033 * 9.81 * f64::from(3 - contact as u32);
+        assert!((group.impulses[contact] / (weight * 1e-3) - 1.0).abs() < 1e-14, "{:?}", group.impulses);
+    }
+    // anything that changes wakes it
+    let wake: [fn(&mut Group); 3] = [
+        |group| group.entries.iter_mut().for_each(|entry| *entry *= 0.5),
+        |group| group.rates[1] = 1e-6,
+        |group| group.accelerations[0] *= -1.0,
+    ];
+    for wake in wake {
+        let mut group = still.clone();
+        wake(&mut group);
+        group.step(1e-3);
+        assert!(group.rates != [0.0; 3] || group.depths() != depths, "it sleeps on");
+    }
+}
+
+#[test]
+fn a_box_on_four_feet_comes_to_rest() {
+    // the matrix is singular: four feet, three freedoms
+    let feet = [(0.03, 0.02), (-0.03, 0.02), (0.03, -0.02), (-0.03, -0.02)];
+    let mut entries = Vec::new();
+    for (i, one) in feet.iter().enumerate() {
+        for other in &feet[i..] {
+            entries.push(1.0 / 0.3 + one.0 * other.0 / 3e-4 + one.1 * other.1 / 2e-4);
+        }
+    }
+    let models = vec![steel(("hertz", "contact-radius"), LOSSES[0]); 4];
+    let gaps = [1e-3, 1.01e-3, 1.02e-3, 1.03e-3];
+    let mut group = Group::new(models, &gaps, entries, vec![9.81; 4], vec![0.0; 4]);
+    let mut steps = 0;
+    while group.rates != [0.0; 4] || steps == 0 {
+        group.step(1e-3);
+        steps += 1;
+        assert!(steps < 2000, "{:?}", group.rates);
+    }
+    println!("at rest after {steps} ms and {} evaluations", group.evaluations);
+    group.step(1e-3);
+    let sum: f64 = group.impulses.iter().sum();
+    assert!((sum / (0.3 * 9.81 * 1e-3) - 1.0).abs() < 1e-12, "{sum}");
+}
+
+#[test]
+fn a_body_on_a_plate_gives_way_at_a_steady_rate() {
+    let loss = LOSSES[3];
+    let model = losses::Model { plastic: model("hertz", "contact-radius"), loss };
+    let mut group = Group::new(vec![model; 2], &[0.0; 2], vec![30.0, -30.0, 60.0], vec![9.81, 0.0], vec![0.0; 2]);
+    for _ in 0..300 {
+        group.step(1e-3);
+    }
+    let mobility = losses::Loss::factor(&loss);
+    for contact in 0..2 {
+        let force = group.impulses[contact] / 1e-3;
+        assert!((group.rates[contact] / (mobility * force) - 1.0).abs() < 1e-9, "{:?}", group.rates);
+    }
+}
