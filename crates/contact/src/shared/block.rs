@@ -152,6 +152,11 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         self.work.iter_mut().enumerate().filter(move |(_, member)| member.block == first)
     }
 
+    /// The contacts on whose bodies a force acts.
+    fn active_mut(&mut self) -> impl Iterator<Item = (usize, &mut Work<C>)> {
+        self.members_mut().filter(|(_, member)| member.active)
+    }
+
     /// Calls `read` with the model of the contact at `place`.
     pub(super) fn with_model<T>(&self, place: usize, read: impl FnOnce(&Model<C::Loading, C::Unloading>) -> T) -> T {
         let model = (self.model)(self.first + place);
@@ -231,19 +236,22 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         let mut cost = 0;
         for (_, member) in self.members_mut() {
             member.trial = member.now;
+            member.active = true;
             cost += member.branch.cost(COSTLY);
         }
         self.cost = cost;
         self.evaluate(NO_CLOCK, 0.0);
         for (_, member) in self.members_mut() {
             member.now = member.trial;
+            member.active = member.branch.kind != Kind::Apart;
         }
+        spread_activity(self.work, self.masses, self.first);
     }
 
     /// Forces and accelerations of the instants that are tried. The contact at `place_of_clock` is where the root of its height is `w`.
     fn evaluate(&mut self, place_of_clock: usize, w: f64) {
         let Block { model, first, masses, .. } = *self;
-        for (place, member) in self.members_mut() {
+        for (place, member) in self.active_mut() {
             let branch = &member.branch;
             let (by_root, indentation) = (place == place_of_clock, member.trial.indentation());
             let known = if by_root { branch.force_of_root(w) } else { branch.force(indentation) };
@@ -451,30 +459,21 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
 
     /// Tries a step of this length. Returns its error as a multiple of the tolerance.
     fn attempt(&mut self, clock: Option<&Clock>, length: f64) -> Result<f64, Refused> {
-        if self.cost == 0 {
-            for (_, member) in self.members_mut() {
-                let ([indentation, rate, impulse, moment], a) = (member.now.numbers, member.acceleration);
-                let way = length * (rate + 0.5 * a * length);
-                member.trial = member.now;
-                member.trial.numbers = [indentation + way, rate + a * length, impulse, moment + impulse * length];
-            }
-            return Ok(0.0);
-        }
         self.count(self.cost.saturating_mul(STAGES as u32))?;
         let start = clock.map_or([0.0; 2], |clock| [0.0, clock.root]);
-        for stage in 0..STAGES {
+        for stage in 0..if self.cost > 0 { STAGES } else { 0 } {
             let [_, w] = if stage == 0 { start } else { self.ticks.at_stage(stage, &start, length) };
             if stage == 0 {
-                self.members_mut().for_each(|(_, member)| member.trial = member.now);
+                self.active_mut().for_each(|(_, member)| member.trial = member.now);
             } else {
-                for (_, member) in self.members_mut() {
+                for (_, member) in self.active_mut() {
                     member.trial.numbers = member.slopes.at_stage(stage, &member.now.numbers, length);
                 }
                 self.evaluate(clock.map_or(NO_CLOCK, |clock| clock.place), w);
             }
             let pace = if clock.is_some() { w } else { 1.0 };
             let mut rate_of_clock = 0.0;
-            for (place, member) in self.members_mut() {
+            for (place, member) in self.active_mut() {
                 let Instant { numbers: [_, rate, impulse, _], force, net, approach, .. } = member.trial;
                 member.slopes.set(stage, [pace * approach, pace * net, pace * force, pace * impulse]);
                 if member.loss.is_some() {
@@ -487,6 +486,8 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             self.ticks.set(stage, [pace, 0.5 * rate_of_clock]);
         }
         self.ticked = self.ticks.at_end(&start, length);
+        let time = self.passed(clock, length);
+        self.members_mut().filter(|(_, member)| !member.active).for_each(|(_, member)| member.fly(time));
         let (mut fifth, mut third) = (0.0, 0.0);
         let scales = self.scales;
         let mut note = |of_fifth: f64, of_third: f64, number: f64, unit: f64| {
@@ -497,7 +498,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
                 third = largest(third, relative(length * fabs(of_third)));
             }
         };
-        for (_, member) in self.members_mut() {
+        for (_, member) in self.active_mut() {
             member.trial.numbers = member.slopes.at_end(&member.now.numbers, length);
             if member.loss.is_some() {
                 let [work] = member.power.at_end(&[member.now.work], length);
@@ -550,8 +551,8 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         let paces = self.paces(clock);
         let mut first: Option<(Target, f64)> = None;
         let mut end = 1.0;
+        let [time, w] = self.ticked;
         if let Some(clock) = clock {
-            let [time, w] = self.ticked;
             let [[from, slope], [to, last]] = paces;
             let parts = Target::Event(
                 clock.place,
@@ -583,7 +584,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             for watched in member.watches(surface) {
                 let parts = matches!(watched, Watched::Indentation { event: Event::Part, .. });
                 // beyond the surface the clock goes back
-                let is_beyond = matches!(watched, Watched::Pull { .. }) && is_clock && self.ticked[1] < 0.0;
+                let is_beyond = matches!(watched, Watched::Pull { .. }) && is_clock && w < 0.0;
                 if but == Some(Target::Event(place, watched)) || is_clock && parts || is_beyond {
                     continue;
                 }
@@ -748,11 +749,28 @@ fn settle<C: SharedContact<M>, M>(
 
 /// The indentation over the step that was tried.
 fn indentation_over<C>(member: &Work<C>, paces: &[[f64; 2]; 2], length: f64) -> Curve {
-    let [start, end] = [(&member.now, paces[0]), (&member.trial, paces[1])].map(|(instant, [pace, slope])| {
-        let rate = instant.approach;
-        [instant.indentation(), pace * rate * length, (slope * rate + pace * pace * instant.bend()) * length * length]
-    });
-    Curve::quintic(start, end)
+    let &[start, end] = paces;
+    let number = |instant: &Instant, [pace, slope]: [f64; 2]| {
+        let (rate, bend) = (instant.approach, instant.bend());
+        [instant.indentation(), pace * rate * length, (slope * rate + pace * pace * bend) * length * length]
+    };
+    Curve::quintic(number(&member.now, start), number(&member.trial, end))
+}
+
+/// Makes every contact active that is coupled with one that is pressed.
+fn spread_activity<C>(work: &mut [Work<C>], masses: &InverseMasses, first: usize) {
+    let mut rest = work;
+    for row in masses.rows(first) {
+        let Some((member, others)) = core::mem::take(&mut rest).split_first_mut() else { return };
+        let is_pressed = |member: &Work<C>| member.block == first && member.branch.kind != Kind::Apart;
+        for (other, &entry) in others.iter_mut().take(member.reach).zip(row.iter().skip(1)) {
+            if entry != 0.0 {
+                other.active |= is_pressed(member);
+                member.active |= is_pressed(other);
+            }
+        }
+        rest = others;
+    }
 }
 
 /// Adds the accelerations by the contact forces: `-W F`. A row of the matrix ends with its last coupled contact.
@@ -762,6 +780,7 @@ pub(super) fn accelerate<C>(work: &mut [Work<C>], masses: &InverseMasses, first:
     for row in masses.rows(first) {
         let Some((member, others)) = core::mem::take(&mut rest).split_first_mut() else { return };
         if member.block == first
+            && member.active
             && let Some((own, row)) = row.split_first()
         {
             let force = member.trial.force;

@@ -9,7 +9,11 @@ use crate::segment::Segment;
 use crate::unloading::Unloading;
 use crate::{Model, Surface};
 use core::hint::black_box;
-use libm::sqrt;
+use libm::{fabs, sqrt};
+
+/// A height \[m\] that counts as none. In a row of balls that touch, the far ones are pressed by numbers so small that a processor
+/// takes long for them.
+const LEAST_HEIGHT: f64 = 1e-100;
 
 /// The kind of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,7 +207,8 @@ impl Branch {
             return Some(0.0);
         }
         self.numbers.whole().map(|segment| {
-            let z = indentation - segment.origin;
+            let height = indentation - segment.origin;
+            let z = if fabs(height) > LEAST_HEIGHT { height } else { 0.0 };
             // below the origin the power has ended; the rest goes on
             let rise = if z > 0.0 { segment.power * sqrt(black_box(z)) } else { 0.0 };
             segment.constant + z * (segment.linear + rise + segment.square * z)

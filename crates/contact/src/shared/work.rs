@@ -18,6 +18,8 @@ pub struct Work<C> {
     pub(super) block: usize,
     /// Number of contacts behind this one up to the last one that it is coupled with.
     pub(super) reach: usize,
+    /// Whether a force acts on its bodies: it is pressed, or coupled with one that is. Others fly along a parabola.
+    pub(super) active: bool,
     pub(super) branch: Branch,
     /// `W_ii` \[1/kg\].
     pub(super) inverse_mass: f64,
@@ -101,6 +103,7 @@ impl<C> Work<C> {
             contact,
             block: 0,
             reach: 0,
+            active: false,
             branch: Branch::NOTHING,
             inverse_mass: 0.0,
             acceleration: 0.0,
@@ -216,6 +219,15 @@ impl<C> Work<C> {
             }
             Watched::Bend { .. } | Watched::Pull { .. } => value < -near,
         }
+    }
+
+    /// Tries the flight over `time` \[s\] of a contact that no force acts on.
+    pub(super) fn fly(&mut self, time: f64) {
+        let ([indentation, rate, impulse, moment], acceleration) = (self.now.numbers, self.acceleration);
+        let way = time * (rate + 0.5 * acceleration * time);
+        let approach = rate + acceleration * time;
+        self.trial = Instant { approach, ..self.now };
+        self.trial.numbers = [indentation + way, approach, impulse, moment + impulse * time];
     }
 
     /// What the contact waits for.
