@@ -107,11 +107,29 @@ pub struct Branch {
     numbers: Numbers,
     /// The largest indentation of the dent \[m\].
     pub largest: f64,
+    /// Whether a fresh surface forgets the dent.
+    pub forgets: bool,
+    /// A segment that tells how stiff the contact can become: that of its path, else the elastic one.
+    pub stiffest: Segment,
 }
 
 impl Branch {
     /// No branch of any law.
-    pub const NOTHING: Branch = Branch { kind: Kind::Apart, numbers: Numbers::NOTHING, largest: 0.0 };
+    pub const NOTHING: Branch = Branch {
+        kind: Kind::Apart,
+        numbers: Numbers::NOTHING,
+        largest: 0.0,
+        forgets: false,
+        stiffest: Segment::NOTHING,
+    };
+
+    fn new<L: Loading, U: Unloading>(model: &Model<L, U>, kind: Kind, numbers: Numbers, largest: f64) -> Branch {
+        let stiffest = match (kind, numbers.whole()) {
+            (Kind::Path | Kind::Apart, Some(&segment)) => segment,
+            _ => model.loading.segment(&model.pair, 0.0),
+        };
+        Branch { kind, numbers, largest, forgets: model.surface == Surface::Fresh, stiffest }
+    }
 
     /// The branch of a contact with this `history` that closes at `rate` \[m/s\].
     pub fn of<L: Loading, U: Unloading>(history: &History, model: &Model<L, U>, rate: f64) -> Branch {
@@ -121,7 +139,7 @@ impl Branch {
             Some(path) => Piece::on_path(model, path),
             None => Piece::at(model, indentation, largest, false),
         };
-        let branch = Branch { kind: Kind::Path, numbers: path.numbers(), largest };
+        let branch = Branch::new(model, Kind::Path, path.numbers(), largest);
         let surface = branch.surface();
         let is_apart = indentation < surface || (indentation == surface && rate < 0.0);
         if is_apart {
@@ -136,7 +154,8 @@ impl Branch {
     /// The piece of the loading curve from `indentation` \[m\] on, or the elastic curve.
     fn loading<L: Loading, U: Unloading>(model: &Model<L, U>, indentation: f64, largest: f64) -> Branch {
         let numbers = Piece::at(model, indentation, largest, true).numbers();
-        Branch { kind: if numbers.is_loading() { Kind::Loading } else { Kind::Path }, numbers, largest }
+        let kind = if numbers.is_loading() { Kind::Loading } else { Kind::Path };
+        Branch::new(model, kind, numbers, largest)
     }
 
     /// The indentation of the surface \[m\]: on the loading curve, that of the piece.
@@ -154,14 +173,14 @@ impl Branch {
     }
 
     /// What the contact waits for on its branch.
-    pub fn watched(&self, surface: Surface, indentation: f64) -> [Option<Watched>; 2] {
+    pub fn watched(&self, indentation: f64) -> [Option<Watched>; 2] {
         let Numbers { lower, upper, .. } = self.numbers;
         let at = |event, threshold: f64, sign| {
             threshold.is_finite().then_some(Watched::Indentation { event, threshold, sign })
         };
         match self.kind {
             Kind::Apart => {
-                let forgets = surface == Surface::Fresh && indentation > 0.0 && self.largest > 0.0;
+                let forgets = self.forgets && indentation > 0.0 && self.largest > 0.0;
                 [at(Event::Touch, lower, 1.0), if forgets { at(Event::Forget, 0.0, -1.0) } else { None }]
             }
             Kind::Path => [at(Event::Part, lower, -1.0), at(Event::End, upper, 1.0)],
@@ -181,7 +200,7 @@ impl Branch {
             Event::Turn | Event::Forget => {
                 let largest = largest(indentation, before);
                 let numbers = Piece::at(model, largest, largest, false).numbers();
-                Branch { kind: Kind::Path, numbers, largest }
+                Branch::new(model, Kind::Path, numbers, largest)
             }
         }
     }
@@ -235,30 +254,23 @@ impl Branch {
         piece.force(end) + piece.stiffness(end) * (indentation - end)
     }
 
-    /// Stiffness \[N/m\] at `indentation` \[m\].
-    pub fn stiffness<L: Loading, U: Unloading>(&self, indentation: f64, model: &Model<L, U>) -> f64 {
-        match self.numbers.whole() {
-            _ if self.kind == Kind::Apart => 0.0,
-            Some(segment) => segment.stiffness(indentation),
-            None => {
-                Piece::of_numbers(model, &self.numbers).stiffness(smallest(indentation, self.numbers.upper.next_down()))
-            }
+    /// Stiffness \[N/m\] at `indentation` \[m\]; `None` for a [law without segments](Branch::stiffness_without_segments).
+    pub fn stiffness(&self, indentation: f64) -> Option<f64> {
+        match self.kind {
+            Kind::Apart => Some(0.0),
+            _ => self.numbers.whole().map(|segment| segment.stiffness(indentation)),
         }
     }
 
-    /// The same where the height above the surface is the square of `w` \[m^0.5\]; its sign does not matter.
-    pub fn stiffness_of_root<L: Loading, U: Unloading>(&self, w: f64, model: &Model<L, U>) -> f64 {
-        match self.numbers.whole() {
-            Some(segment) => segment.linear + w * (1.5 * segment.power + 2.0 * segment.square * w),
-            None => self.stiffness(self.numbers.lower + w * w, model),
-        }
+    /// The same where the height above the surface is the square of `w` \[m^0.5\].
+    pub fn stiffness_of_root(&self, w: f64) -> Option<f64> {
+        let segment = self.numbers.whole()?;
+        Some(segment.linear + w * (1.5 * segment.power + 2.0 * segment.square * w))
     }
 
-    /// The segment that tells how stiff the contact can become: that of its path, else the elastic one.
-    pub fn stiff_segment<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> Segment {
-        match (self.kind, self.numbers.whole()) {
-            (Kind::Path | Kind::Apart, Some(&segment)) => segment,
-            _ => model.loading.segment(&model.pair, 0.0),
-        }
+    /// The stiffness of a law without segments \[N/m\].
+    #[inline(never)]
+    pub fn stiffness_without_segments<L: Loading, U: Unloading>(&self, indentation: f64, model: &Model<L, U>) -> f64 {
+        Piece::of_numbers(model, &self.numbers).stiffness(smallest(indentation, self.numbers.upper.next_down()))
     }
 }

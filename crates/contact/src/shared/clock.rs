@@ -3,7 +3,8 @@
 //! Its force is a fractional power of the height `z` above the surface, and not smooth in time. In the root `w` of the height it
 //! is: with `dt = w dtau`, `w' = d'/2`, `t' = w`, and every slope is `w` times that in time. All is regular through `w = 0`.
 
-use super::work::{Scales, Work};
+use super::scales::Scales;
+use super::work::Work;
 use crate::numbers::{quotient, root, smallest};
 use libm::{fabs, sqrt};
 

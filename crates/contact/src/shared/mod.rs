@@ -31,6 +31,9 @@ mod dop853;
 pub mod inverse_masses;
 mod loss;
 mod rest;
+mod scales;
+mod step;
+mod targets;
 mod work;
 
 pub use inverse_masses::{InverseMasses, NotInverseMasses};

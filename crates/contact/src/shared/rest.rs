@@ -5,8 +5,9 @@
 //! load, a mass or a rate wakes it.
 
 use super::SharedContact;
-use super::block::{Block, accelerate};
+use super::block::Block;
 use super::branch::Kind;
+use super::step::accelerate;
 use super::work::{Instant, Work};
 use crate::numbers::{largest, quotient};
 use core::borrow::Borrow;
@@ -27,6 +28,11 @@ const BALANCED: f64 = 1e-13;
 impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B, F> {
     /// Whether the block is at rest until the end of the step. The forces are then those without rates.
     pub(super) fn rests(&mut self) -> bool {
+        // most motions are far from rest
+        let quick = |member: &Work<C>| fabs(member.now.approach) > 2.0 * STILL * member.speed(&self.scales);
+        if self.members().any(|(_, member)| quick(member)) {
+            return false;
+        }
         let (mut stored, mut stiffest) = (0.0, 0.0);
         for (place, member) in self.members() {
             if member.branch.kind == Kind::Apart {
@@ -36,7 +42,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                 return false;
             }
             let elastic = member.now.elastic;
-            let stiffness = self.with_model(place, |model| member.branch.stiffness(member.now.indentation(), model));
+            let stiffness = self.stiffness(place, member);
             stored = largest(quotient(elastic * elastic, stiffness, stiffness > 1e-100 * fabs(elastic), 0.0), stored);
             stiffest = largest(stiffness, stiffest);
         }
@@ -112,9 +118,11 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         let Block { model, first, .. } = *self;
         let mut is_balanced = true;
         for (place, member) in self.members_mut() {
-            let model = model(first + place);
             let indentation = member.now.indentation();
-            member.trial.stiffness = member.branch.stiffness(indentation, C::plastic_model(model.borrow()));
+            member.trial.stiffness = member.branch.stiffness(indentation).unwrap_or_else(|| {
+                let model = model(first + place);
+                member.branch.stiffness_without_segments(indentation, C::plastic_model(model.borrow()))
+            });
             let forces = fabs(member.acceleration) + member.inverse_mass * fabs(member.now.force);
             is_balanced &= fabs(member.now.net) <= BALANCED * forces;
         }

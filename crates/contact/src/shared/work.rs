@@ -4,7 +4,7 @@ use super::branch::{Branch, Event, Kind, Watched};
 use super::dop853::{Numbers, Slopes};
 use super::loss::Loss;
 use super::rest::Solution;
-use crate::Surface;
+use super::scales::Scales;
 use crate::numbers::quotient;
 use libm::{fabs, sqrt};
 
@@ -142,15 +142,6 @@ const BALANCE: f64 = 1e-13;
 /// rest: then its acceleration decides where it goes.
 const NEAR: f64 = 1e-13;
 
-/// The scales of a motion.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scales {
-    /// The root of twice the energy \[J^0.5\].
-    pub root_energy: f64,
-    /// The shortest time of an oscillation \[s\].
-    pub time: f64,
-}
-
 impl<C> Work<C> {
     /// The largest rate that the energy allows \[m/s\].
     pub(super) fn speed(&self, scales: &Scales) -> f64 {
@@ -231,19 +222,11 @@ impl<C> Work<C> {
     }
 
     /// What the contact waits for.
-    pub(super) fn watches(&self, surface: Surface) -> impl Iterator<Item = Watched> + use<C> {
-        let on_branch = self.branch.watched(surface, self.now.indentation());
+    pub(super) fn watches(&self) -> impl Iterator<Item = Watched> + use<C> {
+        let on_branch = self.branch.watched(self.now.indentation());
         let is_pressed = self.branch.kind != Kind::Apart;
         let of_loss =
             self.loss.as_ref().filter(|_| is_pressed).map_or([None; 3], |loss| loss.watched(self.now.approach));
         on_branch.into_iter().chain(of_loss).flatten()
-    }
-
-    /// About the elastic energy at present \[J\], for this `stiffness` \[N/m\].
-    pub(super) fn stored(&self, stiffness: f64) -> f64 {
-        let force = fabs(self.now.elastic);
-        let spring = quotient(0.6 * force * force, stiffness, stiffness > 1e-100 * force, 0.0);
-        let most = 0.5 * force * fabs(self.now.indentation());
-        if spring < most { spring } else { most }
     }
 }
