@@ -66,7 +66,7 @@ impl Group {
     }
 
     fn depths(&self) -> Vec<f64> {
-        self.contacts.iter().map(|contact| Contact::<LosingModel>::indentation(contact)).collect()
+        self.contacts.iter().map(Contact::<LosingModel>::indentation).collect()
     }
 
     fn difference(&self, other: &Group, speed: f64, depth: f64) -> f64 {

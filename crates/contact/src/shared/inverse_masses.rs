@@ -116,7 +116,7 @@ impl<'a> InverseMasses<'a> {
         let given = scratch.len();
         let needed = self.entries.len();
         let Some(left) = scratch.get_mut(..needed) else { return Err(NotInverseMasses::Count { needed, given }) };
-        left.copy_from_slice(self.entries);
+        left.iter_mut().zip(self.entries).for_each(|(left, entry)| *left = *entry);
         let mut left = Left { count: self.count, entries: left };
         let size = (0..self.count).fold(0.0, |size, contact| largest(self.of(contact, contact), size));
         for _ in 0..self.count {
