@@ -2,10 +2,11 @@
 
 use super::Row;
 use crate::importer::{Archive, ImportError, Unit};
-use brinell_contact::shared::{InverseMasses, Refused, Work, follow};
-use brinell_contact::{History, Model};
-use brinell_contact::{loading::AnyLoading, unloading::AnyUnloading};
+use brinell_contact::losses::{self, AnyLoss};
+use brinell_contact::shared::{InverseMasses, Refused, SharedContact, Work, follow};
+use brinell_contact::{Contact, History};
 use brinell_exporter::interface::{INVERSE_MASS, inverse_mass_inputs};
+use brinell_exporter::model::AnyModel;
 use brinell_exporter::scene::{self, Scene, place};
 
 /// Number of steps of a check.
@@ -15,14 +16,14 @@ const STEPS: u32 = 3;
 const LENGTH: f64 = 4.0;
 
 /// Contacts that share bodies, as the library moves them.
-struct Together<'a> {
-    models: Vec<Model<AnyLoading, AnyUnloading>>,
-    contacts: Vec<History>,
+struct Together<'a, M, C> {
+    models: &'a [M],
+    contacts: Vec<C>,
     masses: InverseMasses<'a>,
     rates: Vec<f64>,
 }
 
-impl Together<'_> {
+impl<M, C: SharedContact<M>> Together<'_, M, C> {
     /// Moves them for `step` \[s\] and returns the impulses \[N.s\].
     fn step(&mut self, step: f64) -> Result<Vec<f64>, Refused> {
         let mut work: Vec<_> = self.contacts.iter().map(|contact| Work::new(*contact)).collect();
@@ -30,6 +31,37 @@ impl Together<'_> {
         let model = |contact: usize| &self.models[contact];
         follow(&mut self.contacts, model, &self.masses, &still, &mut self.rates, &mut work, step)?;
         Ok(work.iter().map(Work::impulse).collect())
+    }
+}
+
+/// Where the contacts of `scene` are, and what moves them.
+struct Start<'a> {
+    scene: &'a Scene,
+    /// The group of each contact, and what precedes the names of its variables.
+    contacts: Vec<(usize, String)>,
+    /// Inverse masses \[1/kg\].
+    entries: &'a [f64],
+    /// Closing rates \[m/s\].
+    rates: Vec<f64>,
+}
+
+impl Start<'_> {
+    /// The impulses of all contacts in each of the [`STEPS`] \[N.s\], and the length of a step: `step` \[s\], or less if contacts touch too
+    /// often in it.
+    fn predicted<M, C: Contact<M> + SharedContact<M>>(&self, models: &[M], mut step: f64) -> (Vec<Vec<f64>>, f64) {
+        let Start { scene, contacts, entries, rates } = self;
+        let gap = |contact: usize| scene.group_value(contacts[contact].0, "initial_gap").unwrap_or(0.0);
+        loop {
+            let contacts = models.iter().enumerate();
+            let contacts = contacts.map(|(contact, model)| C::start(model, gap(contact)).expect("a checked scene"));
+            let masses = InverseMasses::new(models.len(), entries).expect("a checked scene has all inverse masses");
+            let mut bodies = Together { models, contacts: contacts.collect::<Vec<C>>(), masses, rates: rates.clone() };
+            match (0..STEPS).map(|_| bodies.step(step)).collect::<Result<Vec<_>, Refused>>() {
+                Ok(impulses) => return (impulses, step),
+                Err(Refused::TooLong { .. }) => step *= 0.1,
+                Err(refused) => panic!("the impact of a checked scene is within the range of its law: {refused:?}"),
+            }
+        }
     }
 }
 
@@ -59,33 +91,30 @@ pub fn compare(
     group: usize,
     entries: &[f64],
 ) -> Result<Vec<Row>, ImportError> {
-    let count = scene.contacts.len();
-    let speed = |contact: usize| if contact == group { scene.impact.speed } else { 0.0 };
-    let start = || {
-        let models: Vec<_> = (0..count).map(|contact| scene.model_of(contact)).collect();
-        let gap = |contact| scene.group_value(contact, "initial_gap").unwrap_or(0.0);
-        let contacts = models.iter().enumerate();
-        let contacts = contacts.map(|(contact, model)| History::start(model, gap(contact)).expect("a checked scene"));
-        let masses = InverseMasses::new(count, entries).expect("a checked scene has all inverse masses");
-        Together { contacts: contacts.collect(), models, masses, rates: (0..count).map(speed).collect() }
-    };
-    // a step whose contacts touch too often is refused; a shorter one isn't
-    let mut step = LENGTH * scene.predictions[group].contact_time() / f64::from(STEPS);
-    let predicted = loop {
-        let mut bodies = start();
-        match (0..STEPS).map(|_| bodies.step(step)).collect::<Result<Vec<_>, Refused>>() {
-            Ok(impulses) => break impulses,
-            Err(Refused::TooLong { .. }) => step *= 0.1,
-            Err(refused) => panic!("the impact of a checked scene is within the range of its law: {refused:?}"),
+    let groups = scene.contacts.iter().enumerate();
+    let contacts = groups.flat_map(|(group, given)| (0..given.size()).map(move |index| (group, given.prefix(index))));
+    let contacts: Vec<_> = contacts.collect();
+    let count = contacts.len();
+    let first = contacts.iter().position(|(other, _)| *other == group);
+    let rates = (0..count).map(|contact| if Some(contact) == first { scene.impact.speed } else { 0.0 }).collect();
+    let start = Start { scene, contacts, entries, rates };
+    let step = LENGTH * scene.predictions[group].contact_time() / f64::from(STEPS);
+    let models: Vec<_> = start.contacts.iter().map(|(group, _)| scene.any_model_of(*group)).collect();
+    let lossy: Vec<_> = models.iter().filter_map(AnyModel::lossy).copied().collect();
+    let (predicted, step) = match lossy.is_empty() {
+        false => start.predicted::<_, losses::History<AnyLoss>>(&lossy, step),
+        true => {
+            let plastic: Vec<_> = models.iter().filter_map(AnyModel::elastoplastic).copied().collect();
+            start.predicted::<_, History>(&plastic, step)
         }
     };
     let total = |impulses: &[Vec<f64>], contact: usize| impulses.iter().map(|step| step[contact]).sum::<f64>();
-    let simulated = simulate(archive, unit, scene, (entries, &speed), step)?;
+    let simulated = simulate(archive, unit, &start, step)?;
     let scale = (0..count).map(|contact| total(&predicted, contact)).fold(f64::MIN_POSITIVE, f64::max);
     let row = |contact: usize| {
         let [predicted, simulated] = [&predicted, &simulated].map(|impulses| total(impulses, contact));
         Row::new(
-            format!("impulse of {}", scene.contacts[contact].prefix(0).trim_end_matches('.')),
+            format!("impulse of {}", start.contacts[contact].1.trim_end_matches('.')),
             "N.s",
             predicted,
             simulated,
@@ -95,17 +124,12 @@ pub fn compare(
     Ok((0..count).map(row).collect())
 }
 
-/// The impulses of each step of the FMU \[N.s\], whose bodies begin at these speeds \[m/s\].
-fn simulate(
-    archive: &Archive,
-    unit: &Unit,
-    scene: &Scene,
-    (entries, speed): (&[f64], &dyn Fn(usize) -> f64),
-    step: f64,
-) -> Result<Vec<Vec<f64>>, ImportError> {
-    let count = scene.contacts.len();
+/// The impulses of each step of the FMU \[N.s\].
+fn simulate(archive: &Archive, unit: &Unit, start: &Start, step: f64) -> Result<Vec<Vec<f64>>, ImportError> {
+    let Start { scene, contacts, entries, rates: speeds } = start;
+    let count = contacts.len();
     let references = |name: &str| {
-        let all = scene.contacts.iter().map(|group| archive.description.real(&format!("{}{name}", group.prefix(0))));
+        let all = contacts.iter().map(|(_, prefix)| archive.description.real(&format!("{prefix}{name}")));
         all.collect::<Result<Vec<_>, ImportError>>()
     };
     let (rates, forces) = (references("indentation_rate")?, references("mean_force")?);
@@ -124,7 +148,7 @@ fn simulate(
     for index in 0..STEPS {
         for (contact, rate) in rates.iter().enumerate() {
             let lost = (0..count).map(|other| entries[place(count, contact, other)] * applied[other]);
-            instance.set_real(*rate, speed(contact) - lost.sum::<f64>())?;
+            instance.set_real(*rate, speeds[contact] - lost.sum::<f64>())?;
         }
         instance.do_step(f64::from(index) * step, step)?;
         let after = forces.iter().map(|force| instance.real(*force)).collect::<Result<Vec<_>, _>>()?;

@@ -97,6 +97,14 @@ impl AnyModel {
         }
     }
 
+    /// The model with a loss below yield, if it is one.
+    pub fn lossy(&self) -> Option<&losses::Model<AnyLoading, AnyUnloading, AnyLoss>> {
+        match self {
+            AnyModel::Lossy(model) => Some(model),
+            _ => None,
+        }
+    }
+
     /// The model with this yield strength of the target \[Pa\], if its law has one.
     pub fn with_yield_strength(&self, yield_strength: f64) -> Option<AnyModel> {
         let model = self.elastoplastic()?;

@@ -66,7 +66,8 @@ impl<S: Scene> Instance<S> {
         }
         for (contact, &rate) in rates.as_ref().iter().enumerate() {
             let jump = self.response(contact, |other| changes.as_ref().get(other).copied().unwrap_or(0.0));
-            let force = |other: usize| self.histories().get(other).map_or(0.0, |history| history.force(0.0));
+            let speed = |other: usize| rates.as_ref().get(other).copied().unwrap_or(0.0);
+            let force = |other: usize| self.histories().get(other).map_or(0.0, |history| history.force(speed(other)));
             let acceleration = accelerations.as_ref().get(contact).copied().unwrap_or(0.0);
             let slope = acceleration - self.response(contact, force);
             let Contacts { histories, endings, curves, forces, .. } = &mut self.contacts;

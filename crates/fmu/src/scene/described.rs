@@ -143,6 +143,7 @@ macro_rules! __laws {
             $crate::contact::shared::follow(contacts, model, masses, accelerations, rates, work, step)
         }
     };
+    (together (loss $loss:ident)) => { $crate::__laws!(together plain); };
     (together $other:tt) => {};
 
     (model $pair:ident $surface:ident $value:ident $density:ident; damped $law:ident $fields:tt) => {{
