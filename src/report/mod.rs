@@ -309,8 +309,9 @@ fn cell(value: &Value) -> String {
 }
 
 /// Limitations for a scene with several contacts.
-const NOT_FOR_SEVERAL: &str = "The scene has several contacts: this page measures the first contact. If contacts share a body, \
-     an FMU that knows the mass moves each contact's bodies alone, and is exact only while one of them is closed.";
+const NOT_FOR_SEVERAL: &str = "The scene has several contacts: this page measures the first contact, by itself. If contacts share a \
+     body, an FMU that knows one mass of each is wrong while two of them are closed; one of a scene with tables [[body]] moves all of \
+     them.";
 
 /// What the report does, line by line, with the time since it began.
 struct Progress {

@@ -33,6 +33,7 @@ mod prebuilt_libraries;
 mod prebuilt_refusals;
 mod rebounds;
 mod several_contacts;
+mod shared_bodies;
 mod ssp;
 mod standalone_unit;
 mod strain_rate;

@@ -359,6 +359,11 @@ fn many_instances_and_threads_do_not_disturb_each_other() {
 }
 
 #[test]
+fn a_stack_moves_together_keeps_its_energy_and_comes_to_rest() {
+    pytest("test_shared_bodies.py", &[scene("stack")]);
+}
+
+#[test]
 fn several_contacts_are_described_as_they_are() {
     let scenes =
         [("several", "law = { loading = \"big-alabo\" }"), ("several_damped", "law = { loading = \"adams-impact\" }")];

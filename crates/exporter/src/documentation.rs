@@ -11,7 +11,7 @@ use crate::numbers::{digits, in_message};
 use crate::parameters::{self, LawConstant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
-use crate::scene::{Loss, Parameter, Scene};
+use crate::scene::{InverseMasses, Loss, Parameter, Scene};
 use crate::strength_text;
 use crate::table::{self, Causality};
 use brinell_contact::impact::Prediction;
@@ -127,6 +127,9 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
 
 /// The coupling of the FMU with its importer.
 fn coupling(scene: &Scene) -> String {
+    if scene.inverse_masses.is_some() {
+        return together(scene);
+    }
     if let Some(coupling) = scene.coupling {
         let mass = if coupling.mass_input {
             "the input <code>effective_mass</code>"
@@ -174,6 +177,33 @@ fn coupling(scene: &Scene) -> String {
          time is divided."
             .into()
     }
+}
+
+/// The coupling of contacts that share bodies.
+fn together(scene: &Scene) -> String {
+    let coupling = scene.coupling.unwrap_or_default();
+    let masses = match scene.inverse_masses {
+        Some(InverseMasses::Inputs) => {
+            "the entries of the matrix of inverse effective masses (<code>inverse_mass[i,j]</code>, upper triangle) if they have \
+             changed, "
+        }
+        _ => "",
+    };
+    let acceleration = if coupling.acceleration_input {
+        "<code>external_acceleration</code> of each contact"
+    } else {
+        "as the first input derivative of each rate (<code>fmi2SetRealInputDerivatives</code>, again for every step),"
+    };
+    let force =
+        if coupling.parallel { "over the next step, held constant (Jacobi)" } else { "over that step (Gauss-Seidel)" };
+    format!(
+        "The contacts share bodies, and the FMU moves all of them together through each step. Before a step, set {masses}\
+         <code>indentation_rate</code> of each contact to the closing rate of its bodies, and {acceleration} to the closing \
+         acceleration by all forces but those of these contacts. After the step, apply <code>mean_force</code> of each contact to both \
+         of its bodies {force}: they get the speeds that the FMU has computed. A body of mass m is displaced by \
+         <code>impulse_moment</code>/m. The FMU warns once in the log if the importer works in the other order. The inverse masses \
+         are constant within a step."
+    )
 }
 
 /// The impact from the energy balance, and a suitable step size.

@@ -36,7 +36,8 @@ pub struct Plan<'a> {
 
 /// A scene without tables `[[body]]` doesn't say which bodies two contacts share.
 const SHARED_BODIES: &str = "the FMU moves the bodies of each contact separately: a body that two contacts share, as in a chain or \
-                             between two walls, would be moved twice. For such contacts use FMUs without [coupling], and short steps";
+                             between two walls, would be moved twice. For such contacts give tables [[body]], and `between` in each \
+                             [[contact]]: one FMU then moves all of them";
 
 /// A parameter that cannot be set.
 pub struct FixedParameter {

@@ -1,0 +1,249 @@
+//! FMUs whose contacts share bodies, called like by an importer: they move as the library moves them, all of them or none.
+#![cfg(target_os = "linux")]
+
+use crate::loaded::{ERROR, Instance, OK, Unit};
+use crate::physics::{AnyModel, Random, model, pair_of};
+use crate::unit::write_scene;
+use brinell_contact::shared::{InverseMasses, Work, follow};
+use brinell_contact::{Contact, History, Surface};
+
+/// Mass of a ball [kg].
+const MASS: f64 = 0.033;
+
+/// A cradle of `balls` with this gap \[m\] and law, and more lines.
+fn cradle(name: &str, balls: usize, gap: f64, law: &str, more: &str) -> String {
+    let mut text = format!(
+        "name = {name:?}\n[impactor]\nradius = 10e-3\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n\
+         [target]\nradius = 10e-3\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 300e6\n\
+         [law]\nloading = {law:?}\n[fmu]\ninitial_gap = {gap:e}\n\
+         outputs = [\"indentation\", \"impulse\", \"elastic_energy\", \"dissipated_energy\", \"closing_speed\"]\n{more}"
+    );
+    for ball in 0..balls {
+        text += &format!("[[body]]\nname = \"ball{ball}\"\nmass = {MASS}\n");
+    }
+    for contact in 1..balls {
+        text +=
+            &format!("[[contact]]\nname = \"c{contact}\"\nbetween = [\"ball{}\", \"ball{contact}\"]\n", contact - 1);
+    }
+    text
+}
+
+/// The upper triangle of the inverse masses of balls in a row \[1/kg\].
+fn row_of_balls(contacts: usize) -> Vec<f64> {
+    let entry = |apart: usize| [2.0 / MASS, -1.0 / MASS].get(apart).copied().unwrap_or(0.0);
+    (0..contacts).flat_map(|row| (0..contacts - row).map(entry)).collect()
+}
+
+/// The same balls in the library.
+struct Balls {
+    model: AnyModel,
+    contacts: Vec<History>,
+    entries: Vec<f64>,
+    rates: Vec<f64>,
+    impulses: Vec<f64>,
+}
+
+impl Balls {
+    fn new(balls: usize, gap: f64, law: (&str, &str)) -> Balls {
+        let pair = pair_of(5e-3, 206e9 / 0.91 / 2.0, 300e6);
+        let model = AnyModel { pair, surface: Surface::Dented, ..model(law.0, law.1) };
+        let contacts = vec![History::start(&model, gap).expect("within range"); balls - 1];
+        let (entries, impulses) = (row_of_balls(balls - 1), vec![0.0; balls - 1]);
+        let rates = (1..balls).map(|contact| if contact == 1 { 1.0 } else { 0.0 }).collect();
+        Balls { model, contacts, entries, rates, impulses }
+    }
+
+    fn step(&mut self, step: f64) {
+        let count = self.contacts.len();
+        let masses = InverseMasses::new(count, &self.entries).expect("a triangle");
+        let mut work: Vec<_> = self.contacts.iter().map(|contact| Work::new(*contact)).collect();
+        let (model, still) = (&self.model, vec![0.0; count]);
+        follow(&mut self.contacts, |_| model, &masses, &still, &mut self.rates, &mut work, step).expect("a motion");
+        self.impulses.iter_mut().zip(&work).for_each(|(sum, work)| *sum += work.impulse());
+    }
+}
+
+/// A step of the FMU with these rates \[m/s\].
+fn step(instance: &mut Instance, rates: &[f64], time: f64, length: f64) {
+    for (contact, rate) in rates.iter().enumerate() {
+        instance.set_one(&format!("c{}.indentation_rate", contact + 1), *rate);
+    }
+    assert_eq!(instance.step(time, length), OK, "{}", instance.message());
+}
+
+fn values(instance: &Instance, name: &str, contacts: usize) -> Vec<f64> {
+    (1..=contacts).map(|contact| instance.real(&format!("c{contact}.{name}"))).collect()
+}
+
+#[test]
+fn a_cradle_moves_as_the_library_moves_it_in_any_steps() {
+    for (balls, gap, law) in [
+        (2, 0.0, ("big-alabo", "contact-radius")),
+        (5, 5e-6, ("thornton", "thornton")),
+        (9, 0.0, ("thornton", "thornton")),
+    ] {
+        let name = format!("cradle_{balls}");
+        let unit = Unit::load(&write_scene(&name, &cradle(&name, balls, gap, law.0, "")));
+        for steps in [1, 3, 17] {
+            let (mut instance, mut library, mut random) = (unit.ready(), Balls::new(balls, gap, law), Random(7));
+            let mut time = 0.0;
+            for _ in 0..steps {
+                let length = 6e-4 / f64::from(steps) * (0.5 + random.next());
+                step(&mut instance, &library.rates.clone(), time, length);
+                library.step(length);
+                time += length;
+                let (rates, depths) =
+                    (values(&instance, "closing_speed", balls - 1), values(&instance, "indentation", balls - 1));
+                for (contact, history) in library.contacts.iter().enumerate() {
+                    let expected = (library.rates[contact], history.indentation());
+                    assert!((rates[contact] - expected.0).abs() < 1e-12, "{name}, {steps}, c{contact}: {rates:?}");
+                    assert!((depths[contact] - expected.1).abs() < 1e-17, "{name}, {steps}, c{contact}: {depths:?}");
+                }
+            }
+            let impulses = values(&instance, "impulse", balls - 1);
+            let near = |(one, other): (&f64, &f64)| (one - other).abs() < 1e-12 * MASS;
+            assert!(impulses.iter().zip(&library.impulses).all(near), "{impulses:?} {:?}", library.impulses);
+        }
+    }
+}
+
+#[test]
+fn the_balls_lose_what_the_contacts_take_up() {
+    let unit = Unit::load(&write_scene("cradle_four", &cradle("cradle_four", 4, 2e-6, "brinell", "")));
+    let mut instance = unit.ready();
+    let mut speeds = [1.0, 0.0, 0.0, -0.3];
+    let energy = |speeds: &[f64; 4]| 0.5 * MASS * speeds.iter().map(|speed| speed * speed).sum::<f64>();
+    let (begin, mut time) = (energy(&speeds), 0.0);
+    for length in [1e-5, 3e-5, 1e-4, 1e-6, 1e-3, 2e-3] {
+        let rates: Vec<_> = speeds.windows(2).map(|pair| pair[0] - pair[1]).collect();
+        step(&mut instance, &rates, time, length);
+        time += length;
+        for (contact, force) in values(&instance, "mean_force", 3).into_iter().enumerate() {
+            speeds[contact] -= force * length / MASS;
+            speeds[contact + 1] += force * length / MASS;
+        }
+        let taken: f64 =
+            ["elastic_energy", "dissipated_energy"].iter().flat_map(|name| values(&instance, name, 3)).sum();
+        assert!((begin - energy(&speeds) - taken).abs() < 1e-11 * begin, "after {time}: {taken}");
+        let shown = values(&instance, "closing_speed", 3);
+        let expected = speeds.windows(2).map(|pair| pair[0] - pair[1]);
+        assert!(shown.iter().zip(expected).all(|(shown, expected)| (shown - expected).abs() < 1e-12));
+    }
+}
+
+#[test]
+fn bodies_are_displaced_by_the_moments_of_the_impulses() {
+    let unit = Unit::load(&write_scene("cradle_three", &cradle("cradle_three", 3, 1e-6, "thornton", "")));
+    let mut instance = unit.ready();
+    let (mut places, mut speeds, mut time) = ([0.0, 1e-6, 2e-6], [1.0, 0.0, 0.0], 0.0);
+    for length in [1e-5, 3e-5, 1e-4, 1e-6, 1e-3, 2e-3] {
+        let rates: Vec<_> = speeds.windows(2).map(|pair| pair[0] - pair[1]).collect();
+        step(&mut instance, &rates, time, length);
+        time += length;
+        let (forces, moments) = (values(&instance, "mean_force", 2), values(&instance, "impulse_moment", 2));
+        places.iter_mut().zip(speeds).for_each(|(place, speed)| *place += length * speed);
+        for contact in 0..2 {
+            places[contact] -= moments[contact] / MASS;
+            places[contact + 1] += moments[contact] / MASS;
+            speeds[contact] -= forces[contact] * length / MASS;
+            speeds[contact + 1] += forces[contact] * length / MASS;
+        }
+        for (contact, depth) in values(&instance, "indentation", 2).into_iter().enumerate() {
+            let distance = places[contact] - places[contact + 1];
+            assert!(
+                (distance - depth).abs() < 1e-15 * (1.0 + 1e4 * time),
+                "c{contact} after {time}: {distance:e} {depth:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn contacts_that_share_no_body_move_as_separate_units_bit_for_bit() {
+    let law =
+        "[law]\nloading = \"thornton\"\n[fmu]\noutputs = [\"indentation\", \"closing_speed\", \"dissipated_energy\"]\n";
+    let ball = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
+    let mut both = format!("name = \"apart\"\n{ball}{law}");
+    for (body, mass) in [("one", 0.1), ("two", 0.004)] {
+        both += &format!("[[body]]\nname = \"{body}\"\nmass = {mass}\n");
+    }
+    for (contact, body) in [("c1", "one"), ("c2", "two")] {
+        both += &format!("[[contact]]\nname = \"{contact}\"\nbetween = [\"{body}\", \"ground\"]\n");
+    }
+    let single = format!("name = \"single\"\n{ball}{law}[coupling]\neffective_mass = 0.1\n");
+    let (both, single) = (Unit::load(&write_scene("apart", &both)), Unit::load(&write_scene("single", &single)));
+    let mut together = both.ready();
+    // the masses are 1/W of the matrix, which may round
+    let mut alone = [0.1, 0.004].map(|mass: f64| single.ready_with(&[("effective_mass", 1.0 / (1.0 / mass))]));
+    let (mut time, mut rates) = (0.0, [2.0, 0.7]);
+    for length in [3e-6, 4e-5, 1e-3, 2e-4, 1e-3] {
+        step(&mut together, &rates, time, length);
+        for (contact, alone) in alone.iter_mut().enumerate() {
+            alone.set_one("indentation_rate", rates[contact]);
+            assert_eq!(alone.step(time, length), OK);
+            for name in ["force", "mean_force", "indentation", "closing_speed", "dissipated_energy"] {
+                let (one, other) = (alone.real(name), together.real(&format!("c{}.{name}", contact + 1)));
+                assert_eq!(
+                    one.to_bits(),
+                    other.to_bits(),
+                    "{name} of c{} after {time}: {one:e} {other:e}",
+                    contact + 1
+                );
+            }
+            rates[contact] = alone.real("closing_speed").abs();
+        }
+        time += length;
+    }
+}
+
+#[test]
+fn a_matrix_of_no_bodies_is_refused_before_anything_moves() {
+    let text = "name = \"inputs\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[impact]\nmass = 0.1\n\
+                speed = 1.0\n[fmu]\noutputs = [\"indentation\"]\n[coupling]\ninverse_masses = \"input\"\n\
+                [[contact]]\nname = \"c1\"\n[[contact]]\nname = \"c2\"\n";
+    let unit = Unit::load(&write_scene("inputs", text));
+    let names = ["inverse_mass[1,1]", "inverse_mass[1,2]", "inverse_mass[2,2]"];
+    let set = |instance: &mut Instance, entries: [f64; 3]| {
+        names.iter().zip(entries).for_each(|(name, entry)| instance.set_one(name, entry));
+    };
+    for (entries, words) in [
+        ([0.0, 0.0, 0.0], "inverse_mass[1,1] = 0 must be a finite number, and positive"),
+        ([10.0, 0.0, -1.0], "inverse_mass[2,2] = -1 must be a finite number, and positive"),
+        ([10.0, 20.0, 10.0], "those of no bodies"),
+        ([10.0, -11.0, 10.0], "positive semidefinite"),
+    ] {
+        let mut instance = unit.ready();
+        set(&mut instance, entries);
+        instance.set_one("c1.indentation_rate", 1.0);
+        assert_eq!(instance.step(0.0, 1e-3), ERROR, "{entries:?}");
+        let message = instance.take_message();
+        assert!(message.contains(words), "{entries:?}: {message}");
+        assert_eq!(instance.real("c1.indentation"), 0.0);
+    }
+    // as strongly coupled as two contacts of one body between two walls: singular
+    let mut instance = unit.ready();
+    instance.set_one("c1.indentation_rate", 1.0);
+    set(&mut instance, [10.0, -10.0, 10.0]);
+    assert_eq!(instance.step(0.0, 1e-6), OK, "{}", instance.message());
+    let depths = values(&instance, "indentation", 2);
+    assert!(depths[0] > 0.0 && (depths[0] - 1e-6).abs() < 1e-8, "{depths:?}");
+    set(&mut instance, [10.0, -10.001, 10.0]);
+    assert_eq!(instance.step(1e-6, 1e-6), ERROR);
+}
+
+#[test]
+fn a_step_with_too_many_events_is_refused_with_the_step_that_would_do() {
+    let unit = Unit::load(&write_scene("cradle_bounces", &cradle("cradle_bounces", 3, 0.0, "hertz", "")));
+    let mut instance = unit.ready();
+    // a light ball between two others would be needed for many events; here the two outer ones press for long
+    let derivatives = ["c1.indentation_rate", "c2.indentation_rate"].map(|name| instance.real_of(name));
+    assert_eq!(instance.set_derivatives(&derivatives, 1, &[1e6, 1e6]), OK);
+    assert_eq!(instance.step(0.0, 10.0), ERROR);
+    let message = instance.take_message();
+    assert!(message.contains("too often to be followed within communicationStepSize = 10 s: a step of"), "{message}");
+    assert_eq!(values(&instance, "indentation", 2), [0.0, 0.0]);
+    let possible: f64 = message.split("a step of ").nth(1).unwrap().split(" s").next().unwrap().parse().unwrap();
+    let mut instance = unit.ready();
+    assert_eq!(instance.set_derivatives(&derivatives, 1, &[1e6, 1e6]), OK);
+    assert_eq!(instance.step(0.0, possible), OK, "{}", instance.message());
+}
