@@ -61,7 +61,7 @@ impl Group {
         let outcome = follow(&mut self.contacts, model, &masses, accelerations, &mut self.rates, &mut work, step);
         self.evaluations += outcome.expect("a motion").evaluations;
         self.impulses = work.iter().map(Work::impulse).collect();
-        let spent = work_of_step(&work, &masses, &rates, accelerations, step);
+        let spent = work_of_step(&work, (&rates, &self.rates), accelerations, step);
         self.imbalance = self.imbalance.max((spent - (self.energy() - before)).abs());
     }
 

@@ -54,7 +54,7 @@ impl Group {
             self.moments[contact] += step * self.impulses[contact] + work.moment();
             self.impulses[contact] += work.impulse();
         }
-        let balance = work_of_step(&work, &masses, &before.0, accelerations, step) - (self.energy() - before.1);
+        let balance = work_of_step(&work, (&before.0, &self.rates), accelerations, step) - (self.energy() - before.1);
         self.imbalance = self.imbalance.max(balance.abs());
         Ok(outcome)
     }
@@ -230,8 +230,8 @@ fn a_symmetric_arrangement_stays_symmetric() {
     }
 }
 
-/// Rigid bodies in space, some of which touch each other and the ground, with any laws. Also returns their energy [J] and speed
-/// [m/s].
+/// Rigid bodies in space, some of which touch each other and the ground, with any laws. Also returns their energy [J] and
+/// speed [m/s].
 pub fn random_bodies(random: &mut Random, count: usize) -> (Group, f64) {
     let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
     let (radius, modulus) = (decades(-3.0, -1.0), decades(9.0, 11.5));

@@ -99,8 +99,8 @@ impl Row {
         self.models().into_iter().zip(forms).map(|(plastic, loss)| losses::Model { plastic, loss }).collect()
     }
 
-    /// Follows the motion of `contacts` from the start of the row in so many `parts`, and compares the end. `heat` gives the energy that is lost without
-    /// yield [J].
+    /// Follows the motion of `contacts` from the start of the row in so many `parts`, and compares the end. `heat` gives the
+    /// energy that is lost without yield [J].
     fn run<M, C: Contact<M> + SharedContact<M>>(
         &self,
         models: &[M],
@@ -126,7 +126,7 @@ impl Row {
             let start = rates.clone();
             let outcome = follow(&mut contacts, model, &masses, &accelerations, &mut rates, &mut work, step);
             evaluations += outcome.unwrap_or_else(|refused| panic!("{case}: {refused:?}")).evaluations;
-            balance += work_of_step(&work, &masses, &start, &accelerations, step);
+            balance += work_of_step(&work, (&start, &rates), &accelerations, step);
             impulses.iter_mut().zip(&work).for_each(|(sum, work)| *sum += work.impulse());
         }
         let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, number| most.max(number.abs()));

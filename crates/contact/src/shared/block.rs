@@ -278,7 +278,12 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             self.rescale();
             return Ok(());
         };
-        let (target, length) = self.approach(clock.as_ref(), target, part * length, length)?;
+        let (target, length, error) = self.approach(clock.as_ref(), target, part * length, length)?;
+        if error > 1.0 {
+            // where a force ends as a power, most of the longer step had none
+            self.next = 0.5 * self.passed(clock.as_ref(), length);
+            return Ok(());
+        }
         // the time of a step by the clock beyond the surface goes back
         self.next = if clock.is_some() { time } else { passed * smallest(growth, 1.0) };
         let passed = if length > 0.0 { self.passed(clock.as_ref(), length) } else { 0.0 };

@@ -1,5 +1,5 @@
-//! The branch that one contact is on: apart, on the path of its dent, or on a piece of the loading curve. Each is smooth, and goes
-//! on beyond its ends for the trials of the integration.
+//! The branch that one contact is on: apart, on the path of its dent, or on a piece of the loading curve. Each is smooth,
+//! and goes on beyond its ends for the trials of the integration.
 
 use crate::history::History;
 use crate::loading::Loading;
@@ -11,8 +11,8 @@ use crate::{Model, Surface};
 use core::hint::black_box;
 use libm::{fabs, sqrt};
 
-/// A height \[m\] that counts as none. In a row of balls that touch, the far ones are pressed by numbers so small that a processor
-/// takes long for them.
+/// A height \[m\] that counts as none. In a row of balls that touch, the far ones are pressed by numbers so small that a
+/// processor takes long for them.
 const LEAST_HEIGHT: f64 = 1e-100;
 
 /// The kind of a branch.
@@ -212,8 +212,8 @@ impl Branch {
         }
     }
 
-    /// Whether the force grows as a fractional power from the surface, so that it is smooth in the root of the height but not in
-    /// time.
+    /// Whether the force grows as a fractional power from the surface, so that it is smooth in the root of the height but
+    /// not in time.
     pub fn begins_rough(&self) -> bool {
         let begins = |segment: &Segment| segment.power != 0.0 && segment.origin == self.numbers.lower;
         self.kind == Kind::Path && self.numbers.whole().is_none_or(begins)
@@ -234,8 +234,8 @@ impl Branch {
         })
     }
 
-    /// Force \[N\] where the height above the surface is the square of `w` \[m^0.5\]. It goes on smoothly below zero. `None` for a
-    /// [law without segments](Branch::force_without_segments), whose force is odd in `w`.
+    /// Force \[N\] where the height above the surface is the square of `w` \[m^0.5\]. It goes on smoothly below zero. `None`
+    /// for a [law without segments](Branch::force_without_segments), whose force is odd in `w`.
     #[inline(always)]
     pub fn force_of_root(&self, w: f64) -> Option<f64> {
         let z = w * w;

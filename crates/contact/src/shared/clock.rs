@@ -1,7 +1,8 @@
 //! The clock of a contact that has just touched, or is about to part.
 //!
-//! Its force is a fractional power of the height `z` above the surface, and not smooth in time. In the root `w` of the height it
-//! is: with `dt = w dtau`, `w' = d'/2`, `t' = w`, and every slope is `w` times that in time. All is regular through `w = 0`.
+//! Its force is a fractional power of the height `z` above the surface, and not smooth in time. In the root `w` of the
+//! height it is: with `dt = w dtau`, `w' = d'/2`, `t' = w`, and every slope is `w` times that in time. All is regular
+//! through `w = 0`.
 
 use super::scales::Scales;
 use super::work::Work;
@@ -17,7 +18,8 @@ const BALLISTIC: f64 = 10.0;
 /// The least rate, as a part of the largest one: a contact that is slower takes thousands of steps for nothing.
 const LEAST_RATE: f64 = 1e-6;
 
-/// The part beyond the surface to which a step of a contact that parts goes, so that the root of the height changes its sign.
+/// The part beyond the surface to which a step of a contact that parts goes, so that the root of the height changes its
+/// sign.
 const BEYOND: f64 = 1.1;
 
 /// The clock of a contact.
@@ -57,7 +59,8 @@ impl Clock {
         Some(Clock { place, root, rate, surface, until: height / speed, ballistic })
     }
 
-    /// The length of a step by the clock that takes about `time` \[s\] or less; of a contact that parts, one that goes a little beyond.
+    /// The length of a step by the clock that takes about `time` \[s\] or less; of a contact that parts, one that goes a
+    /// little beyond.
     pub fn length(&self, time: f64) -> f64 {
         let Clock { root, rate, ballistic, .. } = *self;
         let time = smallest(time, ballistic);

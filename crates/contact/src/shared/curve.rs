@@ -68,9 +68,9 @@ impl Curve {
         part
     }
 
-    /// The first part of the step, up to `end`, at which the value has fallen from above zero to below it. A value that starts
-    /// within `near` has fallen where it is below `-near`: what it does in between is rounding. A dip between two positive ends is
-    /// found if the slope changes its sign.
+    /// The first part of the step, up to `end`, at which the value has fallen from above zero to below it. A value that
+    /// starts within `near` has fallen where it is below `-near`: what it does in between is rounding. A dip between two
+    /// positive ends is found if the slope changes its sign.
     pub fn first_fall(&self, end: f64, near: f64) -> Option<f64> {
         let (start, last, slope) = (self.at(0.0), self.at(end), self.slope());
         let (rises, ends_rising) = (slope.at(0.0) > 0.0, slope.at(end) > 0.0);

@@ -1,10 +1,10 @@
 //! The Runge-Kutta pair of order 8 with the two estimates of its error, of orders 5 and 3.
 //!
-//! Reference: E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer, 1993, section
-//! II.5; the coefficients are those of its program DOP853.
+//! Reference: E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer, 1993,
+//! section II.5; the coefficients are those of its program DOP853.
 
 use crate::numbers::{largest, quotient};
-use libm::{pow, sqrt};
+use libm::sqrt;
 
 /// Number of slopes of a step.
 pub const STAGES: usize = 12;
@@ -174,11 +174,11 @@ pub fn error(fifth: f64, third: f64) -> f64 {
     fifth / sqrt(1.0 + ratio * ratio)
 }
 
-/// The factor on a step with this `error`, as a multiple of the tolerance, after which it would be just below the tolerance; NaN
-/// for an error that is none.
+/// The factor on a step with this `error`, as a multiple of the tolerance, after which it would be just below the tolerance;
+/// NaN for an error that is none.
 pub fn factor(error: f64) -> f64 {
-    // in this order NaN stays NaN
-    0.9 * pow(largest(LEAST, error), -0.125)
+    // in this order NaN stays NaN; the step is of order 8
+    0.9 / sqrt(sqrt(sqrt(largest(LEAST, error))))
 }
 
 #[cfg(test)]

@@ -7,8 +7,9 @@ use libm::fabs;
 /// The smallest pivot, relative to the largest, that rounding of a singular matrix can leave; with a negative sign.
 const ROUNDING: f64 = 1e-12;
 
-/// The matrix `W = J M^-1 J^T` \[1/kg\] of some contacts: a force `F` at contact `j` changes the closing rate of contact `i` by
-/// `-W_ij F` \[m/s^2\]. It is symmetric and positive semidefinite; with more contacts than the bodies have freedom it is singular.
+/// The matrix `W = J M^-1 J^T` \[1/kg\] of some contacts: a force `F` at contact `j` changes the closing rate of contact `i`
+/// by `-W_ij F` \[m/s^2\]. It is symmetric and positive semidefinite; with more contacts than the bodies have freedom it is
+/// singular.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InverseMasses<'a> {
     count: usize,
@@ -35,8 +36,8 @@ pub enum NotInverseMasses {
         /// The entry \[1/kg\].
         value: f64,
     },
-    /// With the contacts before it in the elimination, this contact would have a negative inverse mass: the matrix is not positive
-    /// semidefinite.
+    /// With the contacts before it in the elimination, this contact would have a negative inverse mass: the matrix is not
+    /// positive semidefinite.
     Indefinite {
         /// The contact, from 0 on.
         contact: usize,
@@ -99,8 +100,8 @@ impl<'a> InverseMasses<'a> {
     /// Whether the numbers can be inverse masses: finite, positive on the diagonal, and positive semidefinite to rounding.
     /// `scratch` needs as many numbers as the upper triangle.
     ///
-    /// The matrix is decomposed as `L D L^T` with the largest pivot first. A pivot below zero by more than rounding, 1e-12 of
-    /// the largest, is refused.
+    /// The matrix is decomposed as `L D L^T` with the largest pivot first. A pivot below zero by more than rounding, 1e-12
+    /// of the largest, is refused.
     ///
     /// # Errors
     /// [`NotInverseMasses`].
@@ -192,8 +193,8 @@ impl Left<'_> {
         }
     }
 
-    /// `Err` with a contact and its pivot if an entry is larger than `rounding`. A coupling without inverse masses makes a negative
-    /// pivot of its own size.
+    /// `Err` with a contact and its pivot if an entry is larger than `rounding`. A coupling without inverse masses makes a
+    /// negative pivot of its own size.
     fn is_nothing(&self, rounding: f64) -> Result<(), (usize, f64)> {
         for one in 0..self.count {
             for other in one..self.count {

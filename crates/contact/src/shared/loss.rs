@@ -19,8 +19,8 @@ pub struct Loss {
 }
 
 impl Loss {
-    /// Force \[N\] for the `elastic` force \[N\] at the closing rate of the bodies \[m/s\], and the rate of indentation \[m/s\]. In trials
-    /// the force may be negative. `stiffness` \[N/m\] matters for some forms only.
+    /// Force \[N\] for the `elastic` force \[N\] at the closing rate of the bodies \[m/s\], and the rate of indentation
+    /// \[m/s\]. In trials the force may be negative. `stiffness` \[N/m\] matters for some forms only.
     #[inline(always)]
     pub fn force_and_approach(&self, elastic: f64, stiffness: f64, rate: f64) -> (f64, f64) {
         let Loss { damping, leads, slack, .. } = self;
@@ -80,8 +80,8 @@ impl Loss {
         self.leads = 1.0;
     }
 
-    /// Changes the loss at an event, at the rate of indentation `approach` \[m/s\]. `sign` is the direction of a rate that begins to
-    /// lead.
+    /// Changes the loss at an event, at the rate of indentation `approach` \[m/s\]. `sign` is the direction of a rate that
+    /// begins to lead.
     pub fn happen(&mut self, event: Event, approach: f64, sign: f64) {
         match event {
             Event::Touch => {

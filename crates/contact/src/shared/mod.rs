@@ -1,18 +1,18 @@
 //! Contacts that share bodies: a force at one contact accelerates the others.
 //!
-//! A box on its feet, a ball between walls, a stack, a cradle: a body with two contacts moves by the forces of both. Within a step
-//! all contacts are integrated together,
+//! A box on its feet, a ball between walls, a stack, a cradle: a body with two contacts moves by the forces of both. Within
+//! a step all contacts are integrated together,
 //!
 //! ```text
 //! d(rate)/dt = a - W F(indentations, histories),    W = J M^-1 J^T
 //! ```
 //!
-//! with the [matrix of inverse effective masses](InverseMasses) `W` and the accelerations `a` held. The contacts are sorted into
-//! blocks that are coupled (`block`); a contact alone without a loss moves as [`motion`] moves it, to the last bit. Each contact
-//! is on a smooth `branch` of its law; an event (`targets`) puts it on another. Between two events the motion is analytic but for
-//! the power with which a force begins. A Runge-Kutta pair of order 8 (`dop853`, `step`) follows it, in time or in the `clock` of a
-//! contact that has just touched or is about to part. A `loss` has events of its own. Contacts that are slow and in balance `rest`
-//! until the end of the step.
+//! with the [matrix of inverse effective masses](InverseMasses) `W` and the accelerations `a` held. The contacts are sorted
+//! into blocks that are coupled (`block`); a contact alone without a loss moves as [`motion`] moves it, to the last bit.
+//! Each contact is on a smooth `branch` of its law; an event (`targets`) puts it on another. Between two events the motion
+//! is analytic but for the power with which a force begins. A Runge-Kutta pair of order 8 (`dop853`, `step`) follows it, in
+//! time or in the `clock` of a contact that has just touched or is about to part. A `loss` has events of its own. Contacts
+//! that are slow and in balance `rest` until the end of the step.
 //!
 //! The impulse `P` and its integral `Q` are states of the motion, so that the bodies move by them exactly:
 //!
@@ -23,19 +23,20 @@
 //! A [plate](crate::losses::Plate) gives way by `alpha P`, which the indentation lacks.
 //!
 //! # Accuracy
-//! Rates and indentations are off by about 1e-12 of their scale after an event: `sqrt(2 E W_ii)` for the energy `E` of the motion,
-//! and that times the shortest time of an oscillation. The largest indentation of a contact that does not yield is off by up to 1e-9
-//! of itself. Rest drops 1e-12 of the elastic energy of the load. Bodies that rattle between redundant contacts amplify rounding
-//! as the motion itself does.
+//! Rates and indentations are off by about 1e-12 of their scale after an event: `sqrt(2 E W_ii)` for the energy `E` of the
+//! motion, and that times the shortest time of an oscillation. The largest indentation of a contact that does not yield is
+//! off by up to 1e-9 of itself. Rest drops 1e-12 of the elastic energy of the load. Bodies that rattle between redundant
+//! contacts amplify rounding as the motion itself does.
 //!
 //! # Rest
 //! Bodies come to rest with a [fitted](crate::losses::Fitted) loss, as fast as it damps a lasting contact. The
-//! [waves](crate::losses::Waves) alone take minutes for it; on a plate the bodies sink on at the rate at which it gives way; without
-//! a loss they bounce for ever.
+//! [waves](crate::losses::Waves) alone take minutes for it; on a plate the bodies sink on at the rate at which it gives way;
+//! without a loss they bounce for ever.
 //!
 //! # Limits
-//! `W` is constant within a step, so that a body that turns by an angle changes its directions by that angle from step to step. The
-//! step costs as many evaluations as the motion has events and oscillations; a light body between heavy ones oscillates fast.
+//! `W` is constant within a step, so that a body that turns by an angle changes its directions by that angle from step to
+//! step. The step costs as many evaluations as the motion has events and oscillations; a light body between heavy ones
+//! oscillates fast.
 //!
 //! # Example
 //! Two balls that touch, hit by a third one:
@@ -161,8 +162,8 @@ impl<L: Loading, U: Unloading> SharedContact<Model<L, U>> for History {
 /// The result of a step. Impulses and their moments are in the [`Work`] of each contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
-    /// Number of evaluations of the force of a contact that is not apart, over all contacts. An evaluation of a law without segments counts
-    /// as ten.
+    /// Number of evaluations of the force of a contact that is not apart, over all contacts. An evaluation of a law without
+    /// segments counts as ten.
     pub evaluations: u32,
 }
 
@@ -183,9 +184,10 @@ pub enum Refused {
 /// Largest rate \[m/s\] and acceleration \[m/s^2\]: their squares are finite.
 const LARGEST: f64 = 1e100;
 
-/// Moves all contacts through `step` \[s\] > 0. The `masses` must have been [checked](InverseMasses::check). `accelerations` \[m/s^2\] are the closing accelerations by all forces but those of
-/// these contacts, constant over the step; `rates` \[m/s\] are the closing rates, at the start and then at the end. `work` needs one
-/// entry for each contact, and then has the impulses. `model` gives the model of a contact.
+/// Moves all contacts through `step` \[s\] > 0. The `masses` must have been [checked](InverseMasses::check). `accelerations`
+/// \[m/s^2\] are the closing accelerations by all forces but those of these contacts, constant over the step; `rates`
+/// \[m/s\] are the closing rates, at the start and then at the end. `work` needs one entry for each contact, and then has
+/// the impulses. `model` gives the model of a contact.
 ///
 /// # Errors
 /// [`Refused`]; no contact and no rate has changed then.
@@ -290,29 +292,16 @@ fn find_blocks<C>(work: &mut [Work<C>], masses: &InverseMasses) {
     }
 }
 
-/// Work of the contact forces over a step \[J\], from the impulses and their moments. It is exact for any `W`, singular ones and
-/// driven walls too, and equals the change of the energies of the contacts.
+/// Work of the contact forces over a step \[J\], from the impulses and their moments. It needs no inverse of `W`, is right
+/// for singular ones and driven walls too, and equals the change of the energies of the contacts.
 ///
-/// `P.r0 + a.(h P - Q) - P.W P/2`, with the `rates` \[m/s\] at the start and the `accelerations` \[m/s^2\] of the step.
-pub fn work_of_step<C>(
-    work: &[Work<C>],
-    masses: &InverseMasses,
-    rates: &[f64],
-    accelerations: &[f64],
-    step: f64,
-) -> f64 {
-    let mut sum = 0.0;
-    for ((member, &rate), &acceleration) in work.iter().zip(rates).zip(accelerations) {
-        sum += member.impulse() * rate + acceleration * (step * member.impulse() - member.moment());
-    }
-    for (place, row) in masses.rows(0).enumerate() {
-        let impulse = work.get(place).map_or(0.0, Work::impulse);
-        let others = work.iter().skip(place).zip(row);
-        let mut product = 0.0;
-        for (offset, (other, entry)) in others.enumerate() {
-            product += entry * other.impulse() * if offset == 0 { 0.5 } else { 1.0 };
-        }
-        sum -= impulse * product;
-    }
-    sum
+/// `P.(r0 + r1)/2 + a.(h P/2 - Q)`, with the rates \[m/s\] at the start and at the end, and the `accelerations` \[m/s^2\] of
+/// the step. With `W P = r0 + a h - r1` it is the integral of `F r`.
+pub fn work_of_step<C>(work: &[Work<C>], (before, after): (&[f64], &[f64]), accelerations: &[f64], step: f64) -> f64 {
+    let contacts = work.iter().zip(before).zip(after).zip(accelerations);
+    let works = contacts.map(|(((member, &before), &after), &acceleration)| {
+        let (impulse, moment) = (member.impulse(), member.moment());
+        0.5 * impulse * (before + after) + acceleration * (0.5 * step * impulse - moment)
+    });
+    works.sum()
 }

@@ -1,8 +1,8 @@
 //! Rest: contacts that have come into balance stay where they are for the rest of the step.
 //!
-//! A block is at rest if all its contacts are so slow, and so near the balance of forces, that what is left of their motion is
-//! below the accuracy of a step: 1e-12 of the elastic energy that the load has stored. Nothing is remembered, so any change of a
-//! load, a mass or a rate wakes it.
+//! A block is at rest if all its contacts are so slow, and so near the balance of forces, that what is left of their motion
+//! is below the accuracy of a step: 1e-12 of the elastic energy that the load has stored. Nothing is remembered, so any
+//! change of a load, a mass or a rate wakes it.
 
 use super::SharedContact;
 use super::block::Block;
@@ -71,9 +71,9 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         member.branch.kind != Kind::Apart || member.now.indentation() + way < member.branch.surface()
     }
 
-    /// Holds every contact in balance until the end of the step. The impulses end the rates, and the distances that the bodies would
-    /// still move: `P = h F + c` and `Q = h^2 F/2 + q` with `W c = r + h r'` and `W q = h r + h^2 r'/2`. A target that gives way goes
-    /// on at its rate.
+    /// Holds every contact in balance until the end of the step. The impulses end the rates, and the distances that the
+    /// bodies would still move: `P = h F + c` and `Q = h^2 F/2 + q` with `W c = r + h r'` and `W q = h r + h^2 r'/2`. A
+    /// target that gives way goes on at its rate.
     pub(super) fn rest(&mut self) {
         let h = self.left;
         self.find_balance();
@@ -129,8 +129,8 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         self.solve(|member| if is_balanced { 0.0 } else { member.now.net }, true);
     }
 
-    /// Solves `W x = side`, or `W K W x = side`, for the contacts that are pressed, by conjugate gradients, to which a singular
-    /// matrix does not matter. The product that is kept is `W x`. The solution of a contact that is apart is zero.
+    /// Solves `W x = side`, or `W K W x = side`, for the contacts that are pressed, by conjugate gradients, to which a
+    /// singular matrix does not matter. The product that is kept is `W x`. The solution of a contact that is apart is zero.
     fn solve(&mut self, side: impl Fn(&Work<C>) -> f64, by_stiffness: bool) {
         let diagonal = |member: &Work<C>| match by_stiffness {
             true => member.inverse_mass * largest(member.trial.stiffness, f64::MIN_POSITIVE) * member.inverse_mass,

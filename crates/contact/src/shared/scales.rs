@@ -20,8 +20,8 @@ pub(super) struct Scales {
 /// Energies grow by this factor before the time is computed again.
 const GROWN: f64 = 1.2;
 
-/// The indentation \[m\] at which both parts of a segment that are given, of the first power and of the power 1.5, are below a
-/// limit: `(limit/linear)^first` and `(limit/power)^second`. Infinite for a segment without force.
+/// The indentation \[m\] at which both parts of a segment that are given, of the first power and of the power 1.5, are below
+/// a limit: `(limit/linear)^first` and `(limit/power)^second`. Infinite for a segment without force.
 fn indentation_at(segment: &Segment, (linear, first): (f64, f64), (power, second): (f64, f64)) -> f64 {
     let of_part = |limit: f64, part: f64, exponent: f64| {
         let exists = part > 1e-100 * limit;

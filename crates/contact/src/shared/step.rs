@@ -44,7 +44,8 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         spread_activity(self.work, self.masses, self.first);
     }
 
-    /// Forces and accelerations of the instants that are tried. The contact at `place_of_clock` is where the root of its height is `w`.
+    /// Forces and accelerations of the instants that are tried. The contact at `place_of_clock` is where the root of its
+    /// height is `w`.
     fn evaluate(&mut self, place_of_clock: usize, w: f64) {
         let Block { model, first, masses, .. } = *self;
         for (place, member) in self.active_mut() {

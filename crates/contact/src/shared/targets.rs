@@ -133,22 +133,23 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         first
     }
 
-    /// Repeats the step with the length that ends at the target, starting with `length`; another target may come first. Returns the
-    /// target and the length, zero for a target that is here.
+    /// Repeats the step with the length that ends at the target, starting with `length`; another target may come first.
+    /// Returns the target, the length, zero for a target that is here, and the error of the step as a multiple of the
+    /// tolerance.
     pub(super) fn approach(
         &mut self,
         clock: Option<&Clock>,
         target: Target,
         length: f64,
         whole: f64,
-    ) -> Result<(Target, f64), Refused> {
+    ) -> Result<(Target, f64, f64), Refused> {
         let (mut target, mut length) = (target, length);
-        let mut bracket = self.bracket(clock, &target, whole);
+        let (mut bracket, mut error) = (self.bracket(clock, &target, whole), 0.0);
         for attempt in 0..APPROACHES {
             if length <= 0.0 {
-                return Ok((target, 0.0));
+                return Ok((target, 0.0, 0.0));
             }
-            self.attempt(clock, length)?;
+            error = self.attempt(clock, length)?;
             self.finish()?;
             let (gap, slope) = self.gap(clock, &target);
             let (change, found) = match slope {
@@ -178,7 +179,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
             }
             length += change;
         }
-        Ok((target, length))
+        Ok((target, length, error))
     }
 
     /// The lengths between which the target lies, after a step of length `whole` that went beyond.
@@ -193,8 +194,8 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         Bracket { before: (0.0, largest(start, 0.0)), beyond: (whole, smallest(beyond, 0.0)) }
     }
 
-    /// The number of the motion that falls through zero at the target, and its slope if it is known, at the end of the step that was
-    /// tried.
+    /// The number of the motion that falls through zero at the target, and its slope if it is known, at the end of the step
+    /// that was tried.
     fn gap(&self, clock: Option<&Clock>, target: &Target) -> (f64, Option<f64>) {
         let [_, [pace, slope]] = self.paces(clock);
         let [time, w] = self.ticked;

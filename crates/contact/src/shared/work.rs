@@ -8,8 +8,8 @@ use super::scales::Scales;
 use crate::numbers::quotient;
 use libm::{fabs, sqrt};
 
-/// Working memory of one contact for a step, and its results. The caller keeps one for each contact, or makes them anew: a step
-/// needs nothing from the step before.
+/// Working memory of one contact for a step, and its results. The caller keeps one for each contact, or makes them anew: a
+/// step needs nothing from the step before.
 #[derive(Clone, Copy)]
 pub struct Work<C> {
     /// The contact, moved by the step.
@@ -42,7 +42,8 @@ pub struct Work<C> {
 /// A contact at an instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instant {
-    /// Indentation \[m\], closing rate \[m/s\], impulse of the step so far \[N.s\] and the integral of the impulse over time \[N.s^2\].
+    /// Indentation \[m\], closing rate \[m/s\], impulse of the step so far \[N.s\] and the integral of the impulse over time
+    /// \[N.s^2\].
     pub numbers: Numbers,
     /// Force \[N\].
     pub force: f64,
@@ -138,8 +139,8 @@ impl<C> Work<C> {
 /// Rounding of an acceleration, relative to the forces that make it up.
 const BALANCE: f64 = 1e-13;
 
-/// A distance from a threshold, relative to the scale, at which the contact counts as there, and a rate at which it counts as at
-/// rest: then its acceleration decides where it goes.
+/// A distance from a threshold, relative to the scale, at which the contact counts as there, and a rate at which it counts
+/// as at rest: then its acceleration decides where it goes.
 const NEAR: f64 = 1e-13;
 
 impl<C> Work<C> {
