@@ -5,7 +5,7 @@ use crate::loaded::{ERROR, Instance, OK, Unit};
 use crate::physics::{AnyModel, Random, model, pair_of};
 use crate::unit::write_scene;
 use brinell_contact::shared::{InverseMasses, Work, follow};
-use brinell_contact::{Contact, History, Surface};
+use brinell_contact::{History, Surface};
 
 /// Mass of a ball [kg].
 const MASS: f64 = 0.033;
