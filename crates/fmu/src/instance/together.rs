@@ -91,7 +91,13 @@ impl<S: Scene> Instance<S> {
     ) -> Result<(), Fault> {
         let Instance { contacts: Contacts { histories, works, inverse_masses, .. }, settings, .. } = self;
         let masses = masses_of::<S>(inverse_masses);
-        let model = |contact: usize| settings.model(S::group(contact));
+        // computed once, since every event needs them
+        let first = settings.model(0);
+        let mut models = <S::Groups<S::Model>>::filled(first);
+        for (group, model) in models.as_mut().iter_mut().enumerate().skip(1) {
+            *model = settings.model(group);
+        }
+        let model = |contact: usize| models.as_ref().get(S::group(contact)).unwrap_or(&first);
         let (rates, works) = (rates.as_mut(), works.as_mut());
         let followed =
             S::follow_together(histories.as_mut(), model, &masses, accelerations.as_ref(), rates, works, step);
