@@ -207,7 +207,7 @@ fn a_matrix_of_no_bodies_is_refused_before_anything_moves() {
         names.iter().zip(entries).for_each(|(name, entry)| instance.set_one(name, entry));
     };
     for (entries, words) in [
-        ([0.0, 0.0, 0.0], "inverse_mass[1,1] = 0 must be a finite number, and positive"),
+        ([0.0, 0.0, 10.0], "inverse_mass[1,1] = 0 must be a finite number, and positive"),
         ([10.0, 0.0, -1.0], "inverse_mass[2,2] = -1 must be a finite number, and positive"),
         ([10.0, 20.0, 10.0], "those of no bodies"),
         ([10.0, -11.0, 10.0], "positive semidefinite"),

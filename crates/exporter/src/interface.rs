@@ -35,6 +35,8 @@ pub struct Entry<'a> {
     pub nominal: Option<f64>,
     /// Whether it is the first of two directions.
     is_first: bool,
+    /// Row and column of the first, counted from 0, if they are inverse masses in a row of their matrix.
+    cell: Option<(usize, usize)>,
 }
 
 /// A parameter on which an output of a contact depends.
@@ -59,11 +61,10 @@ impl Entry<'_> {
         match self.group {
             Some(group) if self.per_contact => format!("{}{}", group.prefix(index), self.component()),
             Some(group) => group.variable(name),
-            None if name == INVERSE_MASS => {
-                let (row, column) = row_and_column(self.count, index);
-                format!("{name}[{},{}]", row + 1, column + 1)
-            }
-            None => name.clone(),
+            None => match self.cell {
+                Some((row, column)) => format!("{name}[{},{}]", row + 1, column + index + 1),
+                None => name.clone(),
+            },
         }
     }
 
@@ -77,7 +78,7 @@ impl Entry<'_> {
         let (first, last) = (self.name(0), self.name(self.count - 1));
         match self.count {
             1 => first,
-            _ if self.variable.name == INVERSE_MASS => format!("{first} to {}", last.trim_start_matches(INVERSE_MASS)),
+            _ if self.cell.is_some() => format!("{first} to {}", last.trim_start_matches(INVERSE_MASS)),
             count => last.replacen(&format!("[{count}]"), &format!("[1..{count}]"), 1),
         }
     }
@@ -146,6 +147,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
                 follows_at_start: follows_at_start.then_some(first),
                 nominal: nominals[index].get(variable),
                 is_first: scene.directions > 1 && has_second(variable),
+                cell: None,
             });
             reference += group.size();
             first += group.size();
@@ -164,12 +166,18 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
         follows: None,
         follows_tangential: Vec::new(),
         is_first: false,
+        cell: None,
         follows_at_start: None,
         nominal: None,
     }));
-    let count = inverse_mass_inputs(scene);
-    if count > 0 {
-        let variable = table::variable(INVERSE_MASS);
+    let variable = table::variable(INVERSE_MASS);
+    let contacts = if inverse_mass_inputs(scene) > 0 { scene.contact_count() } else { 0 };
+    // before they are set, the contacts share no body, and each has the mass of the impact
+    let cells = (0..contacts).flat_map(|row| {
+        let rest = contacts - row - 1;
+        [((row, row), 1, 1.0 / scene.impact.mass), ((row, row + 1), rest, 0.0)]
+    });
+    for (cell, count, start) in cells.filter(|(_, count, _)| *count > 0) {
         entries.push(Entry {
             variable,
             description: variable.description(kinds),
@@ -178,13 +186,14 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
             reference: entries.last().map_or(0, |last| last.reference + last.count),
             count,
             per_contact: false,
-            start: Some(0.0),
+            start: Some(start),
             dependencies: Vec::new(),
             follows: None,
             follows_tangential: Vec::new(),
             is_first: false,
             follows_at_start: None,
             nominal: None,
+            cell: Some(cell),
         });
     }
     entries
@@ -197,18 +206,6 @@ pub const INVERSE_MASS: &str = "inverse_mass";
 pub fn inverse_mass_inputs(scene: &Scene) -> usize {
     let contacts = scene.contact_count();
     if scene.inverse_masses == Some(InverseMasses::Inputs) { contacts * (contacts + 1) / 2 } else { 0 }
-}
-
-/// Row and column of the entry with this `place` in an upper triangle of `count` entries, row by row.
-fn row_and_column(count: usize, mut place: usize) -> (usize, usize) {
-    let mut length = (0..).take_while(|contacts| contacts * (contacts + 1) / 2 <= count).last().unwrap_or(0);
-    let mut row = 0;
-    while place >= length {
-        place -= length;
-        length -= 1;
-        row += 1;
-    }
-    (row, row + place)
 }
 
 /// Whether `variable` has a second direction.

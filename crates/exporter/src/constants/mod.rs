@@ -34,8 +34,14 @@ pub fn write(plan: &Plan, guid: &str) -> String {
         file.add("impact_mass", literal(scene.impact.mass));
     }
     let forces = presence(scene.contact_count() > 1 && !scene.is_rate_dependent());
-    if let Some(InverseMasses::Constant(entries)) = &scene.inverse_masses {
-        file.add("inverse_masses", list(entries.iter().map(|&entry| literal(entry))));
+    let starts = plan.variables.iter().filter(|entry| entry.variable.name == INVERSE_MASS);
+    let starts = starts.flat_map(|entry| vec![entry.start.unwrap_or(0.0); entry.count]);
+    match &scene.inverse_masses {
+        Some(InverseMasses::Constant(entries)) => {
+            file.add("inverse_masses", list(entries.iter().copied().map(literal)))
+        }
+        Some(InverseMasses::Inputs) => file.add("inverse_masses", list(starts.map(literal))),
+        None => {}
     }
     let shared = presence(scene.inverse_masses.is_some());
     let inputs = inverse_mass_inputs(scene);

@@ -142,7 +142,8 @@ impl<S: Scene> Instance<S> {
         self.forget_tangential_rates();
         self.contacts.last_step.as_mut().fill(0.0);
         self.contacts.accelerations.as_mut().fill(0.0);
-        self.contacts.inverse_masses.as_mut().fill(0.0);
+        let slots = self.contacts.inverse_masses.as_mut().iter_mut();
+        slots.zip(S::inverse_masses()).for_each(|(slot, start)| *slot = *start);
         self.contacts.checked = false;
         for (contact, mass) in self.contacts.masses.as_mut().iter_mut().enumerate() {
             *mass = S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values);

@@ -11,6 +11,9 @@ fn masses_of<S: Scene>(inputs: &S::InverseMasses) -> InverseMasses<'_> {
     InverseMasses::new(S::CONTACTS, entries).unwrap_or(InverseMasses::NONE)
 }
 
+/// The part of a step that could just be computed that is named instead of it.
+const SAFE: f64 = 0.9;
+
 impl<S: Scene> Instance<S> {
     /// The inverse effective masses of contacts that share bodies \[1/kg\].
     pub(super) fn inverse_masses(&self) -> InverseMasses<'_> {
@@ -103,7 +106,7 @@ impl<S: Scene> Instance<S> {
             S::follow_together(histories.as_mut(), model, &masses, accelerations.as_ref(), rates, works, step);
         followed.map(|_| ()).map_err(|reason| match reason {
             Refused::TooDeep(contact, deep) => too_deep(contact, deep),
-            Refused::TooLong { left } => Fault::TooLongTogether { step, possible: step - left },
+            Refused::TooLong { left } => Fault::TooLongTogether { step, possible: SAFE * (step - left) },
             // there is one of each for every contact
             Refused::Sizes => Fault::StepSize { step, shortest: Self::SHORTEST },
         })

@@ -232,7 +232,8 @@ macro_rules! __value {
 /// - `surface`, `density`: one for all tables, or one for each; density of the target \[kg/m^3\];
 /// - `laws`: what is added to them, the loading law and the unloading law, or a rate-dependent law, each in a form and with its
 ///   constants;
-/// - `inverse_masses`: those of contacts that share bodies, the upper triangle row by row \[1/kg\];
+/// - `inverse_masses`: those of contacts that share bodies or, if they are inputs, their start values: the upper triangle row by row
+///   \[1/kg\];
 /// - `parts`: the parts of an instance;
 /// - `settable`: name, unit, smallest, largest and start value of each parameter that can be set. `runs`, if contacts have own
 ///   values: where the values of each end, and its first contact. `tunable`: ranges of values that can be set between steps;

@@ -117,8 +117,8 @@ pub trait Scene: Sized {
         f64::NAN
     }
 
-    /// The inverse effective masses of contacts that share bodies, unless they are inputs: the upper triangle of the matrix, row by row
-    /// \[1/kg\].
+    /// The inverse effective masses of contacts that share bodies, or their start values if they are inputs: the upper triangle of the
+    /// matrix, row by row \[1/kg\].
     #[inline(always)]
     fn inverse_masses() -> &'static [f64] {
         &[]
