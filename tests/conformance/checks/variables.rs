@@ -83,6 +83,10 @@ pub fn limits(face: &Face) {
             assert!(named, "{} = {value}: {messages:?}", variable.name);
             assert_eq!(i.bits(), before, "{} = {value}", variable.name);
         }
+        // inverse masses must fit together
+        if variable.name.starts_with("inverse_mass") {
+            continue;
+        }
         // numbers that are odd and harmless
         for value in [0.0, -0.0, 5e-324, -5e-324, f64::MIN_POSITIVE] {
             let in_range = low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high);
