@@ -202,6 +202,7 @@ class Contact:
         *,
         mass: Numbers | None = None,
         gap: Numbers | None = None,
+        inverse_masses: Any = None,
         tangential_rate: Numbers | None = None,
         tangential_acceleration: Numbers | None = None,
     ) -> Any:
@@ -220,6 +221,11 @@ class Contact:
         `gap`, a contact that cannot touch within the step ends it where the bodies of the
         simulation do. Near the surface, and while it pushes, it keeps its own distance.
 
+        `inverse_masses` [1/kg] is for contacts that share bodies, if the scene has `inverse_masses =
+        "input"` under `[coupling]`: the symmetric matrix of how a force at one contact accelerates
+        the others, a row and a column for each contact. It holds from this step on.
+        `contact["impulse_moment"]` [N s^2] then displaces the bodies: see the guide on coupling.
+
         `tangential_rate` [m/s] is the relative tangential speed of the two contact points, and
         `tangential_acceleration` [m/s^2] its time derivative, if the scene has friction. A rate
         that is not given keeps its value. `tangential_force` is then the force along it. With
@@ -231,8 +237,9 @@ class Contact:
         with self._lock:
             self._alive()
             h = number("h", h)
-            more = (acceleration, jerk, mass, gap, tangential_rate, tangential_acceleration)
-            force = self._stepping.advance(self._instance, self._time, h, rate, *more)
+            more = (acceleration, jerk, mass, gap, inverse_masses)
+            slips = (tangential_rate, tangential_acceleration)
+            force = self._stepping.advance(self._instance, self._time, h, rate, *more, *slips)
             self._time += h
             if self._instance.log:
                 self._tell()

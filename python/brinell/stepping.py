@@ -12,6 +12,9 @@ from .library import WARNING, Instance
 from .variables import Numbers, Variables, number
 
 Force = Literal["auto", "mean", "end"]
+SYMMETRIC = 1e-9
+"""Largest difference of two entries of the inverse masses that should be equal, over the largest
+entry."""
 
 
 class Stepping:
@@ -67,6 +70,7 @@ class Stepping:
         jerk: Numbers | None,
         mass: Numbers | None,
         gap: Numbers | None,
+        inverse_masses: Any,
         tangential_rate: Numbers | None,
         tangential_acceleration: Numbers | None,
     ) -> Any:
@@ -81,6 +85,8 @@ class Stepping:
             self._follow(instance, h, gap)
         if mass is not None:
             self._set_mass(instance, mass)
+        if inverse_masses is not None:
+            self._set_inverse_masses(instance, inverse_masses)
         rates = self._rates
         if functions["fmi2SetReal"](component, self._rate_references, count, rates) > WARNING:
             raise instance.refusal("SetReal")
@@ -183,8 +189,8 @@ class Stepping:
         return np.array(values) if count == 1 else np.reshape(values, (count, 2))
 
     def _follow(self, instance: Instance, h: float, gap: Numbers) -> None:
-        """Contacts that cannot touch within the step end it where those of the engine do: a
-        constant rate takes them there."""
+        """Contacts that cannot touch within the step end it where those of the engine do: a rate
+        that differs by what they have drifted takes them there."""
         count, variables = self._count, self._variables
         gaps, now = (c_double * count)(), {}
         self._fill(gaps, 0, "gap", gap)
@@ -196,14 +202,11 @@ class Stepping:
             instance.call("GetReal", variables.references(names), count, values)
             now[name] = np.array(values)
         rate, (first, second) = np.array(self._rates), np.reshape(self._derivatives, (2, count))
-        way = h * (rate + h / 2.0 * (first + h / 3.0 * second))
         closer = [np.maximum(part, 0.0) for part in (rate, first, second)]
         reach = h * (closer[0] + h / 2.0 * (closer[1] + h / 3.0 * closer[2]))
         apart = (now["force"] == 0.0) & (np.array(gaps) > reach) & (h > 0.0)
-        rate[apart] = (way - np.array(gaps) - now["indentation"])[apart] / h
-        first[apart] = second[apart] = 0.0
+        rate[apart] -= (np.array(gaps) + now["indentation"])[apart] / h
         self._rates[:] = rate.tolist()
-        self._derivatives[:] = [*first, *second]
 
     def _set_mass(self, instance: Instance, mass: Numbers) -> None:
         names, path = self._variables.masses, self._path
@@ -222,4 +225,30 @@ class Stepping:
             shown = ", ".join(names)
             raise TypeError(f"mass = {mass!r}: one number is needed, or {len(names)}, for {shown}")
         array = (c_double * len(names))(*[number("mass", value) for value in values])
+        instance.call("SetReal", self._variables.references(names), len(names), array)
+
+    def _set_inverse_masses(self, instance: Instance, matrix: Any) -> None:
+        names, count, path = self._variables.inverse_masses, self._count, self._path
+        if not names:
+            raise ContactError(
+                f'inverse_masses: {path} has no such inputs; inverse_masses = "input" under '
+                "[coupling] of its scene adds them"
+            )
+        if np.shape(matrix) != (count, count):
+            raise TypeError(
+                f"inverse_masses = {matrix!r}: {count} x {count} numbers are needed, a row and a "
+                "column for each contact"
+            )
+        entries = [[number("inverse_masses", value) for value in row] for row in matrix]
+        values = np.array(entries)
+        skew = np.abs(values - values.T)
+        # products of an engine's matrices are symmetric to rounding
+        if np.any(skew > SYMMETRIC * np.abs(values).max()):
+            row, column = np.unravel_index(np.nanargmax(skew), skew.shape)
+            raise ContactError(
+                f"inverse_masses: entry [{row + 1},{column + 1}] = {values[row, column]} and "
+                f"[{column + 1},{row + 1}] = {values[column, row]} 1/kg must be equal"
+            )
+        upper = values[np.triu_indices(count)].tolist()
+        array = (c_double * len(names))(*upper)
         instance.call("SetReal", self._variables.references(names), len(names), array)

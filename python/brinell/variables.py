@@ -41,6 +41,8 @@ class Variables:
         self.is_for_next_step = any("over the next step" in text for text in mean)
         # in the order of the contacts, if each has one
         self.masses = self.every("effective_mass") or self.owners("effective_mass")
+        # the upper triangle, row by row
+        self.inverse_masses = [name for name in self._all if name.startswith("inverse_mass[")]
         self.mass_is_settable = bool(self.masses) and all(
             self._all[name].causality == "input" or self._all[name].variability == "tunable"
             for name in self.masses
@@ -138,7 +140,8 @@ class Variables:
         if np.shape(gap) != (len(self.contacts),) or not own:
             raise ContactError(
                 f"initial_gap = {gap}: the FMU has {len(self.contacts)} contacts, "
-                f"and the parameters {', '.join(names)}"
+                f"and the parameters {', '.join(names)}; "
+                'parameters_per_contact = ["initial_gap"] in its scene gives each its own'
             )
         return dict(zip(own, np.asarray(gap, dtype=float).tolist(), strict=True))
 
