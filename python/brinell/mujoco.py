@@ -171,78 +171,119 @@ class Attached:
         return gaps, normals
 
     def _directions(self, gaps: Array, normals: Array) -> tuple[Array, Array]:
-        """Derivative of each distance by the engine's velocities, and the part of its second
-        derivative [m/s^2] that the velocities make without any acceleration.
+        """Derivative of each distance by the engine's velocities, and the time derivative of that.
 
-        The distance is that of the centre of the sphere, so that both are those of its centre. The
-        centre and the point of contact lie on one normal and close at the same rate.
+        They are those of the centre of the sphere: it and the point of contact lie on one normal
+        and close at the same rate.
         """
         model, data = self.model, self.data
-        away, bends = np.zeros((len(gaps), model.nv)), np.zeros(len(gaps))
-        own, others, turn = (np.zeros((3, model.nv)) for _ in range(3))
+        away, change = np.zeros((2, len(gaps), model.nv))
+        own, others, turn, own_change, others_change = np.zeros((5, 3, model.nv))
         for index, (pair, normal) in enumerate(zip(self._pairs, normals, strict=True)):
             centre = data.geom_xpos[pair.geom]
             at = centre if pair.is_plane else data.geom_xpos[pair.other]
             mujoco.mj_jac(model, data, own, None, centre, pair.body)
             mujoco.mj_jac(model, data, others, turn, at, pair.other_body)
-            away[index] = normal @ (own - others)
+            mujoco.mj_jacDot(model, data, own_change, None, centre, pair.body)
+            mujoco.mj_jacDot(model, data, others_change, None, at, pair.other_body)
             slip = (own - others) @ data.qvel
-            mujoco.mj_jacDot(model, data, own, None, centre, pair.body)
-            mujoco.mj_jacDot(model, data, others, None, at, pair.other_body)
-            bends[index] = normal @ (own - others) @ data.qvel
             if pair.is_plane:
-                bends[index] -= 2.0 * normal @ np.cross(turn @ data.qvel, slip)
+                # the place below the sphere moves over the plane
+                others_change -= np.cross(slip, turn, axisb=0).T
+                swing = np.cross(turn @ data.qvel, normal)
             else:
-                sideways = slip - normal * (normal @ slip)
-                bends[index] += sideways @ sideways / (gaps[index] + pair.radius)
-        return away, bends
+                swing = (slip - normal * (normal @ slip)) / (gaps[index] + pair.radius)
+            away[index] = normal @ (own - others)
+            change[index] = normal @ (own_change - others_change) + swing @ (own - others)
+        return away, change
 
     def step(self) -> Array:
         """Make a step of the model, instead of `mj_step`; return the mean force [N] of each contact.
 
-        MuJoCo computes the acceleration `a` of the bodies without these contacts, and the FMU the
-        impulses `P` and their moments `Q`. The velocities get `h a` and the impulses at once, so
-        that momentum is exact. MuJoCo's Euler method moves the bodies by `h` times the new
-        velocity. Here they move by `h v + h^2/2 a` and by the moments of the impulses: exact for
-        what the FMU integrates within the step. What is left is that directions change within a
-        step. Bodies in contact are set to the indentations of the FMU, along the directions in
-        which an impulse moves them; contacts that are apart follow the distances of the bodies.
+        MuJoCo computes the acceleration `a` of its bodies without these contacts, and the FMU the
+        impulses `P` of the contacts and their moments `Q`. The velocities change by `h a` and by
+        the impulses. MuJoCo's Euler method moves the bodies by `h` times the new velocity. Here
+        they move by `h v + h^2/2 a` and by the moments, which is exact for what the FMU integrates.
+
+        Bodies turn within a step. If any contact pushes, the step is therefore made again, with the
+        bodies at the mean time of the impulses: with their inverse masses there, with the
+        directions and arms of each impulse at its own mean time, and with the acceleration by the
+        velocities before the impulses until then, and by those after them from then on. Errors are
+        of second order in the angle of a step.
+
+        Contacts that pushed: the bodies are set to the indentations of the FMU, along the
+        directions in which impulses move them. Contacts that are apart follow the bodies.
         """
         model, data, contact = self.model, self.data, self.contact
         h = model.opt.timestep
-        mujoco.mj_forward(model, data)
-        self.gaps, normals = self._distances()
-        away, bends = self._directions(self.gaps, normals)
-        response = np.zeros_like(away)
-        mujoco.mj_solveM(model, data, response, away)
-        masses = away @ response.T
-        self.inverse_masses = masses = 0.5 * (masses + masses.T)
-        rates, accelerations = -(away @ data.qvel), -(away @ data.qacc + bends)
-        given = {"inverse_masses": masses, "gap": self.gaps}
-        self.forces = np.atleast_1d(contact.step(h, rates, accelerations, **given))
-        moments = np.atleast_1d(contact["impulse_moment"])
-
         place, speed = data.qpos.copy(), data.qvel.copy()
-        data.qvel += h * self.forces @ response
-        pushed = data.qvel.copy()
-        mujoco.mj_Euler(model, data)
-        data.qpos = place
-        mean = speed + 0.5 * (data.qvel - pushed) + moments @ response / h
-        mujoco.mj_integratePos(model, data.qpos, mean, h)
-        self._settle(response)
+        mujoco.mj_forward(model, data)
+        self.gaps, away, change, response, _ = self._now()
+        pull = data.qacc.copy()
+        rates, accelerations = -(away @ speed), -(away @ pull + change @ speed)
+        self.inverse_masses = _symmetric(away @ response.T)
+        given = {"gap": self.gaps, "inverse_masses": self.inverse_masses}
+        before = contact.save()
+        self.forces = np.atleast_1d(contact.step(h, rates, accelerations, **given))
+        if not self.forces.any():
+            self._advance(place, speed, speed + 0.5 * h * pull)
+            return self.forces
+
+        moments = np.atleast_1d(contact["impulse_moment"])
+        time = h - moments.sum() / (h * self.forces.sum())
+        mujoco.mj_integratePos(model, data.qpos, speed + 0.5 * time * pull, time)
+        data.qvel = speed + time * pull
+        mujoco.mj_forward(model, data)
+        _, away, _, response, turning = self._now()
+        self.inverse_masses = _symmetric(away @ response.T)
+        given["inverse_masses"] = self.inverse_masses
+        contact.restore(before)
+        self.forces = np.atleast_1d(contact.step(h, rates, accelerations, **given))
+        moments, impulses = np.atleast_1d(contact["impulse_moment"]), h * self.forces
+        pushes = self.forces > 0.0
+        times = h - np.divide(moments, impulses, out=np.full_like(moments, h - time), where=pushes)
+        response += (times - time)[:, None] * turning
+        kick = impulses @ response
+        data.qvel += kick
+        mujoco.mj_forward(model, data)
+        data.qacc = (time * pull + (h - time) * data.qacc) / h
+        mean = speed + 0.5 * h * data.qacc + moments @ response / h
+        self._advance(place, speed + kick, mean)
+        self._settle(pushes, response)
         return self.forces
 
-    def _settle(self, response: Array) -> None:
-        """Move the bodies of contacts that pushed in the last step to their indentations."""
+    def _now(self) -> tuple[Array, Array, Array, Array, Array]:
+        """Distances, their derivatives by the velocities, the time derivatives of these, and how an
+        impulse at each contact changes the velocities by the former and by the latter."""
+        gaps, normals = self._distances()
+        away, change = self._directions(gaps, normals)
+        response, turning = np.zeros_like(away), np.zeros_like(away)
+        mujoco.mj_solveM(self.model, self.data, response, away)
+        mujoco.mj_solveM(self.model, self.data, turning, change)
+        return gaps, away, change, response, turning
+
+    def _advance(self, place: Array, speed: Array, mean: Array) -> None:
+        """The engine's step from `place` and `speed` with its present acceleration, but with `mean`
+        as the mean velocity over the step."""
         model, data = self.model, self.data
+        data.qvel = speed
+        mujoco.mj_Euler(model, data)
+        data.qpos = place
+        mujoco.mj_integratePos(model, data.qpos, mean, model.opt.timestep)
         mujoco.mj_kinematics(model, data)
         self.gaps, _ = self._distances()
-        pushed = self.forces > 0.0
-        if not pushed.any():
-            return
+
+    def _settle(self, pushed: NDArray[np.bool_], response: Array) -> None:
+        """Move the bodies of these contacts to their indentations."""
+        model, data = self.model, self.data
         error = (self.gaps + np.atleast_1d(self.contact["indentation"]))[pushed]
         masses = self.inverse_masses[np.ix_(pushed, pushed)]
         way = np.linalg.lstsq(masses, -error, rcond=SINGULAR)[0]
         mujoco.mj_integratePos(model, data.qpos, way @ response[pushed], 1.0)
         mujoco.mj_kinematics(model, data)
         self.gaps, _ = self._distances()
+
+
+def _symmetric(matrix: Array) -> Array:
+    """Without the rounding of a product."""
+    return 0.5 * (matrix + matrix.T)
