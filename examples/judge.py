@@ -66,6 +66,57 @@ class Balance:
             sys.exit(f"the balance errs by more than {BALANCE}")
 
 
+def total(model, data):
+    """Kinetic and potential energy [J] in a model of MuJoCo."""
+    import mujoco  # other engines' examples do without it
+
+    mujoco.mj_forward(model, data)
+    mujoco.mj_energyPos(model, data)
+    mujoco.mj_energyVel(model, data)
+    return data.energy.sum()
+
+
+class Total:
+    """Checks that kinetic and potential energy in a model of MuJoCo, and the elastic and dissipated
+    energies of all contacts of an FMU, have the same sum after every step."""
+
+    def __init__(self, model, data, contact):
+        self.model, self.data, self.contact = model, data, contact
+        self.start, self.worst = self._now(), 0.0
+
+    def _now(self):
+        held = sum(self.contact[name].sum() for name in ("elastic_energy", "dissipated_energy"))
+        return total(self.model, self.data) + held
+
+    def step(self):
+        """To be called after each step."""
+        self.worst = max(self.worst, abs(self._now() - self.start))
+
+    def told(self, of, scale, allowed=2e-4):
+        """Prints the result over `scale` [J], which `of` names; ends the example if it is wrong."""
+        error = self.worst / scale
+        print(f"balance of energy: {error:.1e} of the {of} (allowed {allowed:g})")
+        if not error <= allowed:
+            sys.exit(f"the balance errs by more than {allowed}")
+
+
+def flight(model, data, seconds, scale):
+    """Prints how the energy changes in a free flight by the engine alone, over `scale` [J]: with its
+    gravity, and without."""
+    import mujoco
+
+    place, spin = data.qpos.copy(), data.qvel.copy()
+    for gravity in (model.opt.gravity.copy(), np.zeros(3)):
+        model.opt.gravity = gravity
+        data.qpos, data.qvel = place, spin
+        start, steps = total(model, data), round(seconds / model.opt.timestep)
+        for _ in range(steps):
+            mujoco.mj_step(model, data)
+        error = abs(total(model, data) - start) / scale
+        shown = "with" if gravity.any() else "without"
+        print(f"the engine's own flight of {seconds} s {shown} gravity: {error:.1e} of that energy")
+
+
 def alone(path, height, gravity, mass, end, h):
     """The dropped ball with the FMU alone, in steps of `h` [s]: times [s], heights [m] and speeds
     upwards [m/s]."""

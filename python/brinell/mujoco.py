@@ -173,28 +173,25 @@ class Attached:
     def _directions(self, gaps: Array, normals: Array) -> tuple[Array, Array]:
         """Derivative of each distance by the engine's velocities, and the time derivative of that.
 
-        They are those of the centre of the sphere: it and the point of contact lie on one normal
+        They are those of the centres of spheres: a centre and the point of contact lie on one normal
         and close at the same rate.
         """
         model, data = self.model, self.data
         away, change = np.zeros((2, len(gaps), model.nv))
-        own, others, turn, own_change, others_change = np.zeros((5, 3, model.nv))
+        own, others, own_change, others_change = np.zeros((4, 3, model.nv))
         for index, (pair, normal) in enumerate(zip(self._pairs, normals, strict=True)):
-            centre = data.geom_xpos[pair.geom]
-            at = centre if pair.is_plane else data.geom_xpos[pair.other]
+            centre, other = data.geom_xpos[pair.geom], data.geom_xpos[pair.other]
             mujoco.mj_jac(model, data, own, None, centre, pair.body)
-            mujoco.mj_jac(model, data, others, turn, at, pair.other_body)
+            mujoco.mj_jac(model, data, others, None, other, pair.other_body)
             mujoco.mj_jacDot(model, data, own_change, None, centre, pair.body)
-            mujoco.mj_jacDot(model, data, others_change, None, at, pair.other_body)
-            slip = (own - others) @ data.qvel
-            if pair.is_plane:
-                # the place below the sphere moves over the plane
-                others_change -= np.cross(slip, turn, axisb=0).T
-                swing = np.cross(turn @ data.qvel, normal)
-            else:
-                swing = (slip - normal * (normal @ slip)) / (gaps[index] + pair.radius)
+            mujoco.mj_jacDot(model, data, others_change, None, other, pair.other_body)
             away[index] = normal @ (own - others)
-            change[index] = normal @ (own_change - others_change) + swing @ (own - others)
+            change[index] = normal @ (own_change - others_change)
+            if not pair.is_plane:
+                # planes stand still; the line between two centres turns
+                slip = (own - others) @ data.qvel
+                sideways = slip - normal * (normal @ slip)
+                change[index] += sideways @ (own - others) / (gaps[index] + pair.radius)
         return away, change
 
     def step(self) -> Array:

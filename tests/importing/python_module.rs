@@ -27,6 +27,12 @@ fn scenes() -> Vec<PathBuf> {
         scene("two_directions"),
         with("regime", "[fmu]\noutputs = [\"indentation\", \"regime\"]"),
         with("two", &format!("[fmu]\noutputs = {OUTPUTS}\n[coupling]\neffective_mass = 4e-3\n{two}")),
+        with(
+            "feet",
+            &format!(
+                "[fmu]\noutputs = {OUTPUTS}\n[coupling]\ninverse_masses = \"input\"\n[[contact]]\nname = \"foot\"\ncount = 3"
+            ),
+        ),
         with("row", "[fmu]\noutputs = [\"indentation\", \"regime\"]\n[[contact]]\nname = \"bead\"\ncount = 3"),
         with(
             "each",

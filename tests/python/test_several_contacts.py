@@ -144,3 +144,57 @@ def test_parameters_of_each_contact_that_are_refused():
         contact("each", target_yield_strength=wrong)
     with pytest.raises(TypeError, match="a number is needed, not list"):
         contact("mass_known", target_yield_strength=[1e8])
+
+
+# contacts that share bodies
+
+W = np.array([[20.0, -10.0, 0.0], [-10.0, 15.0, 2.0], [0.0, 2.0, 8.0]])
+
+
+def test_inverse_masses_move_all_contacts_together():
+    rates = np.array([0.3, 0.0, 0.1])
+    with contact("feet") as feet:
+        force = feet.step(1e-3, rates, [9.81, 0.0, 0.0], inverse_masses=W)
+        moment, depth = feet["impulse_moment"], feet["indentation"]
+        assert force.shape == moment.shape == (3,) and np.all(force > 0.0)
+        path = 1e-3 * rates + np.array([0.5e-6 * 9.81, 0.0, 0.0]) - W @ moment
+        assert depth == pytest.approx(path, abs=1e-15)
+        after = rates + 1e-3 * (np.array([9.81, 0.0, 0.0]) - W @ force)
+        energy = feet["elastic_energy"] + feet["dissipated_energy"]
+        work = force @ rates * 1e-3 + 9.81 * (1e-3 * 1e-3 * force[0] - moment[0])
+        work -= 0.5e-6 * force @ W @ force
+        assert energy.sum() == pytest.approx(work, rel=1e-9)
+        # the matrix holds until it is set again
+        held = feet.save()
+        expected = feet.step(1e-3, after, inverse_masses=W.tolist())
+        feet.restore(held)
+        assert bits(feet.step(1e-3, after)) == bits(expected)
+
+
+def test_a_contact_that_shares_a_body_follows_its_own_gap():
+    with contact("feet", initial_gap=1e-3) as feet:
+        # the second starts to move when the first has hit: it cannot touch by itself
+        gaps = [1e-3, 1e-3 + 1e-9, 2e-3]
+        feet.step(1e-3, [0.0, 0.1, 0.2], [0.0, 1.0, 0.0], inverse_masses=W, gap=gaps)
+        moved = np.array([0.0, 1e-4 + 0.5e-6, 2e-4])
+        assert feet["indentation"] == pytest.approx(moved - gaps, abs=1e-16)
+
+
+def test_inverse_masses_that_are_refused():
+    rates = [0.1, 0.1, 0.1]
+    skew, weak, nan = W.copy(), W.copy(), W.copy()
+    skew[0, 1], weak[1, 1], nan[0, 0] = -9.0, 0.0, np.nan
+    with contact("feet") as feet:
+        for wrong in (1.0, W[:2], W[0], "ab", [[1.0]]):
+            with pytest.raises(TypeError, match=r"(?s)inverse_masses = .*: 3 x 3 numbers are needed"):
+                feet.step(H, rates, inverse_masses=wrong)
+        with pytest.raises(TypeError, match="inverse_masses = 'a': a number is needed"):
+            feet.step(H, rates, inverse_masses=[["a", 0, 0], [0, 1, 0], [0, 0, 1]])
+        with pytest.raises(ContactError, match=r"entry \[1,2\] = -9.0 and \[2,1\] = -10.0 1/kg must be equal"):
+            feet.step(H, rates, inverse_masses=skew)
+        assert feet.time == 0.0
+    for matrix, text in ((weak, r"inverse_mass\[2,2\] = 0 must be"), (nan, r"inverse_mass\[1,1\]")):
+        with contact("feet") as feet, pytest.raises(ContactError, match=text):
+            feet.step(H, rates, inverse_masses=matrix)
+    with contact("two") as two, pytest.raises(ContactError, match='no such inputs; inverse_masses = "input"'):
+        two.step(H, [0.1, 0.1], inverse_masses=np.eye(2))

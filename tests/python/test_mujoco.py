@@ -1,0 +1,227 @@
+"""Contacts that share bodies in MuJoCo: distances, inverse masses, momentum, energy, and what is refused."""
+
+import brinell
+import brinell.mujoco
+import mujoco
+import numpy as np
+import pytest
+from brinell import ContactError, UnknownName
+
+SCENE = """
+name = "{name}"
+[impactor]
+radius = 5e-3
+[target]
+material = "mild steel"
+[law]
+loading = "{law}"
+unloading = "contact-radius"
+[fmu]
+outputs = ["indentation", "elastic_energy", "dissipated_energy"]
+[impact]
+mass = 0.1
+speed = 0.3
+{coupling}
+[[contact]]
+name = "foot"
+count = {count}
+parameters_per_contact = ["initial_gap"]
+"""
+INPUTS = '[coupling]\ninverse_masses = "input"'
+MASS, INERTIA = 0.3, np.array([1.2e-4, 2.6e-4, 3.5e-4])
+FEET = np.array([[x, y, -0.02] for x in (-0.04, 0.04) for y in (-0.025, 0.025)])
+
+
+@pytest.fixture(scope="module")
+def unit(tmp_path_factory):
+    folder, made = tmp_path_factory.mktemp("units"), {}
+
+    def export(count, coupling=INPUTS):
+        name = f"feet{count}" + ("" if coupling == INPUTS else "_alone")
+        if name not in made:
+            scene = folder / f"{name}.toml"
+            values = {"name": name, "law": "big-alabo", "coupling": coupling, "count": count}
+            scene.write_text(SCENE.format(**values), encoding="utf-8")
+            made[name] = brinell.export(scene, folder / f"{name}.fmu")
+        return made[name]
+
+    return export
+
+
+def world(bodies, step=1e-3, gravity=-9.81, more=""):
+    """A model with these bodies; geoms do not touch by themselves unless they say so."""
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><option timestep="{step}" gravity="0 0 {gravity}"/>'
+        '<default><geom contype="0" conaffinity="0"/></default>'
+        f"<worldbody>{bodies}</worldbody>{more}</mujoco>"
+    )
+    return model, mujoco.MjData(model)
+
+
+FLOOR = '<geom name="floor" type="plane" size="1 1 .1"/>'
+BOX = (
+    f'<body name="box"><freejoint/><inertial pos="0 0 0" mass="{MASS}" diaginertia="1.2e-4 2.6e-4 3.5e-4"/>'
+    + "".join(f'<geom name="foot{i}" size="5e-3" pos="{x} {y} {z}"/>' for i, (x, y, z) in enumerate(FEET))
+    + "</body>"
+)
+PAIRS = [(f"foot{i}", "floor") for i in range(4)]
+
+
+def test_the_inverse_masses_of_a_box_are_those_of_its_arms(unit):
+    model, data = world(FLOOR + BOX)
+    data.qpos[:] = [0.1, 0.2, 0.3, 0.9, 0.3, -0.2, 0.1]
+    mujoco.mju_normalize4(data.qpos[3:])
+    data.qvel[:] = [0.1, -0.2, 0.3, 1.0, 2.0, 3.0]
+    mujoco.mj_forward(model, data)
+    turned = data.body("box").xmat.reshape(3, 3).copy()
+    with brinell.mujoco.attach(model, data, PAIRS, unit(4)) as attached:
+        assert attached.gaps == pytest.approx(0.3 + (FEET @ turned.T)[:, 2] - 5e-3, abs=1e-15)
+        assert not attached.step().any()
+    levers = np.cross(FEET, turned[2])  # about the axes of the box
+    expected = 1.0 / MASS + levers @ (levers / INERTIA).T
+    assert attached.inverse_masses == pytest.approx(expected, rel=1e-12)
+    assert attached.contact.closed
+
+
+# a ball on an arm above the floor, and another beside it: every term of the second derivatives of distances
+MOVING = """
+<body name="first" pos="0.1 0.2 0.06"><freejoint/><inertial pos="0 0 0" mass="0.5" diaginertia="1e-4 1e-4 2e-4"/>
+  <geom name="first" size="5e-3" pos=".01 0 .02"/></body>
+<body name="second" pos="0.13 0.2 0.1"><freejoint/><geom name="second" size="4e-3" mass="0.1"/></body>
+"""
+
+
+def test_distances_follow_bodies_that_turn_to_the_third_order(unit):
+    errors = []
+    for step in (2e-3, 1e-3, 5e-4):
+        model, data = world(FLOOR + MOVING, step)
+        data.qvel[:] = [-0.3, 0.5, 0.2, 1.0, 4.0, -2.0, 0.4, -0.6, 0.3, 0.0, 0.0, 0.0]
+        pairs = [("floor", "first"), ("second", "first")]
+        with brinell.mujoco.attach(model, data, pairs, unit(2)) as attached:
+            assert not attached.step().any()
+            errors.append(np.abs(attached.gaps + attached.contact["indentation"]))
+    errors = np.array(errors)
+    assert np.all(errors[0] < 1e-5)
+    # halving the step divides an error of third order by eight
+    assert errors[:-1] / errors[1:] == pytest.approx(np.full((2, 2), 8.0), rel=0.1)
+
+
+CORNER = """
+<body name="box"><freejoint/><inertial pos="3e-3 1e-3 2e-3" mass="0.3" diaginertia="1.2e-4 2.6e-4 3.5e-4"/>
+  <geom name="corner" size="5e-3" pos=".03 .02 .01"/></body>
+<body name="ball" pos=".045 .02 .012"><freejoint/><geom name="ball" size="5e-3" mass="0.05"/></body>
+"""
+
+
+def momentum(model, data):
+    """Linear momentum [N s], angular momentum about the origin [N m s] and kinetic energy [J]."""
+    mujoco.mj_forward(model, data)
+    linear, angular, kinetic = np.zeros(3), np.zeros(3), 0.0
+    for body in range(1, model.nbody):
+        speed = np.zeros(6)
+        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, speed, 0)
+        turn, mass, centre = speed[:3], model.body_mass[body], data.xipos[body]
+        moves = speed[3:] + np.cross(turn, centre - data.xpos[body])
+        axes = data.ximat[body].reshape(3, 3)
+        spin = axes @ (model.body_inertia[body] * (axes.T @ turn))
+        linear += mass * moves
+        angular += spin + mass * np.cross(centre, moves)
+        kinetic += 0.5 * mass * moves @ moves + 0.5 * spin @ turn
+    return linear, angular, kinetic
+
+
+def collide(path, bodies, pairs, speed, step):
+    """How momentum, angular momentum and energy change as the last body hits the others at this speed
+    [m/s], each over what that body has at first."""
+    model, data = world(bodies, step, 0.0)
+    data.qvel[-6:-3] = speed
+    before = momentum(model, data)
+    with brinell.mujoco.attach(model, data, pairs, path) as attached:
+        for _ in range(round(0.02 / step)):
+            attached.step()
+        taken = np.sum(attached.contact["dissipated_energy"])
+        assert taken > 0.1 * before[2] and np.all(attached.gaps > 0.0)
+    after = momentum(model, data)
+    scales = [np.linalg.norm(before[0]), np.linalg.norm(before[1]), before[2]]
+    changes = [after[0] - before[0], after[1] - before[1], after[2] + taken - before[2]]
+    return [np.max(np.abs(change)) / scale for change, scale in zip(changes, scales, strict=True)]
+
+
+def test_bodies_that_collide_keep_their_momentum_and_lose_what_the_contacts_take(unit):
+    rack = "".join(
+        f'<body name="{name}" pos="{place}"><freejoint/><geom name="{name}" size="5e-3" mass="4e-3"/></body>'
+        for name, place in (("left", "0 5e-3 0.1"), ("right", "0 -5.001e-3 0.1"), ("cue", "0.02 1e-3 0.1"))
+    )
+    pairs = [("left", "right"), ("cue", "left"), ("right", "cue")]
+    linear, angular, energy = collide(unit(3), rack, pairs, [-2.0, 0.1, 0.05], 1e-3)
+    assert linear < 1e-14 and angular < 5e-5 and energy < 1e-3
+
+
+def test_the_errors_of_bodies_that_turn_fall_with_the_step(unit):
+    limits = {1e-3: (2e-6, 2e-6, 1e-3), 1e-4: (2e-7, 2e-7, 1e-5)}
+    for step, allowed in limits.items():
+        errors = collide(unit(1), CORNER, [("ball", "corner")], [-0.5, 0.1, 0.0], step)
+        assert np.all(np.array(errors) < allowed), f"{step}: {errors}"
+
+
+def test_a_ball_between_two_walls_has_equal_and_opposite_indentations(unit):
+    walls = '<geom name="{}" type="plane" size="1 1 .1" pos="{} 0 0" euler="0 {} 0"/>'
+    ball = '<body><joint type="slide" axis="1 0 0"/><geom name="ball" size="5e-3" mass="4e-3"/></body>'
+    both = walls.format("left", "-5e-3", 90) + walls.format("right", "5e-3", -90)
+    for step in (1e-4, 1e-3):
+        model, data = world(both + ball, step)
+        data.qvel[:] = 0.5
+        pairs = [("ball", "right"), ("ball", "left")]
+        with brinell.mujoco.attach(model, data, pairs, unit(2)) as attached:
+            contact, start = attached.contact, 0.5 * 4e-3 * 0.25
+            for _ in range(200):
+                attached.step()
+                first, second = contact["indentation"]
+                assert first == pytest.approx(-second, abs=1e-14)
+                assert data.qpos[0] == pytest.approx(first, abs=1e-14)
+                held = contact["elastic_energy"].sum() + contact["dissipated_energy"].sum()
+                assert 0.5 * 4e-3 * data.qvel[0] ** 2 + held == pytest.approx(start, rel=1e-9)
+
+
+def test_a_box_set_on_its_feet_stays(unit):
+    model, data = world(FLOOR + BOX)
+    data.qpos[2] = 0.025
+    with brinell.mujoco.attach(model, data, PAIRS, unit(4)) as attached:
+        place = []
+        for _ in range(300):
+            forces = attached.step()
+            place.append(data.qpos.copy())
+            assert forces == pytest.approx(np.full(4, forces[0]), rel=1e-9)
+    # it swings about the place at which its feet carry it, by no more than that sinks
+    heights = 0.025 - np.array(place)[:, 2]
+    assert np.all(heights > -1e-12) and heights.max() < 1e-6
+    assert np.abs(np.array(place)[:, 3:] - [1.0, 0.0, 0.0, 0.0]).max() < 1e-12
+
+
+def test_what_is_refused_names_the_pair(unit):
+    on = FLOOR.replace("/>", ' conaffinity="1"/>') + BOX.replace('size="5e-3" ', 'size="5e-3" contype="1" ')
+    model, data = world(on)
+    with pytest.raises(ContactError, match=r"pair 'foot0' and 'floor': MuJoCo's own contact is on; .*contype"):
+        brinell.mujoco.attach(model, data, PAIRS, unit(4))
+    model, data = world(on, more='<contact><exclude body1="box" body2="world"/></contact>')
+    data.qpos[2] = 0.1
+    brinell.mujoco.attach(model, data, PAIRS, unit(4)).close()
+    explicit = '<contact><pair geom1="floor" geom2="foot1"/></contact>'
+    model, data = world(FLOOR + BOX, more=explicit)
+    with pytest.raises(ContactError, match="pair 'foot1' and 'floor'"):
+        brinell.mujoco.attach(model, data, PAIRS, unit(4))
+
+    model, data = world(FLOOR + BOX + '<geom name="block" type="box" size=".1 .1 .1"/>')
+    for pairs, error, text in (
+        ([("foot0", "roof")], UnknownName, r"no geom 'roof'; there are: floor, block, foot0"),
+        ([("foot0", "block")], ContactError, r"pair 'foot0' and 'block': sphere and box; allowed are a sphere"),
+        (["foot0"], ContactError, r"pair 'foot0': two names of geoms are needed"),
+        (PAIRS[:3], ContactError, r"3 pairs of geoms: feet4.fmu needs foot\[1\], foot\[2\]"),
+    ):
+        with pytest.raises(error, match=text):
+            brinell.mujoco.attach(model, data, pairs, unit(4))
+    with pytest.raises(ContactError, match=r"feet4_alone.fmu has no such inputs; inverse_masses = \"input\""):
+        brinell.mujoco.attach(model, data, PAIRS, unit(4, "[coupling]\neffective_mass = 0.1")).step()
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    with pytest.raises(ContactError, match="integrator = rk4: attach needs MuJoCo's default, Euler"):
+        brinell.mujoco.attach(model, data, PAIRS, unit(4))
