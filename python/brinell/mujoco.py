@@ -202,11 +202,12 @@ class Attached:
         the impulses. MuJoCo's Euler method moves the bodies by `h` times the new velocity. Here
         they move by `h v + h^2/2 a` and by the moments, which is exact for what the FMU integrates.
 
-        Bodies turn within a step. If any contact pushes, the step is therefore made again, with the
-        bodies at the mean time of the impulses: with their inverse masses there, with the
-        directions and arms of each impulse at its own mean time, and with the acceleration by the
-        velocities before the impulses until then, and by those after them from then on. Errors are
-        of second order in the angle of a step.
+        Bodies turn within a step. So `a` is that at the middle of a step (the Verlet method, which
+        is symplectic as MuJoCo's is, but of second order). If any contact pushes, the FMU makes the
+        step again, with the bodies at the mean time of the impulses: with their inverse masses and
+        accelerations there, with the directions and arms of each impulse at its own mean time, and
+        with the velocities before the impulses until then, and those after them from then on.
+        Errors are of second order in the angle of a step.
 
         Contacts that pushed: the bodies are set to the indentations of the FMU, along the
         directions in which impulses move them. Contacts that are apart follow the bodies.
@@ -216,22 +217,25 @@ class Attached:
         place, speed = data.qpos.copy(), data.qvel.copy()
         mujoco.mj_forward(model, data)
         self.gaps, away, change, response, _ = self._now()
-        pull = data.qacc.copy()
-        rates, accelerations = -(away @ speed), -(away @ pull + change @ speed)
+        rates, accelerations = -(away @ speed), -(away @ data.qacc + change @ speed)
         self.inverse_masses = _symmetric(away @ response.T)
         given = {"gap": self.gaps, "inverse_masses": self.inverse_masses}
         before = contact.save()
         self.forces = np.atleast_1d(contact.step(h, rates, accelerations, **given))
-        if not self.forces.any():
-            self._advance(place, speed, speed + 0.5 * h * pull)
+        pushes, time = self.forces > 0.0, 0.5 * h
+        if pushes.any():
+            moments = np.atleast_1d(contact["impulse_moment"])
+            time = h - moments.sum() / (h * self.forces.sum())
+
+        mujoco.mj_integratePos(model, data.qpos, speed, time)
+        data.qvel = speed + time * data.qacc
+        mujoco.mj_forward(model, data)
+        if not pushes.any():
+            self._advance(place, speed, speed + 0.5 * h * data.qacc)
             return self.forces
 
-        moments = np.atleast_1d(contact["impulse_moment"])
-        time = h - moments.sum() / (h * self.forces.sum())
-        mujoco.mj_integratePos(model, data.qpos, speed + 0.5 * time * pull, time)
-        data.qvel = speed + time * pull
-        mujoco.mj_forward(model, data)
-        _, away, _, response, turning = self._now()
+        _, away, change, response, turning = self._now()
+        accelerations = -(away @ data.qacc + change @ data.qvel)
         self.inverse_masses = _symmetric(away @ response.T)
         given["inverse_masses"] = self.inverse_masses
         contact.restore(before)
@@ -240,7 +244,7 @@ class Attached:
         pushes = self.forces > 0.0
         times = h - np.divide(moments, impulses, out=np.full_like(moments, h - time), where=pushes)
         response += (times - time)[:, None] * turning
-        kick = impulses @ response
+        kick, pull = impulses @ response, data.qacc.copy()
         data.qvel += kick
         mujoco.mj_forward(model, data)
         data.qacc = (time * pull + (h - time) * data.qacc) / h
