@@ -164,6 +164,22 @@ def test_the_errors_of_bodies_that_turn_fall_with_the_step(unit):
         assert np.all(np.array(errors) < allowed), f"{step}: {errors}"
 
 
+def test_a_pendulum_that_touches_nothing_keeps_its_energy(unit):
+    arm = '<body pos="0 0 1"><joint axis="0 1 0" pos="0 0 0.1"/><geom name="bob" size="5e-3" mass="0.1"/></body>'
+    for step, allowed in ((2e-3, 1.6e-4), (1e-3, 4e-5)):
+        model, data = world(FLOOR + arm, step)
+        data.qpos[0] = 1.0
+        worst, inertia = 0.0, 0.1 * (0.01 + 0.4 * 25e-6)
+        with brinell.mujoco.attach(model, data, [("bob", "floor")], unit(1)) as attached:
+            for _ in range(round(5.0 / step)):
+                attached.step()
+                # above its lowest point, over the energy there
+                height = 0.1 * (np.cos(1.0) - np.cos(data.qpos[0]))
+                energy = 0.5 * inertia * data.qvel[0] ** 2 + 0.1 * 9.81 * height
+                worst = max(worst, abs(energy))
+        assert worst < allowed * 0.1 * 9.81 * 0.1 * (1.0 - np.cos(1.0))
+
+
 def test_a_ball_between_two_walls_has_equal_and_opposite_indentations(unit):
     walls = '<geom name="{}" type="plane" size="1 1 .1" pos="{} 0 0" euler="0 {} 0"/>'
     ball = '<body><joint type="slide" axis="1 0 0"/><geom name="ball" size="5e-3" mass="4e-3"/></body>'
