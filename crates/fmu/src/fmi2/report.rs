@@ -3,7 +3,7 @@
 use crate::c::complaint::Complaint;
 use crate::c::text::Text;
 use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
-use crate::scene::{Coupling, Presence, Real, Scene, Settable};
+use crate::scene::{Coupling, Presence, Real, Scene, Settable, Store};
 use brinell_contact::Contact;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 
@@ -198,6 +198,8 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             numbers[0] = step;
             "the bodies rebound too often to be followed within communicationStepSize = ~ s"
         }
+        Fault::TooLongTogether { .. } if !S::Shared::IS_PRESENT => "",
+        Fault::InverseMass { .. } | Fault::Indefinite { .. } if S::InverseMasses::LENGTH == 0 => "",
         Fault::TooLongTogether { step, possible } => {
             (numbers[0], numbers[1]) = (step, possible);
             "the contacts touch, part and turn too often to be followed within communicationStepSize = ~ s: a step of ~ s is possible"
