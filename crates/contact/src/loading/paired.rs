@@ -15,8 +15,8 @@ use libm::sqrt;
 /// line. Value and slope are continuous everywhere. Below yield it is Hertz's law.
 ///
 /// For a rigid sphere on a plane that does not harden and has a Poisson's ratio of 0.3 it is the law `brinell`, but for
-/// [large strain](mod@crate::large_strain). For a rigid sphere on others: against the finite-element curves in `data/truth/materials`, force within 0.5 % for `x` from 1.2 to 500, contact
-/// radius within 2.1 %.
+/// [large strain](mod@crate::large_strain). For a rigid sphere on others: against the finite-element curves in `data/truth/materials`,
+/// force within 0.5 % for `x` from 1.2 to 500, contact radius within 2.1 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Paired {
