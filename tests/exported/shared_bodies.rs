@@ -247,3 +247,36 @@ fn a_step_with_too_many_events_is_refused_with_the_step_that_would_do() {
     assert_eq!(instance.set_derivatives(&derivatives, 1, &[1e6, 1e6]), OK);
     assert_eq!(instance.step(0.0, possible), OK, "{}", instance.message());
 }
+
+/// A ball between two walls, in a unit that knows one mass for each of the two contacts.
+#[test]
+fn a_body_that_two_contacts_share_is_told_where_each_moves_it_alone() {
+    for master in ["", "master = \"parallel\"\n"] {
+        let text = format!(
+            "name = \"walls\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[coupling]\n\
+             effective_mass = 4e-3\n{master}[fmu]\noutputs = [\"indentation\"]\n\
+             [[contact]]\nname = \"c1\"\n[[contact]]\nname = \"c2\"\ninitial_gap = 1e-4\n"
+        );
+        let unit = Unit::load(&write_scene("walls", &text));
+        for is_shared in [true, false] {
+            let mut instance = unit.ready();
+            let (mut first, mut second, mut before, mut time) = (1.0, -1.0, 0.0, 0.0);
+            for _ in 0..12 {
+                step(&mut instance, &[first, second], time, 1e-6);
+                time += 1e-6;
+                let force = instance.real("c1.mean_force");
+                let applied = if master.is_empty() { force } else { before };
+                before = force;
+                first -= applied * 1e-6 / 4e-3;
+                second += if is_shared { applied * 1e-6 / 4e-3 } else { 0.0 };
+            }
+            let said = instance.message();
+            assert_eq!(said.contains("c2"), is_shared, "{master}: {said}");
+            assert_eq!(
+                said.contains("the force of contact number 1 moves a body of this one, too"),
+                is_shared,
+                "{said}"
+            );
+        }
+    }
+}

@@ -262,6 +262,12 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
         // a library contains no text for features that its scene lacks
+        Warning::Miswired { contact, rate, expected, shared_with: Some(other), .. } if S::CONTACTS > 1 => {
+            message.contact = Some(contact);
+            message.numbers = [rate, expected, other as f64 + 1.0];
+            "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one, too, and this FMU \
+             moves the bodies of each contact alone; give tables [[body]] in the scene, and `between` in each [[contact]]"
+        }
         _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired(&mut message, *warning, guard),
         _ => guard,
     };
@@ -270,7 +276,7 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
 
 /// The template for an importer with the other order of execution, otherwise that of the passivity `guard`.
 fn miswired(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
-    let Warning::Miswired { contact, rate, expected, parallel } = warning else { return guard };
+    let Warning::Miswired { contact, rate, expected, parallel, .. } = warning else { return guard };
     message.contact = Some(contact);
     (message.numbers[0], message.numbers[1]) = (rate, expected);
     if parallel {

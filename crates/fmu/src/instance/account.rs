@@ -87,6 +87,9 @@ impl Account {
 /// A change of speed below this fraction of the speeds does not reveal the order of execution.
 const TELLING: f64 = 1e-6;
 
+/// Two forces that differ by this part are not the same one.
+const DIFFERENT: f64 = 1e-2;
+
 /// Rounding error of the importer's own sums, as a fraction of such a change.
 const ROUNDING: f64 = 1e-8;
 
@@ -167,16 +170,59 @@ impl<S: Scene> Instance<S> {
         let other = if is_parallel::<S>() { -ending.jump } else { ending.jump };
         let size = rate.abs() + ending.speed.abs() + expected.abs();
         if other.abs() > TELLING * size && (rate - expected - other).abs() <= ROUNDING * other.abs() {
-            let wiring = Miswired { contact: contact as u32 + 1, rate, expected };
+            let wiring = Miswired { contact: contact as u32 + 1, rate, expected, other: 0 };
             self.contacts.miswired.as_mut().fill(wiring);
         }
     }
 
     /// The warning, once, that the last step began with the rate of an importer with the other order of execution.
     pub fn take_miswired(&mut self) -> Option<Warning> {
-        let Miswired { contact, rate, expected } = core::mem::take(self.contacts.miswired.as_mut().first_mut()?);
+        let Miswired { contact, rate, expected, other } = core::mem::take(self.contacts.miswired.as_mut().first_mut()?);
         let contact = contact.checked_sub(1)? as usize;
-        Some(Warning::Miswired { contact, rate, expected, parallel: is_parallel::<S>() })
+        let shared_with = other.checked_sub(1).map(|other| other as usize);
+        Some(Warning::Miswired { contact, rate, expected, parallel: is_parallel::<S>(), shared_with })
+    }
+
+    /// Looks for contacts that share a body though the FMU moves the bodies of each contact alone: in two steps, the rate of a contact
+    /// differs from the expected one by the same multiple of the force of another contact, which alone pushes.
+    pub(super) fn check_sharing(&mut self) {
+        if S::CONTACTS < 2 || !Self::MOVES {
+            return;
+        }
+        let mut pushing = None;
+        let mut count = 0_usize;
+        let Contacts { endings, suspects, .. } = &mut self.contacts;
+        for (contact, (ending, suspect)) in endings.as_ref().iter().zip(suspects.as_mut()).enumerate() {
+            let applied = if is_parallel::<S>() { suspect.before } else { ending.force };
+            suspect.before = ending.force;
+            if applied != 0.0 {
+                pushing = Some((contact, applied));
+                count += 1;
+            }
+        }
+        let Some((other, force)) = pushing.filter(|_| count == 1) else { return };
+        for contact in (0..S::CONTACTS).filter(|&contact| contact != other) {
+            let (Some(ending), Some(&rate)) = (self.contacts.endings.as_ref().get(contact), self.rates().get(contact))
+            else {
+                continue;
+            };
+            let expected = ending.speed + self.owed(contact);
+            let (beyond, size) = (rate - expected, rate.abs() + ending.speed.abs() + expected.abs());
+            let tells = beyond.abs() > TELLING * size;
+            let ratio = quotient(beyond, force, tells, 0.0);
+            let Some(suspect) = self.contacts.suspects.as_mut().get_mut(contact) else { continue };
+            let same = suspect.other == other as u32 + 1 && (ratio - suspect.ratio).abs() <= ROUNDING * ratio.abs();
+            let differs = (force - suspect.force).abs() > DIFFERENT * force.abs();
+            // the same force tells nothing new
+            if !tells || same && !differs {
+                continue;
+            }
+            let (contact, other) = (contact as u32 + 1, other as u32 + 1);
+            *suspect = Suspect { other, ratio, force, before: suspect.before };
+            if same {
+                self.contacts.miswired.as_mut().fill(Miswired { contact, rate, expected, other });
+            }
+        }
     }
 }
 
@@ -194,4 +240,19 @@ pub(super) struct Miswired {
     rate: f64,
     /// The rate that was expected \[m/s\].
     expected: f64,
+    /// The contact whose force moves its body, counted from 1; 0 if the order is the reason.
+    other: u32,
+}
+
+/// A contact whose rate was not the expected one when another one pushed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Suspect {
+    /// The other contact, counted from 1; 0 is none.
+    other: u32,
+    /// Difference of the rate over the force of the other contact \[m/(N.s)\].
+    ratio: f64,
+    /// That force \[N\].
+    force: f64,
+    /// Force of this contact before the last step \[N\].
+    before: f64,
 }

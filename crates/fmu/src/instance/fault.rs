@@ -170,6 +170,8 @@ pub enum Warning {
         expected: f64,
         /// Whether the scene is for an importer that steps all FMUs at once.
         parallel: bool,
+        /// Another contact, counted from 0, whose force moves a body of this one, if that is the reason.
+        shared_with: Option<usize>,
     },
     /// A step beyond the stability limit of a mass that responds to the force.
     Unstable {

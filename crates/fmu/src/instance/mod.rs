@@ -22,7 +22,7 @@ pub use fault::{Fault, Warning};
 pub use stepping::Plain;
 
 use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
-use account::{Account, Ending, Miswired};
+use account::{Account, Ending, Miswired, Suspect};
 use brinell_contact::behaviour::is_finite_at;
 use brinell_contact::shared::Work;
 use brinell_contact::{Contact, TooDeep};
@@ -60,6 +60,8 @@ struct Contacts<S: Scene> {
     /// Number of next steps to examine.
     looks: <S::Watch as Presence>::Of<u32, [u32; 1]>,
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
+    /// What is known of bodies that contacts share though the FMU moves those of each alone.
+    suspects: IfPresent<<S::Coupling as Coupling>::Ending, S, Suspect>,
     /// Moments of the impulses of the last step, if contacts share bodies \[N.s^2\].
     moments: IfPresent<S::Shared, S, f64>,
     /// Inverse effective masses that are inputs \[1/kg\].

@@ -117,6 +117,7 @@ impl<S: Scene> Instance<S> {
                 accelerations: Store::filled(0.0),
                 masses: Store::filled(f64::NAN),
                 miswired: Store::filled(Miswired::default()),
+                suspects: Store::filled(Suspect::default()),
                 watched: Store::filled(Watched::default()),
                 looks: Store::filled(0),
                 moments: Store::filled(0.0),
@@ -200,10 +201,11 @@ impl<S: Scene> Instance<S> {
             }
             first = end;
         }
-        let Contacts { accounts, miswired, watched, looks, moments, .. } = &mut self.contacts;
+        let Contacts { accounts, miswired, suspects, watched, looks, moments, .. } = &mut self.contacts;
         moments.as_mut().fill(0.0);
         accounts.as_mut().fill(Account::default());
         miswired.as_mut().fill(Miswired::default());
+        suspects.as_mut().fill(Suspect::default());
         watched.as_mut().fill(Watched::default());
         looks.as_mut().fill(0);
         self.note_forces();

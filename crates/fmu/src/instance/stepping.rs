@@ -246,6 +246,7 @@ impl<S: Scene> Instance<S> {
         let any_curve = self.contacts.curves.as_ref().iter().any(Curve::is_curved);
         let curved = !Self::PLAIN || any_curve || self.any_tangential_curve();
         self.clock.curved |= !Self::PLAIN;
+        self.check_sharing();
         for contact in 0..S::CONTACTS {
             self.check_wiring(contact);
             let Moved { mut history, course, mean_force, speed, deepest } = self.moved(contact, step)?;
