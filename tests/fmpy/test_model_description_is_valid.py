@@ -22,6 +22,8 @@ UNITS = {
     "Pa": ({"kg": 1, "m": -1, "s": -2}, {"MPa": 1e-6, "GPa": 1e-9}),
     "N/m": ({"kg": 1, "s": -2}, {}),
     "N.s": ({"kg": 1, "m": 1, "s": -1}, {}),
+    "N.s2": ({"kg": 1, "m": 1}, {}),
+    "1/kg": ({"kg": -1}, {}),
     "kg": ({"kg": 1}, {}),
     "J": ({"kg": 1, "m": 2, "s": -2}, {}),
 }
@@ -115,7 +117,8 @@ def test_initial_unknowns_are_complete_and_name_parameters_only(name):
         for index in unknown.get("dependencies").split():
             known = variables[int(index) - 1]
             # a speed before the first step is the given one, and so is the rate that a force follows
-            follows = variables[int(unknown.get("index")) - 1].get("name") == "closing_speed" or name == "damped"
+            output = variables[int(unknown.get("index")) - 1].get("name")
+            follows = quantity(output) == "closing_speed" or name in ("damped", "stack")
             assert known.get("causality") == "parameter" or follows and known.get("causality") == "input"
 
 
@@ -129,7 +132,7 @@ def test_kinds_of_variables_are_those_of_the_standard(name):
             variability = {"parameter": "tunable"}.get(variable.get("causality"), variability)
         if variable.get("causality") == "output":
             # an importer that smooths continuous signals must not smooth a force that belongs to a whole step
-            is_held = quantity(variable.get("name")) in ("mean_force", "mean_tangential_force")
+            is_held = quantity(variable.get("name")) in ("mean_force", "mean_tangential_force", "impulse_moment")
             variability = "discrete" if is_held or variable.find("Enumeration") is not None else "continuous"
         assert (variable.get("variability"), variable.get("initial")) == (variability, initial), variable.get("name")
         starts = variable[0].get("start") is not None

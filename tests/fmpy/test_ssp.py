@@ -99,6 +99,8 @@ def test_the_system_runs_as_its_unit_does(package):
     name, path = package
     if name == "many_contacts":
         pytest.skip("fmpy sets thousands of connectors one by one")
+    if name == "inverse_masses":
+        pytest.skip("fmpy makes the first step with all inputs at zero, and zero is no inverse mass")
     parameters = read_ssv(path, resource=f"resources/{name}.ssv")
     system = forces(name, str(path), parameters)
     instance = unit(name).ready()
