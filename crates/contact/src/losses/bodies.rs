@@ -9,15 +9,12 @@ use super::stretch::{Ended, State, Stretch};
 use super::{Damping, Form, Loss, Model};
 use crate::loading::Loading;
 use crate::motion::flight::Flight;
-use crate::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
+use crate::motion::{COSTLY, Drive, MOST_EVALUATIONS, NoMotion, Outcome};
 use crate::numbers::{largest, quotient};
 use crate::piece::Piece;
 use crate::regime::TooDeep;
 use crate::unloading::Unloading;
 use libm::fabs;
-
-/// The number of evaluations that one evaluation of a law without segments counts for.
-const COSTLY: u32 = 10;
 
 /// Newton's steps to the balance of a plate, which is near.
 const SETTLING: u32 = 3;

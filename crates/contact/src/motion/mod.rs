@@ -82,7 +82,7 @@ pub const MOST_EVALUATIONS: u32 = 1_000_000;
 pub const SMALLEST_MOTION: f64 = 1e-300;
 
 /// The number of evaluations that one evaluation of a law without segments counts for.
-const COSTLY: u32 = 10;
+pub(crate) const COSTLY: u32 = 10;
 
 /// Largest number of periods of an oscillation, or of lossless rebounds, in a step. The phase at the end is then known to a
 /// thousandth of a period.

@@ -107,11 +107,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
 
     /// Stiffness of the contact at `place` at present \[N/m\].
     pub(super) fn stiffness(&self, place: usize, member: &Work<C>) -> f64 {
-        let indentation = member.now.indentation();
-        member.branch.stiffness(indentation).unwrap_or_else(|| {
-            let model = (self.model)(self.first + place);
-            member.branch.stiffness_without_segments(indentation, C::plastic_model(model.borrow()))
-        })
+        present_stiffness(member, || (self.model)(self.first + place))
     }
 
     /// Moves the block through its time.
@@ -166,16 +162,13 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
     fn scale_losses(&mut self) {
         let Block { model, first, .. } = *self;
         for (place, member) in self.members_mut() {
-            let is_pressed = member.branch.kind != Kind::Apart;
-            let Some(loss) = member.loss.as_mut().filter(|loss| is_pressed && loss.damping.swiftest == 0.0) else {
+            let has_no_scale = member.loss.is_some_and(|loss| loss.damping.swiftest == 0.0);
+            if member.branch.kind == Kind::Apart || !has_no_scale {
                 continue;
-            };
-            let indentation = member.now.indentation();
-            let stiffness = member.branch.stiffness(indentation).unwrap_or_else(|| {
-                let model = model(first + place);
-                member.branch.stiffness_without_segments(indentation, C::plastic_model(model.borrow()))
-            });
-            let height = largest(indentation - member.branch.surface(), 0.0);
+            }
+            let stiffness = present_stiffness(member, || model(first + place));
+            let height = largest(member.now.indentation() - member.branch.surface(), 0.0);
+            let Some(loss) = &mut member.loss else { continue };
             loss.damping.swiftest = root(member.inverse_mass * stiffness) * height;
             if loss.damping.swiftest == 0.0 {
                 loss.begin();
@@ -321,6 +314,18 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         }
         Ok(())
     }
+}
+
+/// Stiffness of a contact at present \[N/m\]. Only laws without segments need the `model`.
+pub(super) fn present_stiffness<C: SharedContact<M>, M, B: Borrow<M>>(
+    member: &Work<C>,
+    model: impl FnOnce() -> B,
+) -> f64 {
+    let indentation = member.now.indentation();
+    member
+        .branch
+        .stiffness(indentation)
+        .unwrap_or_else(|| member.branch.stiffness_without_segments(indentation, C::plastic_model(model().borrow())))
 }
 
 /// Moves the history of a contact to the indentation `at` \[m\], over the largest one on its way.

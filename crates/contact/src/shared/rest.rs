@@ -5,7 +5,7 @@
 //! change of a load, a mass or a rate wakes it.
 
 use super::SharedContact;
-use super::block::Block;
+use super::block::{Block, present_stiffness};
 use super::branch::Kind;
 use super::step::accelerate;
 use super::work::{Instant, Work};
@@ -118,11 +118,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         let Block { model, first, .. } = *self;
         let mut is_balanced = true;
         for (place, member) in self.members_mut() {
-            let indentation = member.now.indentation();
-            member.trial.stiffness = member.branch.stiffness(indentation).unwrap_or_else(|| {
-                let model = model(first + place);
-                member.branch.stiffness_without_segments(indentation, C::plastic_model(model.borrow()))
-            });
+            member.trial.stiffness = present_stiffness(member, || model(first + place));
             let forces = fabs(member.acceleration) + member.inverse_mass * fabs(member.now.force);
             is_balanced &= fabs(member.now.net) <= BALANCED * forces;
         }

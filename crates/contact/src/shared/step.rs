@@ -9,6 +9,7 @@ use super::curve::Curve;
 use super::dop853::{self, STAGES};
 use super::inverse_masses::InverseMasses;
 use super::work::{Instant, Work};
+use crate::motion::COSTLY;
 use crate::numbers::{largest, quotient};
 use core::borrow::Borrow;
 use libm::fabs;
@@ -18,9 +19,6 @@ const TOLERANCE: f64 = 2e-13;
 
 /// Errors below this part of a number do not count: they are rounding.
 const ROUNDING: f64 = 2e-15;
-
-/// Number of evaluations that one evaluation of a law without segments counts for.
-const COSTLY: u32 = 10;
 
 /// The place of no contact.
 const NO_CLOCK: usize = usize::MAX;
