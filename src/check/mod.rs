@@ -101,6 +101,9 @@ pub struct Outcome {
     pub variables: usize,
     pub impact: ImpactNumbers,
     pub impact_is_assumed: bool,
+    /// What is assumed then.
+    #[serde(skip)]
+    assumption: &'static str,
     /// The method of the prediction.
     pub prediction: &'static str,
     pub steps_per_contact: u32,
@@ -181,6 +184,7 @@ fn try_out(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, Imp
         variables: description.variables.len(),
         impact: ImpactNumbers { mass: scene.impact.mass, speed: scene.impact.speed },
         impact_is_assumed: scene.impact_is_assumed,
+        assumption: scene.assumption(),
         prediction: scene.any_model().method(),
         steps_per_contact: STEPS_PER_CONTACT,
         moves_together: scene.inverse_masses.is_some(),
@@ -229,8 +233,8 @@ fn write_some(f: &mut Formatter<'_>, items: &[String], line: impl Fn(&str) -> St
 impl std::fmt::Display for Outcome {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let ImpactNumbers { mass, speed } = self.impact;
-        let assumed =
-            if self.impact_is_assumed { " (the scene names no impact: a solid impactor is assumed)" } else { "" };
+        let assumption = format!(" (the scene names no impact: {})", self.assumption);
+        let assumed = if self.impact_is_assumed { assumption.as_str() } else { "" };
         writeln!(f, "{}", shown(&self.fmu))?;
         let platforms = without_middle(&self.platforms.join(", "));
         writeln!(f, "  platforms: {platforms}; {} variables", self.variables)?;

@@ -91,8 +91,8 @@ impl Answer<'_> {
             [choice] => format!("{}, ", choice.laws),
             _ => String::new(),
         };
-        let assumed =
-            if self.scene.impact_is_assumed { "; the scene names no impact: a solid impactor is assumed" } else { "" };
+        let assumption = format!("; the scene names no impact: {}", self.scene.assumption());
+        let assumed = if self.scene.impact_is_assumed { assumption.as_str() } else { "" };
         let heading = format!("impact of {mass} at {speed}{fall}: {by}predicted {}{assumed}", methods(self.choices));
         let mut text = paragraph("", &heading);
         text.push('\n');

@@ -210,7 +210,8 @@ fn together(scene: &Scene) -> String {
 fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     let Plan { scene, experiment, .. } = plan;
     let prediction = plan.prediction();
-    let assumed = if scene.impact_is_assumed { " (the scene gives none; a solid impactor is assumed)" } else { "" };
+    let assumption = format!(" (the scene gives none; {})", scene.assumption());
+    let assumed = if scene.impact_is_assumed { assumption.as_str() } else { "" };
     writeln!(
         page,
         "<p>{} kg at {} m/s{assumed}{}; {}:</p>\n<table>",

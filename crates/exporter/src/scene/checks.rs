@@ -68,12 +68,10 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let mass_is_input = coupling.is_some_and(|coupling| coupling.mass_input);
     let numbers = [("restitution", file.law.restitution.clone()), ("effective_mass", mass)];
     let (parameters, groups) = check_parameters(&contacts, loss, numbers, mass_is_input)?;
-    let mut outputs = check_outputs(
-        &file.fmu.outputs,
-        &fmu::Has { mass: coupling.is_some(), shared_bodies: inverse_masses.is_some(), friction },
-    )?;
-    // without them such an FMU is useless
     let shared = inverse_masses.is_some();
+    let has = fmu::Has { mass: coupling.is_some(), shared_bodies: shared, friction };
+    let mut outputs = check_outputs(&file.fmu.outputs, &has)?;
+    // without them such an FMU is useless
     let needed = [(coupling.is_some(), "mean_force"), (shared, "impulse_moment"), (friction, "tangential_force")];
     for (needed, name) in needed {
         if needed && !outputs.iter().any(|output| output == name) {

@@ -205,6 +205,12 @@ impl Scene {
         })
     }
 
+    /// What is assumed of the impact if the scene names none.
+    pub fn assumption(&self) -> &'static str {
+        let knows_mass = self.coupling.is_some() && self.inverse_masses != Some(InverseMasses::Inputs);
+        if knows_mass { "1 m/s is assumed" } else { "a solid impactor is assumed" }
+    }
+
     /// The elastoplastic model of the first contact.
     pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
         self.model_of(0)
