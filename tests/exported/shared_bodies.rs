@@ -280,3 +280,30 @@ fn a_body_that_two_contacts_share_is_told_where_each_moves_it_alone() {
         }
     }
 }
+
+/// A ball between two walls whose inverse masses nobody has set.
+#[test]
+fn inverse_masses_that_are_not_those_of_the_bodies_are_told() {
+    let text = "name = \"walls\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[impact]\nmass = 4e-3\n\
+                speed = 1.0\n[fmu]\noutputs = [\"indentation\"]\n[coupling]\ninverse_masses = \"input\"\n\
+                [[contact]]\nname = \"c1\"\n[[contact]]\nname = \"c2\"\ninitial_gap = 1e-4\n";
+    let unit = Unit::load(&write_scene("walls_by_inputs", text));
+    for are_set in [false, true] {
+        let mut instance = unit.ready();
+        if are_set {
+            instance.set_one("inverse_mass[1,2]", -250.0);
+        }
+        let (mut speed, mut time) = (1.0, 0.0);
+        for _ in 0..12 {
+            step(&mut instance, &[speed, -speed], time, 1e-6);
+            time += 1e-6;
+            speed -= instance.real("c1.mean_force") * 1e-6 / 4e-3;
+        }
+        let said = instance.message();
+        let words = "the force of contact number 1 moves a body of this one otherwise than the inputs inverse_mass say";
+        assert_eq!(said.contains(words), !are_set, "{are_set}: {said}");
+    }
+    let instance = unit.ready();
+    assert_eq!(instance.set(&[instance.real_of("inverse_mass[1,2]")], &[f64::NAN]), ERROR);
+    assert!(instance.message().contains("inverse_mass[1,2] = NaN must be a finite number"), "{}", instance.message());
+}

@@ -90,6 +90,18 @@ impl<'a> InverseMasses<'a> {
         })
     }
 
+    /// Row and column of the entry with this `place` in the upper triangle; those after the last one outside the matrix.
+    pub fn row_and_column(&self, place: usize) -> (usize, usize) {
+        let mut left = place;
+        for (row, entries) in self.rows(0).enumerate() {
+            if left < entries.len() {
+                return (row, row + left);
+            }
+            left -= entries.len();
+        }
+        (self.count, self.count)
+    }
+
     /// The entry of two contacts \[1/kg\]; zero outside the matrix.
     pub fn of(&self, one: usize, other: usize) -> f64 {
         let (row, column) = if one < other { (one, other) } else { (other, one) };

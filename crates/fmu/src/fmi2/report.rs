@@ -5,6 +5,7 @@ use crate::c::text::Text;
 use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
 use crate::scene::{Coupling, Presence, Real, Scene, Settable, Store};
 use brinell_contact::Contact;
+use brinell_contact::shared::NotInverseMasses;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 
 fn phase_name(phase: Phase) -> &'static str {
@@ -199,16 +200,18 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "the bodies rebound too often to be followed within communicationStepSize = ~ s"
         }
         Fault::TooLongTogether { .. } if !S::Shared::IS_PRESENT => "",
-        Fault::InverseMass { .. } | Fault::Indefinite { .. } if S::InverseMasses::LENGTH == 0 => "",
+        Fault::InverseMasses(_) if S::InverseMasses::LENGTH == 0 => "",
         Fault::TooLongTogether { step, possible } => {
             (numbers[0], numbers[1]) = (step, possible);
             "the contacts touch, part and turn too often to be followed within communicationStepSize = ~ s: a step of ~ s is possible"
         }
-        Fault::InverseMass { row, column, value } => {
+        Fault::InverseMasses(NotInverseMasses::Entry { row, column, value }) => {
             *numbers = [row as f64 + 1.0, column as f64 + 1.0, value];
             "inverse_mass[~,~] = ~ must be a finite number, and positive if both indices are the same; set all of them before the step"
         }
-        Fault::Indefinite { contact, with } => {
+        // there is one for every two contacts
+        Fault::InverseMasses(NotInverseMasses::Count { .. }) => "",
+        Fault::InverseMasses(NotInverseMasses::Indefinite { contact, with, .. }) => {
             (numbers[0], numbers[1]) = (contact as f64 + 1.0, with as f64 + 1.0);
             "the inputs inverse_mass are those of no bodies: contact number ~ is coupled too strongly, above all with number ~, for \
              their inverse masses (the matrix must be positive semidefinite)"
@@ -262,23 +265,37 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
         // a library contains no text for features that its scene lacks
-        Warning::Miswired { contact, rate, expected, shared_with: Some(other), .. } if S::CONTACTS > 1 => {
-            message.contact = Some(contact);
-            message.numbers = [rate, expected, other as f64 + 1.0];
-            "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one, too, and this FMU \
-             moves the bodies of each contact alone; give tables [[body]] in the scene, and `between` in each [[contact]]"
-        }
-        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired(&mut message, *warning, guard),
+        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired::<S>(&mut message, *warning, guard),
         _ => guard,
     };
     message.write::<S>(text);
 }
 
-/// The template for an importer with the other order of execution, otherwise that of the passivity `guard`.
-fn miswired(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
-    let Warning::Miswired { contact, rate, expected, parallel, .. } = warning else { return guard };
+/// The template for an importer with the other order of execution or with bodies that contacts share, otherwise that of the passivity
+/// `guard`.
+fn miswired<S: Scene>(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
+    let Warning::Miswired { contact, rate, expected, parallel, shared_with } = warning else { return guard };
     message.contact = Some(contact);
     (message.numbers[0], message.numbers[1]) = (rate, expected);
+    if S::CONTACTS > 1
+        && let Some(other) = shared_with
+    {
+        message.numbers[2] = other as f64 + 1.0;
+        return match () {
+            () if S::InverseMasses::LENGTH > 0 => {
+                "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one otherwise than the \
+                 inputs inverse_mass say; set them from the masses of the bodies"
+            }
+            () if S::Shared::IS_PRESENT => {
+                "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one otherwise than the \
+                 tables [[body]] of the scene say"
+            }
+            () => {
+                "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one, too, and this FMU \
+                 moves the bodies of each contact alone; give tables [[body]] in the scene, and `between` in each [[contact]]"
+            }
+        };
+    }
     if parallel {
         "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
          master = \"parallel\" under [coupling] in the scene"

@@ -183,7 +183,7 @@ impl<S: Scene> Instance<S> {
         Some(Warning::Miswired { contact, rate, expected, parallel: is_parallel::<S>(), shared_with })
     }
 
-    /// Looks for contacts that share a body though the FMU moves the bodies of each contact alone: in two steps, the rate of a contact
+    /// Looks for contacts that share a body of which the FMU does not know, or with another mass than it knows: in two steps, the rate of a contact
     /// differs from the expected one by the same multiple of the force of another contact, which alone pushes.
     pub(super) fn check_sharing(&mut self) {
         if S::CONTACTS < 2 || !Self::MOVES {

@@ -1,6 +1,7 @@
 //! Reasons to reject a call, and warnings for the user.
 
 use crate::scene::Real;
+use brinell_contact::shared::NotInverseMasses;
 
 /// The reason why an instance rejects a call. The instance does not change.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,22 +110,8 @@ pub enum Fault {
         /// A step that could have been computed \[s\].
         possible: f64,
     },
-    /// An inverse mass that is not finite, or of one contact and not positive.
-    InverseMass {
-        /// The contact of the first index, counted from 0.
-        row: usize,
-        /// The contact of the second index.
-        column: usize,
-        /// The inverse mass \[1/kg\].
-        value: f64,
-    },
-    /// Inverse masses that no bodies have: those of a contact are too small for its coupling with others.
-    Indefinite {
-        /// The contact, counted from 0.
-        contact: usize,
-        /// The contact that it is coupled with most strongly.
-        with: usize,
-    },
+    /// Inputs that are the inverse masses of no bodies.
+    InverseMasses(NotInverseMasses),
     /// A derivative of an order that does not exist.
     DerivativeOrder {
         /// The requested order.
@@ -160,7 +147,8 @@ pub enum Warning {
         /// The indentation up to which the law is valid \[m\].
         allowed: f64,
     },
-    /// The importer applies the force in another order than the scene assumes.
+    /// The importer applies the force in another order than the scene assumes, or two contacts share a body of which the FMU does not
+    /// know.
     Miswired {
         /// The contact, counted from 0.
         contact: usize,

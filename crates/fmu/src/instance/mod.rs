@@ -60,7 +60,7 @@ struct Contacts<S: Scene> {
     /// Number of next steps to examine.
     looks: <S::Watch as Presence>::Of<u32, [u32; 1]>,
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
-    /// What is known of bodies that contacts share though the FMU moves those of each alone.
+    /// What is known of bodies that contacts share without the FMU's knowledge.
     suspects: IfPresent<<S::Coupling as Coupling>::Ending, S, Suspect>,
     /// Moments of the impulses of the last step, if contacts share bodies \[N.s^2\].
     moments: IfPresent<S::Shared, S, f64>,

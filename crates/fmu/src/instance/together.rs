@@ -3,7 +3,7 @@
 use super::*;
 use brinell_contact::numbers::largest;
 use brinell_contact::path::Course;
-use brinell_contact::shared::{InverseMasses, NotInverseMasses, Refused};
+use brinell_contact::shared::{InverseMasses, Refused};
 
 /// The inverse effective masses of contacts that share bodies \[1/kg\]: the constants of the scene, or these `inputs`.
 fn masses_of<S: Scene>(inputs: &S::InverseMasses) -> InverseMasses<'_> {
@@ -26,11 +26,7 @@ impl<S: Scene> Instance<S> {
         if S::InverseMasses::LENGTH == 0 || *checked {
             return Ok(());
         }
-        masses_of::<S>(inverse_masses).check(scratch.as_mut()).map_err(|wrong| match wrong {
-            NotInverseMasses::Entry { row, column, value } => Fault::InverseMass { row, column, value },
-            NotInverseMasses::Indefinite { contact, with, .. } => Fault::Indefinite { contact, with },
-            NotInverseMasses::Count { needed, given } => Fault::Indefinite { contact: needed, with: given },
-        })?;
+        masses_of::<S>(inverse_masses).check(scratch.as_mut()).map_err(Fault::InverseMasses)?;
         *checked = true;
         Ok(())
     }
@@ -40,6 +36,7 @@ impl<S: Scene> Instance<S> {
     #[inline(never)]
     pub(super) fn advance_together(&mut self, step: f64) -> Result<(), Fault> {
         self.check_inverse_masses()?;
+        self.check_sharing();
         let mut rates = <S::Contacts<f64>>::filled(0.0);
         let mut accelerations = <S::Contacts<f64>>::filled(0.0);
         for (contact, (rate, acceleration)) in rates.as_mut().iter_mut().zip(accelerations.as_mut()).enumerate() {
@@ -94,13 +91,8 @@ impl<S: Scene> Instance<S> {
     ) -> Result<(), Fault> {
         let Instance { contacts: Contacts { histories, works, inverse_masses, .. }, settings, .. } = self;
         let masses = masses_of::<S>(inverse_masses);
-        // computed once, since every event needs them
-        let first = settings.model(0);
-        let mut models = <S::Groups<S::Model>>::filled(first);
-        for (group, model) in models.as_mut().iter_mut().enumerate().skip(1) {
-            *model = settings.model(group);
-        }
-        let model = |contact: usize| models.as_ref().get(S::group(contact)).unwrap_or(&first);
+        // not kept for all contacts: the stack of an importer may be small
+        let model = |contact: usize| settings.model(S::group(contact));
         let (rates, works) = (rates.as_mut(), works.as_mut());
         let followed =
             S::follow_together(histories.as_mut(), model, &masses, accelerations.as_ref(), rates, works, step);

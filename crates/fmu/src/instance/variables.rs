@@ -4,6 +4,7 @@ use super::friction::check_tangential_rate;
 use super::*;
 use crate::scene::{Integer, Real};
 use brinell_contact::path::Course;
+use brinell_contact::shared::NotInverseMasses;
 use core::f64::consts::PI;
 
 impl<S: Scene> Instance<S> {
@@ -18,6 +19,11 @@ impl<S: Scene> Instance<S> {
             Real::IndentationRate if value.abs() > FASTEST => Err(Fault::RateOutOfRange { rate: value }),
             Real::IndentationRate => self.histories().get(contact).map_or(Ok(()), |history| check_rate(history, value)),
             Real::Parameter(index) => self.check_parameter(index, value),
+            // instead of a contact, it has a place in the matrix
+            Real::InverseMass if S::has_input(variable) && !value.is_finite() => {
+                let (row, column) = self.inverse_masses().row_and_column(contact);
+                Err(Fault::InverseMasses(NotInverseMasses::Entry { row, column, value }))
+            }
             _ if !S::has_input(variable) => Err(Fault::NotSettable),
             _ if S::Contact::HAS_FRICTION && variable.tangential_rate().is_some() => match value.is_finite() {
                 true => check_tangential_rate(value),
@@ -274,7 +280,6 @@ fn check_input(variable: Real, value: f64) -> Result<(), Fault> {
         Real::ExternalAcceleration if !value.is_finite() => {
             Err(Fault::NotFinite { name: "external_acceleration", value })
         }
-        Real::InverseMass if !value.is_finite() => Err(Fault::NotFinite { name: "inverse_mass", value }),
         _ => Ok(()),
     }
 }

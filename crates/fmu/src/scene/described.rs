@@ -131,18 +131,15 @@ macro_rules! __laws {
 
     (together plain) => {
         #[inline(always)]
-        fn follow_together<'a>(
+        fn follow_together(
             contacts: &mut [Self::Contact],
-            model: impl Fn(usize) -> &'a Self::Model,
+            model: impl Fn(usize) -> Self::Model,
             masses: &$crate::contact::shared::InverseMasses,
             accelerations: &[f64],
             rates: &mut [f64],
             work: &mut [$crate::contact::shared::Work<Self::Contact>],
             step: f64,
-        ) -> Result<$crate::contact::shared::Outcome, $crate::contact::shared::Refused>
-        where
-            Self::Model: 'a,
-        {
+        ) -> Result<$crate::contact::shared::Outcome, $crate::contact::shared::Refused> {
             $crate::contact::shared::follow(contacts, model, masses, accelerations, rates, work, step)
         }
     };

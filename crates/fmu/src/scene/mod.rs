@@ -129,18 +129,15 @@ pub trait Scene: Sized {
     /// # Errors
     /// [`Refused`]; nothing has changed then.
     #[inline(always)]
-    fn follow_together<'a>(
+    fn follow_together(
         _contacts: &mut [Self::Contact],
-        _model: impl Fn(usize) -> &'a Self::Model,
+        _model: impl Fn(usize) -> Self::Model,
         _masses: &InverseMasses,
         _accelerations: &[f64],
         _rates: &mut [f64],
         _work: &mut [Work<Self::Contact>],
         _step: f64,
-    ) -> Result<Outcome, Refused>
-    where
-        Self::Model: 'a,
-    {
+    ) -> Result<Outcome, Refused> {
         Err(Refused::Sizes)
     }
 
