@@ -212,6 +212,8 @@ fn every_deliberate_mistake_applies_to_the_sources() {
             let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
             let file = if topic.is_empty() { tests.join(program) } else { tests.join(program).join(topic) };
             assert!(file.with_extension("rs").is_file(), "{}: there is no {}", defect.name, defect.test);
+            let main = fs::read_to_string(tests.join(program).join("main.rs")).unwrap_or_default();
+            assert!(!main.contains("CARGO_BIN_EXE"), "{}: {program} needs the program", defect.name);
             continue;
         }
         let is_suite = ["conformance: ", "fuzz: "].iter().any(|kind| defect.test.starts_with(kind));

@@ -75,26 +75,32 @@ fn work_of(face: &Face, prefix: &str) -> f64 {
     largest
 }
 
-/// The impulse grows by the mean force times the step.
+/// The impulse grows by the mean force times the step. Its moment over the step lies between those of an impulse at the end
+/// of the step and at its start.
 pub fn impulse(face: &Face) {
-    let pairs: Vec<(u32, u32)> = face
-        .named
-        .iter()
-        .filter_map(|(name, reference)| {
-            let prefix = name.strip_suffix("impulse")?;
-            Some((*reference, *face.named.get(&format!("{prefix}mean_force"))?))
-        })
-        .collect();
-    let mut i = Importer::at(face, Phase::StepComplete);
+    let beside = |name: &str| -> Vec<(u32, u32)> {
+        let other = |prefix: &str| face.named.get(&format!("{prefix}{name}")).copied();
+        let names = face.named.iter().filter(|(name, _)| name.ends_with("mean_force"));
+        names.filter_map(|(name, &force)| Some((force, other(name.strip_suffix("mean_force")?)?))).collect()
+    };
+    let (impulses, moments) = (beside("impulse"), beside("impulse_moment"));
+    let (mut i, mut largest) = (Importer::at(face, Phase::StepComplete), 0.0_f64);
     for step in 0..60 {
-        let before: Vec<f64> = pairs.iter().map(|(impulse, _)| i.real(*impulse)).collect();
+        let before: Vec<f64> = impulses.iter().map(|(_, impulse)| i.real(*impulse)).collect();
         i.press(if step < 30 { 1.0 } else { -1.0 });
-        for ((impulse, mean_force), before) in pairs.iter().zip(before) {
+        for ((mean_force, impulse), before) in impulses.iter().zip(before) {
             let (grown, taken) = (i.real(*impulse) - before, i.real(*mean_force) * STEP);
             assert!(
                 (grown - taken).abs() <= 1e-9 * taken.abs() + 1e-20,
                 "step {step}: {grown} N.s instead of {taken} N.s"
             );
+        }
+        for (mean_force, moment) in &moments {
+            let (moment, most) = (i.real(*moment), i.real(*mean_force) * STEP * STEP);
+            largest = largest.max(most);
+            let rounding = 1e-12 * largest;
+            let possible = if most > rounding { 0.0 < moment && moment < most } else { moment.abs() <= rounding };
+            assert!(possible, "step {step}: a moment of {moment:e} N.s2, and at most {most:e} N.s2 is possible");
         }
     }
 }

@@ -131,3 +131,22 @@ pub fn enormous_inputs(face: &Face) {
         }
     }
 }
+
+/// Inverse masses of no bodies are refused: with one coupling larger than the inverse masses of the two contacts allow.
+pub fn inverse_masses(face: &Face) {
+    let input = |row: usize, column: usize| {
+        let name = format!("inverse_mass[{row},{column}]");
+        face.variables.iter().find(|variable| variable.name == name).map(|variable| variable.reference)
+    };
+    let diagonal: Vec<u32> = (1..).map_while(|row| input(row, row)).collect();
+    for row in 1..diagonal.len() {
+        let coupling = input(row, row + 1).expect("a matrix has its entries");
+        let mut i = Importer::at(face, Phase::StepComplete);
+        let most = (i.real(diagonal[row - 1]) * i.real(diagonal[row])).sqrt();
+        for (factor, status) in [(0.99, OK), (-0.99, OK), (1.01, ERROR)] {
+            assert_eq!(i.set(&[coupling], &[factor * most]), OK, "{:?}", i.log);
+            assert_eq!(i.step(i.time, STEP), status, "{factor} of the most: {:?}", i.log);
+            i.time += STEP;
+        }
+    }
+}
