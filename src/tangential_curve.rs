@@ -3,7 +3,7 @@
 use brinell_contact::History;
 use brinell_contact::TooDeep;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::tangential::{RoughModel, Springs};
+use brinell_contact::tangential::{Mean, RoughModel, Springs};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::columns::{Column, Columns};
 use brinell_exporter::laws::Choice;
@@ -162,7 +162,7 @@ impl<'a> Pressed<'a> {
     fn to(model: &'a RoughModel<AnyLoading, AnyUnloading>, indentation: f64) -> Result<Self, TooDeep> {
         let mut contact = History::start(&model.normal, 0.0)?;
         let mut springs = Springs::start(model, &contact);
-        springs.advance(&mut contact, model, (indentation, 0.0), (1.0, 0.0), false)?;
+        springs.advance(&mut contact, model, (indentation, 0.0), (1.0, 0.0), Mean::Skipped)?;
         Ok(Pressed { model, contact, springs, displacement: 0.0, work: 0.0 })
     }
 
@@ -181,7 +181,7 @@ impl<'a> Pressed<'a> {
             let slip = to - self.displacement;
             let way = (0.0, slip);
             // the normal motion is zero, which every law allows
-            let mean = self.springs.advance(&mut self.contact, self.model, way, way, true).unwrap_or_default();
+            let mean = self.springs.advance(&mut self.contact, self.model, way, way, Mean::Exact).unwrap_or_default();
             self.work += mean * slip;
             self.displacement = to;
             points.push(self.point());

@@ -48,7 +48,7 @@ fn model() -> RoughModel<loading::Hertz, unloading::ContactRadius> {
     let pair = Pair::new(&ball, &glass, f64::INFINITY).expect("a ball on a plane");
     let friction = Friction::between(&ball, &glass, pair.modulus, 0.092);
     let (loading, unloading) = (loading::Hertz, unloading::ContactRadius);
-    RoughModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction }
+    RoughModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction, loss: () }
 }
 
 /// Rates along the normal and in the tangential directions [m/s]: an indentation between -1 and 5 um.

@@ -71,7 +71,7 @@ fn oblique() -> RoughModel<loading::Hertz, unloading::ContactRadius> {
     let pair = Pair::new(&ball, &glass, f64::INFINITY).expect("a ball on a plane");
     let friction = Friction::between(&ball, &glass, pair.modulus, 0.092);
     let (loading, unloading) = (loading::Hertz, unloading::ContactRadius);
-    RoughModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction }
+    RoughModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction, loss: () }
 }
 
 #[test]

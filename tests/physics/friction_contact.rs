@@ -3,7 +3,7 @@
 use crate::friction::assert_close;
 use crate::physics::{MASS, Random, mild};
 use brinell_contact::path::Course;
-use brinell_contact::tangential::{Friction, Quantity, RoughContact, RoughModel, Sliding, Springs};
+use brinell_contact::tangential::{Friction, Mean, Quantity, RoughContact, RoughModel, Sliding, Springs};
 use brinell_contact::{Contact, History, damped, loading, losses, rate, unloading};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
@@ -16,7 +16,11 @@ type Rough = RoughContact<12>;
 
 fn model<L, U>(loading: L, unloading: U) -> Model<L, U> {
     let surface = brinell_contact::Surface::Dented;
-    RoughModel { normal: brinell_contact::Model { pair: mild(), loading, unloading, surface }, friction: FRICTION }
+    RoughModel {
+        normal: brinell_contact::Model { pair: mild(), loading, unloading, surface },
+        friction: FRICTION,
+        loss: (),
+    }
 }
 
 fn elastic() -> Elastic {
@@ -52,7 +56,9 @@ fn held_rates_give_the_same_bits_as_springs_advanced_by_hand() {
         let predicted = contact.predicted_tangential_force(&model, rate, STEP).expect("within range");
         let kept = <Rough as Contact<Plastic>>::kept(&model);
         contact.step_held(rate, STEP, &kept, || model).expect("within range");
-        springs.advance(&mut normal, &model, (rate * STEP, slip * STEP), (rate, slip), false).expect("within range");
+        springs
+            .advance(&mut normal, &model, (rate * STEP, slip * STEP), (rate, slip), Mean::Skipped)
+            .expect("within range");
         let force = springs.force(&FRICTION, normal.indentation());
         assert_eq!(contact.tangential_force(&model).to_bits(), force.to_bits());
         assert_eq!(predicted.to_bits(), force.to_bits());

@@ -3,7 +3,7 @@
 use crate::friction;
 use crate::physics::{self, Random, all_models, is_passive, mild, unit};
 use brinell_contact::History;
-use brinell_contact::tangential::{Friction, RoughModel, Sliding, Springs};
+use brinell_contact::tangential::{Friction, Mean, RoughModel, Sliding, Springs};
 use brinell_contact::{loading::AnyLoading, unloading::AnyUnloading};
 use brinell_testing::laws;
 
@@ -18,7 +18,7 @@ pub fn models() -> Vec<(String, Model)> {
         let unloading = name.rsplit(' ').next().expect("a law's name");
         is_passive(model) && laws::entry("unloading", unloading).get("no_friction").is_none()
     });
-    models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION })).collect()
+    models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION, loss: () })).collect()
 }
 
 /// The allowed error of friction for the pair of laws called `name`, relative to Coulomb's limit.
@@ -67,8 +67,8 @@ impl<const N: usize> Run<N> {
         let mut mean = 0.0;
         for _ in 0..parts {
             let way = (rise * part, slip * part);
-            mean +=
-                part * self.springs.advance(&mut self.contact, model, way, (rise, slip), true).expect("within range");
+            mean += part
+                * self.springs.advance(&mut self.contact, model, way, (rise, slip), Mean::Exact).expect("within range");
         }
         mean
     }
@@ -138,7 +138,7 @@ fn the_force_keeps_coulombs_bound_and_friction_dissipates_energy() {
 
 #[test]
 fn before_yield_every_law_has_the_friction_of_hertz() {
-    let hertz = RoughModel { normal: physics::model("hertz", "contact-radius"), friction: FRICTION };
+    let hertz = RoughModel { normal: physics::model("hertz", "contact-radius"), friction: FRICTION, loss: () };
     for (name, model) in models() {
         let yields_at = model.normal.yield_point().indentation;
         if !(yields_at > 0.0 && yields_at < f64::INFINITY) {

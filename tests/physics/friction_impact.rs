@@ -21,7 +21,7 @@ fn models() -> Vec<(String, Model)> {
         laws::entry("unloading", unloading).get("no_friction").is_none()
     };
     let models = all_models(mild()).into_iter().filter(supports);
-    models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION })).collect()
+    models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION, loss: () })).collect()
 }
 
 /// A solid ball with this speed [m/s], angle from the normal [degrees] and spin relative to the speed over the radius.
@@ -118,7 +118,7 @@ fn more_steps_change_the_rebound_by_less_than_the_error_of_the_law() {
 
 #[test]
 fn the_error_of_an_elastic_impact_falls_with_the_square_of_the_step() {
-    let model = RoughModel { normal: physics::model("hertz", "contact-radius"), friction: FRICTION };
+    let model = RoughModel { normal: physics::model("hertz", "contact-radius"), friction: FRICTION, loss: () };
     for degrees in [3.0, 12.0, 35.0] {
         let before = ball(1.0, degrees, 0.0);
         let tangential = |steps| in_steps(&model, &before, steps, |_| {}).expect("within range").ball.tangential;

@@ -20,7 +20,7 @@ fn bodies(is_rigid: bool) -> [Body; 2] {
 
 fn rough(normal: AnyModel, coefficient: f64, is_rigid: bool) -> Model {
     let [ball, target] = bodies(is_rigid);
-    RoughModel { normal, friction: Friction::between(&ball, &target, normal.pair.modulus, coefficient) }
+    RoughModel { normal, friction: Friction::between(&ball, &target, normal.pair.modulus, coefficient), loss: () }
 }
 
 /// Every pairing of laws that has friction and makes no energy along the normal.

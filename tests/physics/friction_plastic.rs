@@ -3,7 +3,7 @@
 use crate::friction::{Ball, Rebound, Row, assert_close, table};
 use crate::physics;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::tangential::{Friction, RoughModel, Springs};
+use brinell_contact::tangential::{Friction, Mean, RoughModel, Springs};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, History, Loading, Pair};
 
@@ -14,7 +14,7 @@ type Model = RoughModel<AnyLoading, AnyUnloading>;
 /// The model of a case of the table, `loading/unloading`.
 fn model(case: &str) -> Model {
     let (loading, unloading) = case.split_once('/').expect("two laws");
-    RoughModel { normal: physics::model(loading, unloading), friction: FRICTION }
+    RoughModel { normal: physics::model(loading, unloading), friction: FRICTION, loss: () }
 }
 
 /// A contact with its springs.
@@ -44,7 +44,7 @@ impl<const N: usize, const LATTICE: bool, const PARTS: u32> Run<N, LATTICE, PART
         for part in parts {
             let way = ((part - done) * rise, (part - done) * slip);
             let Run { springs, contact, model, .. } = self;
-            springs.advance(contact, model, way, (rise, slip), false).expect("within range");
+            springs.advance(contact, model, way, (rise, slip), Mean::Skipped).expect("within range");
             done = part;
         }
     }
@@ -146,13 +146,13 @@ fn restitution_on_steel<const N: usize>(laws: (&str, &str), degrees: f64, steps:
     let block = Body { radius: f64::INFINITY, ..ball };
     let pair = Pair::new(&ball, &block, 300e6).expect("two bodies");
     let normal = brinell_contact::Model { pair, ..physics::model(laws.0, laws.1) };
-    let model = RoughModel { normal, friction: Friction::between(&ball, &block, pair.modulus, 0.4) };
+    let model = RoughModel { normal, friction: Friction::between(&ball, &block, pair.modulus, 0.4), loss: () };
     let mut contact = History::start(&model.normal, 0.0).expect("within range");
     let mut springs: Springs<N> = Springs::start(&model, &contact);
     let tangential = degrees.to_radians().tan();
     let ball = Ball { mass: 4.11e-3, radius: 5e-3, normal: 1.0, tangential, spin: 0.0 };
     let rebound = ball.impact(4e-5 / steps, |rise, slip| {
-        springs.advance(&mut contact, &model, (rise, slip), (rise, slip), false).expect("within range");
+        springs.advance(&mut contact, &model, (rise, slip), (rise, slip), Mean::Skipped).expect("within range");
         let force = contact.force();
         (force > 0.0).then(|| (force, springs.force(&model.friction, contact.indentation())))
     });

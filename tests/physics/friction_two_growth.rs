@@ -3,7 +3,7 @@
 use super::friction_growth::{FRICTION, Model, allowed, history, models};
 use crate::physics::Random;
 use brinell_contact::History;
-use brinell_contact::tangential::{PlaneSprings, Sliding};
+use brinell_contact::tangential::{Mean, PlaneSprings, Sliding};
 use std::f64::consts::PI;
 
 struct Run<const N: usize> {
@@ -23,7 +23,7 @@ impl<const N: usize> Run<N> {
         let mut work = 0.0;
         for _ in 0..parts {
             let way = (rise * part, slip.map(|slip| slip * part));
-            let mean = self.springs.advance_along(&mut self.contact, model, way, (rise, slip), true);
+            let mean = self.springs.advance_along(&mut self.contact, model, way, (rise, slip), Mean::Exact);
             let [mean, other] = mean.expect("within range");
             work += mean * way.1[0] + other * way.1[1];
         }

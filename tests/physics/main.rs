@@ -55,6 +55,7 @@ mod rate_motion;
 mod reference_impacts;
 mod reference_values;
 mod scale_of_mass;
+mod shared_friction;
 mod shared_losses;
 mod shared_motion;
 mod shared_tables;

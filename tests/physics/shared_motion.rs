@@ -3,19 +3,21 @@
 use crate::physics::{AnyModel, Random, all_models, has_jumps, loading, model, pair_of, unloading};
 use brinell_contact::motion::{self, Drive};
 use brinell_contact::shared::{
-    InverseMasses, NotInverseMasses, Outcome, Refused, Work, follow, inverse_masses, work_of_step,
+    InverseMasses, NotInverseMasses, Outcome, Refused, SharedContact, Work, follow, inverse_masses, work_of_step,
 };
-use brinell_contact::{History, Surface};
+use brinell_contact::tangential::Quantity;
+use brinell_contact::{Contact, History, Surface};
 
 /// Contacts that share bodies, in motion.
 #[derive(Clone)]
-pub struct Group {
-    pub models: Vec<AnyModel>,
-    pub contacts: Vec<History>,
+pub struct Group<M, C> {
+    pub models: Vec<M>,
+    pub contacts: Vec<C>,
     /// The upper triangle [1/kg].
     pub entries: Vec<f64>,
     pub accelerations: Vec<f64>,
     pub rates: Vec<f64>,
+    /// Of all normals, then of the tangents in each direction.
     pub impulses: Vec<f64>,
     pub moments: Vec<f64>,
     pub evaluations: u32,
@@ -23,36 +25,46 @@ pub struct Group {
     pub imbalance: f64,
 }
 
-impl Group {
+/// Contacts without losses and without friction.
+pub type Plain = Group<AnyModel, History>;
+
+impl<M, C: Contact<M> + SharedContact<M>> Group<M, C> {
     pub fn new(
-        models: Vec<AnyModel>,
+        models: Vec<M>,
         gaps: &[f64],
         entries: Vec<f64>,
         accelerations: Vec<f64>,
         rates: Vec<f64>,
-    ) -> Group {
-        let contacts = models.iter().zip(gaps).map(|(model, &gap)| History::start(model, gap).expect("within range"));
-        let (contacts, count) = (contacts.collect(), gaps.len());
+    ) -> Group<M, C> {
+        let contacts = models.iter().zip(gaps).map(|(model, &gap)| C::start(model, gap).expect("within range"));
+        let (contacts, count) = (contacts.collect(), rates.len());
         let (impulses, moments) = (vec![0.0; count], vec![0.0; count]);
         Group { models, contacts, entries, accelerations, rates, impulses, moments, evaluations: 0, imbalance: 0.0 }
     }
 
     pub fn masses(&self) -> InverseMasses<'_> {
-        InverseMasses::new(self.contacts.len(), &self.entries).expect("a triangle")
+        InverseMasses::new(self.contacts.len() * (1 + <C as Contact<M>>::DIRECTIONS), &self.entries)
+            .expect("a triangle")
     }
 
     pub fn try_step(&mut self, step: f64) -> Result<Outcome, Refused> {
         let before = (self.rates.clone(), self.energy());
         let entries = self.entries.clone();
-        let masses = InverseMasses::new(self.contacts.len(), &entries).expect("a triangle");
-        let mut work: Vec<Work<History>> = self.contacts.iter().map(|&contact| Work::new(contact)).collect();
+        let masses = InverseMasses::new(self.contacts.len() * (1 + <C as Contact<M>>::DIRECTIONS), &entries)
+            .expect("a triangle");
+        let mut work: Vec<Work<C>> = self.contacts.iter().map(|&contact| Work::new(contact)).collect();
         let (models, accelerations) = (&self.models, &self.accelerations);
         let model = |contact: usize| &models[contact];
         let outcome = follow(&mut self.contacts, model, &masses, accelerations, &mut self.rates, &mut work, step)?;
         self.evaluations += outcome.evaluations;
-        for (contact, work) in work.iter().enumerate() {
-            self.moments[contact] += step * self.impulses[contact] + work.moment();
-            self.impulses[contact] += work.impulse();
+        for (row, (impulse, moment)) in self.impulses.iter_mut().zip(&mut self.moments).enumerate() {
+            let work = &work[row % models.len()];
+            let [new_impulse, new_moment] = match (row / models.len()).checked_sub(1) {
+                None => [work.impulse(), work.moment()],
+                Some(direction) => [work.tangential_impulse(direction), work.tangential_moment(direction)],
+            };
+            *moment += step * *impulse + new_moment;
+            *impulse += new_impulse;
         }
         let balance = work_of_step(&work, (&before.0, &self.rates), accelerations, step) - (self.energy() - before.1);
         self.imbalance = self.imbalance.max(balance.abs());
@@ -65,16 +77,20 @@ impl Group {
 
     /// Energy that the contacts have taken up [J].
     pub fn energy(&self) -> f64 {
-        let both = self.contacts.iter().zip(&self.models);
-        both.map(|(contact, model)| contact.elastic_energy(model) + contact.dissipated_energy(model)).sum()
+        let of = |contact: &C, model: &M| {
+            let quantities = [Quantity::Energy, Quantity::FrictionWork];
+            let friction: f64 = quantities.map(|quantity| contact.tangential(model, quantity)).iter().sum();
+            contact.work(model) + if C::HAS_FRICTION { friction } else { 0.0 }
+        };
+        self.contacts.iter().zip(&self.models).map(|(contact, model)| of(contact, model)).sum()
     }
 
     pub fn depths(&self) -> Vec<f64> {
-        self.contacts.iter().map(History::indentation).collect()
+        self.contacts.iter().map(Contact::<M>::indentation).collect()
     }
 
     /// The largest difference from another end of the same motion, as a part of `speed` [m/s] and `depth` [m].
-    pub fn difference(&self, other: &Group, speed: f64, depth: f64) -> f64 {
+    pub fn difference(&self, other: &Group<M, C>, speed: f64, depth: f64) -> f64 {
         let rates = self.rates.iter().zip(&other.rates).map(|(one, other)| (one - other).abs() / speed);
         let depths = self.depths().into_iter().zip(other.depths()).map(|(one, other)| (one - other).abs() / depth);
         rates.chain(depths).fold(0.0, f64::max)
@@ -104,10 +120,10 @@ fn steel(loading_name: &str, unloading_name: &str) -> AnyModel {
 }
 
 /// Five balls of 33 g, the first one swift.
-fn cradle(law: (&str, &str), gap: f64) -> Group {
+fn cradle(law: (&str, &str), gap: f64) -> Plain {
     let gaps = [0.0, gap, gap, gap];
     let rates = vec![1.0, 0.0, 0.0, 0.0];
-    Group::new(vec![steel(law.0, law.1); 4], &gaps, row_of_balls(&[0.033; 5]), vec![0.0; 4], rates)
+    Plain::new(vec![steel(law.0, law.1); 4], &gaps, row_of_balls(&[0.033; 5]), vec![0.0; 4], rates)
 }
 
 const LAWS: [(&str, &str); 5] = [
@@ -153,9 +169,9 @@ fn contacts_that_are_not_coupled_move_as_if_each_were_alone() {
         // the first and the last one are coupled
         let entries = vec![100.0, 0.0, 0.0, 30.0, 5.0, 0.0, 0.0, 0.3, 0.0, 120.0];
         let accelerations = vec![0.0, 9.81, -3.0, 0.0];
-        let mut group = Group::new(vec![model; 4], &[0.0; 4], entries, accelerations.clone(), rates.clone());
+        let mut group = Plain::new(vec![model; 4], &[0.0; 4], entries, accelerations.clone(), rates.clone());
         let mut pair =
-            Group::new(vec![model; 2], &[0.0; 2], vec![100.0, 30.0, 120.0], vec![0.0; 2], vec![rates[0], rates[3]]);
+            Plain::new(vec![model; 2], &[0.0; 2], vec![100.0, 30.0, 120.0], vec![0.0; 2], vec![rates[0], rates[3]]);
         let mut alone: Vec<History> = group.contacts.clone();
         let mut speeds = rates;
         for _ in 0..5 {
@@ -183,7 +199,7 @@ fn a_ball_between_two_walls_is_as_far_from_one_as_it_is_in_the_other() {
     for law in LAWS {
         for step in [1e-2_f64, 1e-4, 1e-6] {
             let entries = vec![30.0, -30.0, 30.0];
-            let mut group = Group::new(vec![steel(law.0, law.1); 2], &[0.0; 2], entries, vec![0.0; 2], vec![1.0, -1.0]);
+            let mut group = Plain::new(vec![steel(law.0, law.1); 2], &[0.0; 2], entries, vec![0.0; 2], vec![1.0, -1.0]);
             for _ in 0..(1e-2 / step).min(1000.0) as u32 {
                 group.step(step);
                 let depths = group.depths();
@@ -208,7 +224,7 @@ fn a_symmetric_arrangement_stays_symmetric() {
         }
         let models = vec![steel(law.0, law.1); 4];
         let small = rounding(&models[0]);
-        let mut group = Group::new(models, &[1e-4; 4], entries, vec![9.81; 4], vec![0.2; 4]);
+        let mut group = Plain::new(models, &[1e-4; 4], entries, vec![9.81; 4], vec![0.2; 4]);
         for _ in 0..10 {
             group.step(1e-3);
             for contact in 1..4 {
@@ -218,7 +234,7 @@ fn a_symmetric_arrangement_stays_symmetric() {
             }
         }
         // two balls that hit two at rest from both sides
-        let mut group = Group::new(
+        let mut group = Plain::new(
             vec![steel(law.0, law.1); 3],
             &[0.0, 2e-6, 0.0],
             row_of_balls(&[0.033; 4]),
@@ -230,9 +246,13 @@ fn a_symmetric_arrangement_stays_symmetric() {
     }
 }
 
-/// Rigid bodies in space, some of which touch each other and the ground, with any laws. Also returns their energy [J] and
-/// speed [m/s].
-pub fn random_bodies(random: &mut Random, count: usize) -> (Group, f64) {
+/// Rigid bodies in space, some of which touch each other and the ground, with any laws. Also returns their energy [J].
+pub fn random_bodies(random: &mut Random, count: usize) -> (Plain, f64) {
+    random_rows(random, count, 0)
+}
+
+/// The same. The inverse masses, rates and accelerations also have rows of so many tangential `directions`.
+pub fn random_rows(random: &mut Random, count: usize, directions: usize) -> (Plain, f64) {
     let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
     let (radius, modulus) = (decades(-3.0, -1.0), decades(9.0, 11.5));
     let strength = modulus / decades(1.5, 3.0);
@@ -250,23 +270,28 @@ pub fn random_bodies(random: &mut Random, count: usize) -> (Group, f64) {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let vector = |random: &mut Random| [random.next() - 0.5, random.next() - 0.5, random.next() - 0.5];
     let unit = |a: [f64; 3]| a.map(|number| number / dot(a, a).sqrt());
-    // each contact has a row for every body: a direction and a moment
-    let rows: Vec<Vec<[[f64; 3]; 2]>> = (0..count)
+    // each contact has rows for every body, of the normal and of the tangents: a direction and a moment
+    let contacts: Vec<[Vec<[[f64; 3]; 2]>; 3]> = (0..count)
         .map(|_| {
             let one = 1 + (random.next() * (bodies - 1) as f64) as usize;
             let other = (one + 1 + (random.next() * (bodies - 1) as f64) as usize) % bodies;
             let normal = unit(vector(random));
             let arm = |random: &mut Random| vector(random).map(|number| number * 2.0 * radius);
-            let moments = [cross(arm(random), normal), cross(arm(random), normal)];
-            let mut row = vec![[[0.0; 3]; 2]; bodies];
-            row[one] = [normal, moments[0]];
-            row[other] = [normal.map(|number| -number), moments[1].map(|number| -number)];
-            row
+            let arms = [arm(random), arm(random)];
+            let tangent = unit(cross(normal, [0.3, -0.5, 0.8]));
+            [normal, tangent, cross(normal, tangent)].map(|direction| {
+                let mut row = vec![[[0.0; 3]; 2]; bodies];
+                row[one] = [direction, cross(arms[0], direction)];
+                row[other] = [direction, cross(arms[1], direction)].map(|vector| vector.map(|number| -number));
+                row
+            })
         })
         .collect();
+    let of_direction = |direction: usize| contacts.iter().map(move |rows| rows[direction].clone());
+    let rows: Vec<Vec<[[f64; 3]; 2]>> = (0..=directions).flat_map(of_direction).collect();
     let mut entries = Vec::new();
-    for i in 0..count {
-        for j in i..count {
+    for i in 0..rows.len() {
+        for j in i..rows.len() {
             let terms = (0..bodies).map(|body| {
                 let ([n, m], [o, p]) = (rows[i][body], rows[j][body]);
                 inverse[body][0] * dot(n, o) + inverse[body][1] * dot(m, p)
@@ -299,8 +324,8 @@ pub fn random_bodies(random: &mut Random, count: usize) -> (Group, f64) {
         })
         .collect();
     let gaps: Vec<f64> = (0..count).map(|_| (random.next() - 0.3).max(0.0) * 1e-3 * radius).collect();
-    let accelerations = (0..count).map(|_| if random.next() < 0.5 { 9.81 } else { 0.0 }).collect();
-    (Group::new(models, &gaps, entries, accelerations, rates), energy)
+    let accelerations = (0..rows.len()).map(|_| if random.next() < 0.5 { 9.81 } else { 0.0 }).collect();
+    (Plain::new(models, &gaps, entries, accelerations, rates), energy)
 }
 
 #[test]
@@ -373,7 +398,7 @@ fn powers_of_two_in_mass_length_and_time_change_nothing_else() {
             let gaps: Vec<f64> = group.depths().iter().map(|depth| -length * depth).collect();
             let entries = group.entries.iter().map(|entry| entry / mass).collect();
             let rates = group.rates.iter().map(|rate| length / time * rate).collect();
-            let mut scaled = Group::new(scaled.models.clone(), &gaps, entries, vec![0.0; 4], rates);
+            let mut scaled = Plain::new(scaled.models.clone(), &gaps, entries, vec![0.0; 4], rates);
             group.step(2e-4);
             scaled.step(2e-4 * time);
             let small = 10.0 * rounding(&group.models[0]);
@@ -427,7 +452,7 @@ fn a_step_with_too_many_events_is_refused_and_moves_nothing() {
     // a grain between two bodies of 1 kg
     let entries = row_of_balls(&[1.0, 1e-9, 1.0]);
     let models = vec![steel("hertz", "contact-radius"); 2];
-    let mut group = Group::new(models, &[0.0; 2], entries, vec![0.0; 2], vec![0.5, 0.0]);
+    let mut group = Plain::new(models, &[0.0; 2], entries, vec![0.0; 2], vec![0.5, 0.0]);
     let before = group.clone();
     let refused = group.try_step(3e-4).expect_err("too many");
     assert!(matches!(refused, Refused::TooLong { left } if left > 0.0 && left < 3e-4), "{refused:?}");
@@ -452,7 +477,7 @@ fn sizes_and_numbers_that_do_not_fit_are_refused() {
 #[test]
 fn a_body_at_rest_stays_at_rest() {
     // three balls in a row that touch
-    let mut group = Group::new(
+    let mut group = Plain::new(
         vec![model("hertz", "contact-radius"); 2],
         &[0.0; 2],
         row_of_balls(&[0.033; 3]),

@@ -4,6 +4,7 @@ use crate::physics::{AnyModel, model, pair_of};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, Form, Loss};
 use brinell_contact::shared::{InverseMasses, SharedContact, Work, follow, work_of_step};
+use brinell_contact::tangential::{Friction, Rough, RoughModel, Shear, Stuck, plane};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Contact, History, Surface};
 use brinell_testing::friction::file;
@@ -197,4 +198,66 @@ fn contacts_with_losses_end_a_step_as_in_the_table() {
             }
         }
     }
+}
+
+/// How far the motion of `contacts` with friction ends from the row, over the largest rate that the energy allows, followed in so
+/// many `parts`: the largest error of a rate, and that of the balance of work.
+fn off<K: Shear<D>, const D: usize>(row: &Row, parts: u32) -> (f64, f64) {
+    let (mu, kappa) = (row.get("mu"), row.get("kappa"));
+    let models = row.models().into_iter().enumerate().map(|(i, normal)| RoughModel {
+        normal,
+        friction: Friction { coefficient: mu[i], stiffness_ratio: kappa[i] * mu[i] },
+        loss: (),
+    });
+    let models: Vec<_> = models.collect();
+    let (count, depths) = (models.len(), row.get("indentation_0"));
+    let entries = row.get("W");
+    let masses = InverseMasses::new(count * (1 + D), &entries).expect("a triangle");
+    let start = |i: usize| Rough::<K, D, true>::start(&models[i], -depths[i]).expect("within range");
+    let mut contacts: Vec<_> = (0..count).map(start).collect();
+    let (accelerations, before) = (row.get("acceleration"), row.get("rate_0"));
+    let (mut rates, step) = (before.clone(), row.one("step") / f64::from(parts));
+    let mut work: Vec<_> = contacts.iter().map(|&contact| Work::new(contact)).collect();
+    let taken_up = |contacts: &[Rough<K, D, true>]| -> f64 {
+        let of = |(contact, model): (&Rough<K, D, true>, &RoughModel<_, _>)| {
+            contact.elastic_energy(model)
+                + contact.dissipated_energy(model)
+                + contact.tangential_energy(model)
+                + contact.friction_work(model)
+        };
+        contacts.iter().zip(&models).map(of).sum()
+    };
+    let (mut balance, mut evaluations) = (taken_up(&contacts), 0);
+    for _ in 0..parts {
+        let start = rates.clone();
+        let model = |contact: usize| &models[contact];
+        let outcome = follow(&mut contacts, model, &masses, &accelerations, &mut rates, &mut work, step);
+        evaluations += outcome.unwrap_or_else(|refused| panic!("{}: {refused:?}", row.case)).evaluations;
+        balance += work_of_step(&work, (&start, &rates), &accelerations, step);
+    }
+    let energy = (0..before.len()).map(|i| 0.5 * before[i].powi(2) / masses.of(i, i)).fold(balance, f64::max);
+    let most = (0..before.len()).map(|i| masses.of(i, i)).fold(0.0, f64::max);
+    let expected = row.get("rate");
+    let error = rates.iter().zip(&expected).map(|(found, expected)| (found - expected).abs()).fold(0.0, f64::max);
+    let (error, balance) = (error / (2.0 * energy * most).sqrt(), (balance - taken_up(&contacts)).abs() / energy);
+    println!("{}, {parts} parts: {evaluations} evaluations, error {error:.1e}, balance {balance:.1e}", row.case);
+    (error, balance)
+}
+
+#[test]
+fn contacts_with_friction_end_a_step_as_in_the_table() {
+    let mut all = Vec::new();
+    // the bounds that are promised
+    for (name, most) in [("friction", 1e-4), ("dents", 3e-4), ("plane", 1e-3)] {
+        for row in table(name) {
+            for parts in [1, 17] {
+                let (error, balance) = match name {
+                    "plane" => off::<plane::Stuck<16>, 2>(&row, parts),
+                    _ => off::<Stuck<16>, 1>(&row, parts),
+                };
+                all.push((error / most, balance));
+            }
+        }
+    }
+    assert!(all.iter().all(|&(error, balance)| error < 1.0 && balance < 1e-10));
 }

@@ -283,7 +283,7 @@ impl Trial for Oblique {
             return;
         }
         let friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
-        let twice = RoughModel { normal: with_roundings(model), friction };
+        let twice = RoughModel { normal: with_roundings(model), friction, loss: () };
         for parts in [1, 7, 50] {
             let mut contact = RoughContact::<12>::start(&twice, 0.0).unwrap();
             let mut largest = 0.0_f64;

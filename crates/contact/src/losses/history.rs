@@ -185,6 +185,30 @@ impl<K: Loss> History<K> {
         &self.plastic
     }
 
+    /// The same to change.
+    pub(crate) fn elastoplastic_mut(&mut self) -> &mut crate::History {
+        &mut self.plastic
+    }
+
+    /// The loss, with the largest speed of the present contact.
+    pub(crate) fn loss_at_present(&self) -> Damping {
+        self.damping_for(0.0)
+    }
+
+    /// Adds `heat` \[J\], and notes the largest speed of the present contact \[m/s\].
+    ///
+    /// # Errors
+    /// [`TooDeep`] for a heat that overflows.
+    pub(crate) fn add_heat<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U, K>,
+        swiftest: f64,
+        heat: f64,
+    ) -> Result<(), TooDeep> {
+        self.swiftest = swiftest;
+        self.take(model, heat)
+    }
+
     /// Energy lost without yield \[J\].
     pub fn heat(&self) -> f64 {
         self.heat.total()

@@ -14,6 +14,10 @@
 //! time or in the `clock` of a contact that has just touched or is about to part. A `loss` has events of its own. Contacts
 //! that are slow and in balance `rest` until the end of the step.
 //!
+//! With [friction](crate::tangential) each contact has more rows: the matrix and the rates are those of all normals, then of all
+//! tangents in the first direction, then in the second. The springs of friction follow straight ways, so that such contacts move
+//! along `chords`.
+//!
 //! The impulse `P` and its integral `Q` are states of the motion, so that the bodies move by them exactly:
 //!
 //! ```text
@@ -28,10 +32,13 @@
 //! off by up to 1e-9 of itself. Rest drops 1e-12 of the elastic energy of the load. Bodies that rattle between redundant
 //! contacts amplify rounding as the motion itself does.
 //!
+//! With friction, rates are off by some 1e-5, on growing dents 1e-4, in two directions 2e-4 of that scale after an event
+//! (`chords`); the balance of work and Coulomb's bound are exact.
+//!
 //! # Rest
 //! Bodies come to rest with a [fitted](crate::losses::Fitted) loss, as fast as it damps a lasting contact. The
 //! [waves](crate::losses::Waves) alone take minutes for it; on a plate the bodies sink on at the rate at which it gives way;
-//! without a loss they bounce for ever.
+//! without a loss they bounce for ever. The fitted loss also damps the swing of contacts that stick.
 //!
 //! # Limits
 //! `W` is constant within a step, so that a body that turns by an angle changes its directions by that angle from step to
@@ -64,9 +71,11 @@
 
 mod block;
 mod branch;
+mod chords;
 mod clock;
 mod curve;
 mod dop853;
+mod gradients;
 pub mod inverse_masses;
 mod loss;
 mod rest;
@@ -76,7 +85,7 @@ mod targets;
 mod work;
 
 pub use inverse_masses::{InverseMasses, NotInverseMasses};
-pub use work::Work;
+pub use work::{Row, Work};
 
 use crate::Model;
 use crate::history::History;
@@ -85,8 +94,10 @@ use crate::losses::Damping;
 use crate::motion::{self, Drive, NoMotion};
 use crate::numbers::largest;
 use crate::regime::TooDeep;
+use crate::segment::Segment;
 use crate::unloading::Unloading;
 use block::Block;
+use chords::Chords;
 use core::borrow::Borrow;
 use work::Instant;
 
@@ -119,6 +130,33 @@ pub trait SharedContact<M>: Copy {
     fn lose(&mut self, _model: &M, _swiftest: f64, _heat: f64) -> Result<(), TooDeep> {
         Ok(())
     }
+
+    /// The number of tangential directions, zero without friction.
+    const DIRECTIONS: usize = 0;
+
+    /// The path of the present dent, of a contact with friction; without yield the elastic curve.
+    fn path(&self) -> Segment {
+        Segment::NOTHING
+    }
+
+    /// Ratio of the tangential to the normal stiffness, of a contact with friction.
+    fn stiffness_ratio(_model: &M) -> f64 {
+        1.0
+    }
+
+    /// Sets the forces of a contact with friction at the start of a chord.
+    fn set_forces(&self, _model: &M, _rows: &mut [Row; 3]) {}
+
+    /// Moves a contact with friction on a straight way in this `time` \[s\], and finds the mean forces.
+    ///
+    /// # Errors
+    /// [`TooDeep`] outside the range of the law.
+    fn go_straight(&mut self, _model: &M, _rows: &mut [Row; 3], _time: f64) -> Result<(), TooDeep> {
+        Ok(())
+    }
+
+    /// Notes what friction did over a `step` \[s\].
+    fn end_step(&mut self, _rows: &[Row; 3], _step: f64) {}
 
     /// Moves a contact that is not coupled with others, if its motion alone has a closed form.
     fn follow_alone(
@@ -200,18 +238,18 @@ pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
     work: &mut [Work<C>],
     step: f64,
 ) -> Result<Outcome, Refused> {
-    let count = masses.count();
-    if [contacts.len(), accelerations.len(), rates.len(), work.len()] != [count; 4] {
+    let (count, rows) = (contacts.len(), masses.count());
+    if [accelerations.len(), rates.len(), count * (1 + C::DIRECTIONS)] != [rows; 3] || work.len() != count {
         return Err(Refused::Sizes);
     }
-    let given = contacts.iter().zip(accelerations).zip(&*rates).zip(&mut *work);
-    for (place, (((contact, &acceleration), &rate), member)) in given.enumerate() {
-        for number in [acceleration, rate, step] {
-            let is_finite = number > -LARGEST && number < LARGEST;
-            if !is_finite {
-                return Err(Refused::TooDeep(place, TooDeep { indentation: number }));
-            }
+    for (place, &number) in accelerations.iter().chain(&*rates).chain([&step]).enumerate() {
+        let is_finite = number > -LARGEST && number < LARGEST;
+        if !is_finite {
+            return Err(Refused::TooDeep(place % rows % count, TooDeep { indentation: number }));
         }
+    }
+    let given = contacts.iter().zip(accelerations).zip(&*rates).zip(&mut *work);
+    for (((contact, &acceleration), &rate), member) in given {
         let indentation = contact.plastic().indentation();
         member.contact = *contact;
         member.acceleration = acceleration;
@@ -220,6 +258,9 @@ pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
         member.deepest = 0.0;
     }
     find_blocks(work, masses);
+    if C::DIRECTIONS > 0 {
+        return follow_with_friction(contacts, model, masses, (accelerations, rates), work, step);
+    }
     let mut evaluations = 0_u32;
     for first in 0..count {
         let Some(row) = work.get_mut(first..) else { break };
@@ -265,26 +306,64 @@ fn follow_alone<C: SharedContact<M>, M>(member: &mut Work<C>, model: &M, step: f
     Some(Ok(evaluations))
 }
 
+/// The same with friction, for which the motion is followed in straight parts.
+fn follow_with_friction<C: SharedContact<M>, M, B: Borrow<M>>(
+    contacts: &mut [C],
+    model: impl Fn(usize) -> B,
+    masses: &InverseMasses,
+    (accelerations, rates): (&[f64], &mut [f64]),
+    work: &mut [Work<C>],
+    step: f64,
+) -> Result<Outcome, Refused> {
+    let count = contacts.len();
+    for (place, member) in work.iter_mut().enumerate() {
+        member.used = 1 + C::DIRECTIONS;
+        for (index, row) in (place..).step_by(count).zip(member.rows_mut()) {
+            let [acceleration, rate] =
+                [accelerations, &*rates].map(|numbers| numbers.get(index).copied().unwrap_or(0.0));
+            *row = Row { inverse_mass: masses.of(index, index), acceleration, rate, ..Row::default() };
+        }
+    }
+    let mut evaluations = 0_u32;
+    for block in 0..count {
+        if work.get(block).is_some_and(|member| member.block == block) {
+            let mut chords = Chords::new(work, masses, &model, block, step);
+            chords.run()?;
+            evaluations = evaluations.saturating_add(chords.evaluations);
+        }
+    }
+    for (place, (contact, member)) in contacts.iter_mut().zip(work).enumerate() {
+        member.contact.end_step(&member.rows, step);
+        *contact = member.contact;
+        for (rate, row) in rates.iter_mut().skip(place).step_by(count).zip(member.rows()) {
+            *rate = row.rate;
+        }
+    }
+    Ok(Outcome { evaluations })
+}
+
 /// Sorts the contacts into blocks, each with the number of its first contact.
 fn find_blocks<C>(work: &mut [Work<C>], masses: &InverseMasses) {
+    let count = work.len();
     for (place, (member, row)) in work.iter_mut().zip(masses.rows(0)).enumerate() {
         member.block = place;
         member.inverse_mass = row.first().copied().unwrap_or(0.0);
         member.reach = row.iter().rposition(|&entry| entry != 0.0).unwrap_or(0);
     }
     // every round passes the smallest number on; there are at most as many rounds as contacts
-    for _ in 0..work.len() {
+    for _ in 0..count {
         let mut changed = false;
-        let mut rest = &mut *work;
-        for row in masses.rows(0) {
-            let Some((member, others)) = core::mem::take(&mut rest).split_first_mut() else { break };
-            let coupled = row.iter().skip(1).zip(&mut *others).filter(|(entry, _)| **entry != 0.0);
-            for (_, other) in coupled {
-                let least = core::cmp::min(member.block, other.block);
-                changed |= member.block != other.block;
-                (member.block, other.block) = (least, least);
+        for (index, row) in masses.rows(0).enumerate() {
+            let one = index % count;
+            for (other, _) in (index..).zip(row).skip(1).filter(|(_, entry)| **entry != 0.0) {
+                let other = other % count;
+                let [first, second] = [one, other].map(|place| work.get(place).map_or(place, |member| member.block));
+                changed |= first != second;
+                let least = core::cmp::min(first, second);
+                for place in [one, other] {
+                    work.get_mut(place).into_iter().for_each(|member| member.block = least);
+                }
             }
-            rest = others;
         }
         if !changed {
             break;
@@ -298,9 +377,13 @@ fn find_blocks<C>(work: &mut [Work<C>], masses: &InverseMasses) {
 /// `P.(r0 + r1)/2 + a.(h P/2 - Q)`, with the rates \[m/s\] at the start and at the end, and the `accelerations` \[m/s^2\] of
 /// the step. With `W P = r0 + a h - r1` it is the integral of `F r`.
 pub fn work_of_step<C>(work: &[Work<C>], (before, after): (&[f64], &[f64]), accelerations: &[f64], step: f64) -> f64 {
-    let contacts = work.iter().zip(before).zip(after).zip(accelerations);
-    let works = contacts.map(|(((member, &before), &after), &acceleration)| {
-        let (impulse, moment) = (member.impulse(), member.moment());
+    let rows = before.iter().zip(after).zip(accelerations).enumerate();
+    let works = rows.map(|(index, ((&before, &after), &acceleration))| {
+        let member = work.get(index % work.len());
+        let [impulse, moment] = member.map_or([0.0; 2], |member| match (index / work.len()).checked_sub(1) {
+            None => [member.impulse(), member.moment()],
+            Some(direction) => [member.tangential_impulse(direction), member.tangential_moment(direction)],
+        });
         0.5 * impulse * (before + after) + acceleration * (0.5 * step * impulse - moment)
     });
     works.sum()

@@ -7,6 +7,7 @@
 use super::SharedContact;
 use super::block::{Block, present_stiffness};
 use super::branch::Kind;
+use super::gradients::{self, System, Unknown};
 use super::step::accelerate;
 use super::work::{Instant, Work};
 use crate::numbers::{largest, quotient};
@@ -14,13 +15,7 @@ use core::borrow::Borrow;
 use libm::{fabs, sqrt};
 
 /// The amplitude that counts as none, relative to the static indentation: its square is the part of the energy.
-const STILL: f64 = 1e-6;
-
-/// The part of the right side that a solution may leave.
-const SOLVED: f64 = 1e-13;
-
-/// The curvature in a direction, relative to that without couplings, below which the matrix is singular there.
-const SINGULAR: f64 = 1e-12;
+pub(super) const STILL: f64 = 1e-6;
 
 /// Accelerations of this part of those of all forces are rounding: the balance needs no correction.
 const BALANCED: f64 = 1e-13;
@@ -78,7 +73,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         let h = self.left;
         self.find_balance();
         for (_, member) in self.members_mut() {
-            let Solution { number, product, .. } = member.solution;
+            let Unknown { number, product, .. } = member.solution;
             let stiffness = if member.branch.kind == Kind::Apart { 0.0 } else { member.trial.stiffness };
             let [indentation, _, _, moment] = &mut member.now.numbers;
             *moment -= number;
@@ -92,7 +87,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         self.members_mut().for_each(|(_, member)| member.now.net = member.trial.net);
         self.solve(|member| h * (member.now.approach + 0.5 * h * member.now.net), false);
         for (_, member) in self.members_mut() {
-            let Solution { number, product, .. } = member.solution;
+            let Unknown { number, product, .. } = member.solution;
             let Instant { force, net, .. } = member.now;
             let [indentation, rate, impulse, moment] = &mut member.now.numbers;
             *moment += h * (*impulse + 0.5 * h * force) + number;
@@ -102,7 +97,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         }
         self.solve(|member| member.now.approach + h * member.now.net, false);
         for (_, member) in self.members_mut() {
-            let Solution { number, product, .. } = member.solution;
+            let Unknown { number, product, .. } = member.solution;
             let Instant { force, net, approach, .. } = member.now;
             let [_, rate, impulse, _] = &mut member.now.numbers;
             *impulse += h * force + number;
@@ -125,89 +120,48 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         self.solve(|member| if is_balanced { 0.0 } else { member.now.net }, true);
     }
 
-    /// Solves `W x = side`, or `W K W x = side`, for the contacts that are pressed, by conjugate gradients, to which a
-    /// singular matrix does not matter. The product that is kept is `W x`. The solution of a contact that is apart is zero.
+    /// Solves `W x = side`, or `W K W x = side`, for the contacts that are pressed. The product that is kept is `W x`. The solution
+    /// of a contact that is apart is zero.
     fn solve(&mut self, side: impl Fn(&Work<C>) -> f64, by_stiffness: bool) {
-        let diagonal = |member: &Work<C>| match by_stiffness {
-            true => member.inverse_mass * largest(member.trial.stiffness, f64::MIN_POSITIVE) * member.inverse_mass,
-            false => member.inverse_mass,
-        };
-        let mut count: u32 = 0;
         for (_, member) in self.members_mut() {
-            let residual = if member.branch.kind == Kind::Apart { 0.0 } else { side(member) };
-            let exists = fabs(residual) < 1e200 * diagonal(member);
-            let direction = quotient(residual, diagonal(member), exists, 0.0);
-            member.solution = Solution { residual, direction, ..Solution::default() };
-            count = count.saturating_add(1);
+            let stiffness = largest(member.trial.stiffness, f64::MIN_POSITIVE);
+            let factor = if by_stiffness { stiffness * member.inverse_mass } else { 1.0 };
+            let is_sought = member.branch.kind != Kind::Apart;
+            member.solution = Unknown::new(member.inverse_mass * factor, side(member), is_sought);
         }
-        let size = |block: &Self| -> f64 {
-            let sizes = block.members().map(|(_, member)| {
-                let residual = member.solution.residual;
-                let exists = fabs(residual) < 1e200 * diagonal(member);
-                residual * quotient(residual, diagonal(member), exists, 0.0)
-            });
-            sizes.sum()
-        };
-        let mut left = size(self);
-        let enough = SOLVED * SOLVED * left;
-        // rounding may make it need more steps than there are contacts
-        for _ in 0..count.saturating_mul(4) {
-            if left <= enough {
-                break;
-            }
-            let (mut curvature, mut alone) = (0.0, 0.0);
-            for (_, member) in self.members_mut() {
-                (member.trial.force, member.trial.net) = (member.solution.direction, 0.0);
-            }
-            accelerate(self.work, self.masses, self.first);
-            for (_, member) in self.members_mut() {
-                // -W direction
-                member.solution.image = member.trial.net;
-                if by_stiffness {
-                    let is_apart = member.branch.kind == Kind::Apart;
-                    let force = if is_apart { 0.0 } else { -member.trial.stiffness * member.trial.net };
-                    (member.trial.force, member.trial.net) = (force, 0.0);
-                }
-            }
-            if by_stiffness {
-                accelerate(self.work, self.masses, self.first);
-            }
-            for (_, member) in self.members() {
-                let direction = member.solution.direction;
-                curvature -= direction * member.trial.net;
-                alone += direction * diagonal(member) * direction;
-            }
-            if !(curvature > SINGULAR * alone && left < 1e100 * curvature) {
-                break;
-            }
-            let step = left / curvature;
-            for (_, member) in self.members_mut() {
-                let Solution { number, product, residual, direction, image } = &mut member.solution;
-                *number += step * *direction;
-                *product -= step * *image;
-                if member.branch.kind != Kind::Apart {
-                    *residual += step * member.trial.net;
-                }
-            }
-            let before = left;
-            left = size(self);
-            let part = quotient(left, before, left < 1e100 * before, 0.0);
-            for (_, member) in self.members_mut() {
-                let change = member.solution.residual / diagonal(member);
-                member.solution.direction = change + part * member.solution.direction;
-            }
-        }
+        gradients::solve(&mut Balance { block: self, by_stiffness });
     }
 }
 
-/// The solution of a system for one contact, while it is sought.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Solution {
-    number: f64,
-    /// The product of the matrix and the solution.
-    product: f64,
-    residual: f64,
-    direction: f64,
-    /// Minus the product of the matrix and the direction.
-    image: f64,
+/// The system of a block at rest.
+struct Balance<'a, 'b, C, M, B, F> {
+    block: &'a mut Block<'b, C, M, B, F>,
+    by_stiffness: bool,
+}
+
+impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> System for Balance<'_, '_, C, M, B, F> {
+    fn visit(&mut self, mut each: impl FnMut(&mut Unknown)) {
+        self.block.members_mut().for_each(|(_, member)| each(&mut member.solution));
+    }
+
+    fn multiply(&mut self) {
+        let Balance { block, by_stiffness } = self;
+        for (_, member) in block.members_mut() {
+            (member.trial.force, member.trial.net) = (member.solution.direction, 0.0);
+        }
+        accelerate(block.work, block.masses, block.first);
+        for (_, member) in block.members_mut() {
+            // -W direction
+            member.solution.image = -member.trial.net;
+            if *by_stiffness {
+                let is_apart = member.branch.kind == Kind::Apart;
+                let force = if is_apart { 0.0 } else { -member.trial.stiffness * member.trial.net };
+                (member.trial.force, member.trial.net) = (force, 0.0);
+            }
+        }
+        if *by_stiffness {
+            accelerate(block.work, block.masses, block.first);
+        }
+        block.members_mut().for_each(|(_, member)| member.solution.reply = -member.trial.net);
+    }
 }

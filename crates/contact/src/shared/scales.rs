@@ -31,6 +31,21 @@ fn indentation_at(segment: &Segment, (linear, first): (f64, f64), (power, second
     smallest(of_part(linear, segment.linear, first), of_part(power, segment.power, second))
 }
 
+/// Energy \[J\] of a contact under this `load` \[N\].
+pub(super) fn energy_of_load(segment: &Segment, load: f64) -> f64 {
+    let way = indentation_at(segment, (load, 1.0), (load, 2.0 / 3.0));
+    if load > 0.0 && way < f64::INFINITY { load * way } else { 0.0 }
+}
+
+/// Stiffness \[N/m\] of a contact that has taken up this `energy` \[J\].
+pub(super) fn stiffness_at(segment: &Segment, energy: f64) -> f64 {
+    let way = indentation_at(segment, (2.0 * energy, 0.5), (2.5 * energy, 0.4));
+    let way = if way < f64::INFINITY { way } else { 0.0 };
+    // a path that softens ends before its stiffness does
+    let way = if segment.square < 0.0 { smallest(way, segment.upper - segment.origin) } else { way };
+    segment.linear + 1.5 * segment.power * root(way) + 2.0 * segment.square * way
+}
+
 impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B, F> {
     /// The scales of the motion, from the largest energy so far.
     pub(super) fn rescale(&mut self) {
@@ -45,11 +60,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                 stored += smallest(spring, 0.5 * force * fabs(member.now.indentation()));
             }
             // bodies that are set down have no energy yet
-            let load = fabs(member.acceleration) / inverse_mass;
-            if load > 0.0 {
-                let way = indentation_at(&member.branch.stiffest, (load, 1.0), (load, 2.0 / 3.0));
-                least = largest(if way < f64::INFINITY { load * way } else { 0.0 }, least);
-            }
+            least = largest(energy_of_load(&member.branch.stiffest, fabs(member.acceleration) / inverse_mass), least);
         }
         let energy = largest(largest(moving + stored, least), self.energy);
         self.scales.root_energy = sqrt(2.0 * energy);
@@ -59,10 +70,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         self.energy = energy;
         let mut fastest = 0.0;
         for (_, member) in self.members() {
-            let segment = &member.branch.stiffest;
-            let way = indentation_at(segment, (2.0 * energy, 0.5), (2.5 * energy, 0.4));
-            let way = if way < f64::INFINITY { way } else { 0.0 };
-            let stiffness = segment.linear + 1.5 * segment.power * root(way) + 2.0 * segment.square * way;
+            let stiffness = stiffness_at(&member.branch.stiffest, energy);
             let decay = member.loss.as_ref().map_or(0.0, |loss| loss.decay(stiffness, member.inverse_mass));
             fastest = largest(largest(member.inverse_mass * stiffness, decay * decay), fastest);
         }

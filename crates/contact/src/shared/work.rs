@@ -2,8 +2,8 @@
 
 use super::branch::{Branch, Event, Kind, Watched};
 use super::dop853::{Numbers, Slopes};
+use super::gradients::Unknown;
 use super::loss::Loss;
-use super::rest::Solution;
 use super::scales::Scales;
 use crate::numbers::quotient;
 use libm::{fabs, sqrt};
@@ -34,9 +34,62 @@ pub struct Work<C> {
     /// Power of the force of a contact with a loss \[W\].
     pub(super) power: Slopes<1>,
     /// Of a block that comes to rest.
-    pub(super) solution: Solution,
+    pub(super) solution: Unknown,
     /// The largest indentation of dents that were left behind \[m\].
     pub(super) deepest: f64,
+    /// The directions of a contact with friction, of which it uses so many: first the normal, then the tangents.
+    pub(super) rows: [Row; 3],
+    pub(super) used: usize,
+    /// The larger stiffness of the two ends of a chord \[N/m\].
+    pub(super) stiffness: f64,
+    /// Ratio of the tangential to the normal stiffness.
+    pub(super) ratio: f64,
+}
+
+/// A direction of a contact with friction.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Row {
+    /// Diagonal entry of the inverse masses \[1/kg\].
+    pub(super) inverse_mass: f64,
+    /// Acceleration by all other forces \[m/s^2\].
+    pub(super) acceleration: f64,
+    /// Rate at the start of the chord \[m/s\].
+    pub(super) rate: f64,
+    /// Impulse of the step so far \[N.s\].
+    pub(super) impulse: f64,
+    /// Integral of the impulse over time \[N.s^2\].
+    pub(super) moment: f64,
+    /// Force at the start of the chord \[N\].
+    pub(crate) start: f64,
+    /// The derivative of the force over the last chord \[N/s\].
+    pub(super) slope: f64,
+    /// Mean force of the chord that the way follows from \[N\].
+    pub(super) force: f64,
+    /// Mean acceleration with these forces \[m/s^2\].
+    pub(super) net: f64,
+    /// Way of the chord \[m\].
+    pub(crate) way: f64,
+    /// Mean force on this way \[N\].
+    pub(crate) found: f64,
+    /// Of a block that comes to rest.
+    pub(super) solution: Unknown,
+}
+
+impl Row {
+    /// Impulse of the step so far \[N.s\].
+    pub fn impulse(&self) -> f64 {
+        self.impulse
+    }
+
+    /// Mean force of the chord \[N\].
+    pub fn force(&self) -> f64 {
+        self.force
+    }
+
+    /// Rate at present \[m/s\].
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
 }
 
 /// A contact at an instant.
@@ -113,9 +166,28 @@ impl<C> Work<C> {
             slopes: Slopes::NONE,
             loss: None,
             power: Slopes::NONE,
-            solution: Solution::default(),
+            solution: Unknown::default(),
             deepest: 0.0,
+            rows: [Row::default(); 3],
+            used: 0,
+            stiffness: 0.0,
+            ratio: 1.0,
         }
+    }
+
+    /// The directions in use.
+    pub(super) fn rows(&self) -> &[Row] {
+        self.rows.get(..self.used).unwrap_or_default()
+    }
+
+    /// The same to change.
+    pub(super) fn rows_mut(&mut self) -> &mut [Row] {
+        self.rows.get_mut(..self.used).unwrap_or_default()
+    }
+
+    /// Sets the ways of a chord of this `time` \[s\].
+    pub(super) fn set_ways(&mut self, time: f64) {
+        self.rows_mut().iter_mut().for_each(|row| row.way = time * (row.rate + 0.5 * time * row.net));
     }
 
     /// Impulse of the contact force over the step \[N.s\].
@@ -128,6 +200,21 @@ impl<C> Work<C> {
     pub fn moment(&self) -> f64 {
         let [_, _, _, moment] = self.now.numbers;
         moment
+    }
+
+    /// Impulse of the tangential force in this direction over the step \[N.s\]; zero without friction.
+    pub fn tangential_impulse(&self, direction: usize) -> f64 {
+        self.rows.get(1 + direction).map_or(0.0, |row| row.impulse)
+    }
+
+    /// The moment of this impulse \[N.s^2\].
+    pub fn tangential_moment(&self, direction: usize) -> f64 {
+        self.rows.get(1 + direction).map_or(0.0, |row| row.moment)
+    }
+
+    /// Tangential rate at the end of the step \[m/s\].
+    pub fn tangential_rate(&self, direction: usize) -> f64 {
+        self.rows.get(1 + direction).map_or(0.0, |row| row.rate)
     }
 
     /// The largest indentation during the step or before \[m\], which a fresh surface forgets.

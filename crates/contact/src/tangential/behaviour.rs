@@ -1,9 +1,9 @@
 //! A contact with friction as a [`Contact`].
 
 use super::parts::{MOST_PARTS, ends_of_parts, next_of};
-use super::{Quantity, Rough, RoughModel, Shear, Sliding, SpringsOf};
+use super::{Mean, Normal, Quantity, Rough, RoughModel, Shear, Sliding, SpringsOf};
 use crate::Model;
-use crate::behaviour::Contact;
+use crate::behaviour::{Contact, slopes};
 use crate::history::History;
 use crate::loading::Loading;
 use crate::material::YieldPoint;
@@ -14,24 +14,25 @@ use crate::unloading::Unloading;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
-impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Contact<RoughModel<L, U>>
-    for Rough<K, D, MEAN>
+impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const MEAN: bool, N: Normal>
+    Contact<RoughModel<L, U, N::Loss>> for Rough<K, D, MEAN, N>
 {
-    const FOLLOWS_RATE: bool = false;
-    const DERIVATIVES: i32 = 2;
-    const WORDS: usize = 13 + SpringsOf::<K, D, true>::WORDS + 5 * D + if MEAN { 3 * D + 3 } else { 0 };
+    const FOLLOWS_RATE: bool = N::FOLLOWS_RATE;
+    /// A contact with a loss moves together with others: its inputs have no derivatives.
+    const DERIVATIVES: i32 = if N::FOLLOWS_RATE { 0 } else { 2 };
+    const WORDS: usize = N::WORDS + SpringsOf::<K, D, true>::WORDS + 5 * D + if MEAN { 3 * D + 3 } else { 0 };
     const DIRECTIONS: usize = D;
 
     /// Where the contact begins to yield.
     type Kept = YieldPoint;
 
-    fn kept(model: &RoughModel<L, U>) -> YieldPoint {
+    fn kept(model: &RoughModel<L, U, N::Loss>) -> YieldPoint {
         model.normal.yield_point()
     }
 
-    fn start(model: &RoughModel<L, U>, gap: f64) -> Result<Self, TooDeep> {
-        let normal = History::start(&model.normal, gap)?;
-        let springs = SpringsOf::start(model, &normal);
+    fn start(model: &RoughModel<L, U, N::Loss>, gap: f64) -> Result<Self, TooDeep> {
+        let normal = N::start(&model.normal, &model.loss, gap)?;
+        let springs = SpringsOf::start(model, normal.plastic());
         let (none, courses) = (Sum::new(0.0), [Course::held(0.0); D]);
         let (mean_force, impulse) = ([0.0; D], [none; D]);
         Ok(Rough { normal, springs, courses, ends: courses, mean_force, impulse, work: none, lost: 0.0 })
@@ -44,12 +45,12 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
     }
 
     fn mean_force_of_short_step(&self, from: f64) -> f64 {
-        Contact::<Model<L, U>>::mean_force_of_short_step(&self.normal, from)
+        Contact::<Model<L, U>>::mean_force_of_short_step(self.normal.plastic(), from)
     }
 
     /// A course with a changing rate is divided where springs may begin to stick or to slip. Each part counts as
     /// straight. Slip is then exact at the end of a part; stick is of second order in the length of the part.
-    fn step<B: Borrow<RoughModel<L, U>>>(
+    fn step<B: Borrow<RoughModel<L, U, N::Loss>>>(
         &mut self,
         course: &Course,
         step: f64,
@@ -64,9 +65,10 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
             false => ends_of_parts(course, &tangential, model.friction.scale(), step),
         };
         let (mut moved, mut deepest, mut start) = (*self, 0.0, 0.0);
-        if MEAN && !(is_held && self.springs.is_exact_to(self.normal.indentation() + course.rate * step)) {
+        if MEAN && !(is_held && self.springs.is_exact_to(self.normal().indentation() + course.rate * step)) {
             moved.lost = self.friction_work(model);
         }
+        let asked = if MEAN { Mean::Exact } else { Mean::Skipped };
         let (mut impulse, mut work) = ([0.0; D], 0.0);
         for _ in 0..MOST_PARTS {
             let Some(end) = next_of(&ends, start) else { break };
@@ -74,12 +76,13 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
             let (increment, slip) = (way(course), tangential.map(|course| way(&course)));
             // within a divided step the ratio of the held rates is the same to the last bit
             let rates = if is_held { (course.rate, tangential.map(|course| course.rate)) } else { (increment, slip) };
-            let mean = moved.springs.advance_along(&mut moved.normal, model, (increment, slip), rates, MEAN)?;
+            let mean =
+                moved.springs.advance_along(moved.normal.plastic_mut(), model, (increment, slip), rates, asked)?;
             for ((impulse, mean), slip) in impulse.iter_mut().zip(mean).zip(slip) {
                 *impulse += mean * (end - start);
                 work += mean * slip;
             }
-            deepest = largest(moved.normal.max_indentation(), deepest);
+            deepest = largest(moved.normal().max_indentation(), deepest);
             start = end;
         }
         if MEAN {
@@ -95,14 +98,14 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         Ok(deepest)
     }
 
-    fn step_with_mean_force<B: Borrow<RoughModel<L, U>>>(
+    fn step_with_mean_force<B: Borrow<RoughModel<L, U, N::Loss>>>(
         &mut self,
         course: &Course,
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<(f64, f64), TooDeep> {
         let of_normal = model();
-        let mean = { self.normal }.step_with_mean_force(course, step, || &of_normal.borrow().normal)?.1;
+        let mean = { *self.normal.plastic() }.step_with_mean_force(course, step, || &of_normal.borrow().normal)?.1;
         Ok((self.step(course, step, model)?, mean))
     }
 
@@ -111,70 +114,75 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         rate: f64,
         step: f64,
         _kept: &YieldPoint,
-        model: impl Fn() -> RoughModel<L, U>,
+        model: impl Fn() -> RoughModel<L, U, N::Loss>,
     ) -> Result<(), TooDeep> {
         self.step(&Course::held(rate), step, model).map(|_| ())
     }
 
-    fn mean_force(&self, model: &RoughModel<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {
-        self.normal.mean_force(&model.normal, rate, step)
+    fn mean_force(&self, model: &RoughModel<L, U, N::Loss>, rate: f64, step: f64) -> Result<f64, TooDeep> {
+        self.normal().mean_force(&model.normal, rate, step)
     }
 
     fn stays_within(&mut self, depth: f64) -> bool {
-        Contact::<Model<L, U>>::stays_within(&mut self.normal, depth)
+        Contact::<Model<L, U>>::stays_within(self.normal.plastic_mut(), depth)
     }
 
     fn indentation(&self) -> f64 {
-        self.normal.indentation()
+        self.normal().indentation()
     }
 
     fn max_indentation(&self) -> f64 {
-        self.normal.max_indentation()
+        self.normal().max_indentation()
     }
 
-    fn residual_indentation(&self, model: &RoughModel<L, U>) -> f64 {
-        self.normal.residual_indentation(&model.normal)
+    fn residual_indentation(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+        self.normal().residual_indentation(&model.normal)
     }
 
     fn regime(&self) -> Regime {
-        self.normal.regime()
+        self.normal().regime()
     }
 
-    fn force(&self, _rate: f64) -> f64 {
-        self.normal.force()
+    fn force(&self, rate: f64) -> f64 {
+        self.normal.force(rate)
     }
 
-    fn damping(&self, _rate: f64) -> f64 {
-        0.0
+    fn damping(&self, rate: f64) -> f64 {
+        self.normal.damping(rate)
     }
 
-    fn stiffness(&self, _rate: f64) -> f64 {
-        self.normal.stiffness()
+    fn stiffness(&self, rate: f64) -> f64 {
+        self.normal.stiffness(rate)
     }
 
-    fn curvature(&self, model: &RoughModel<L, U>, _rate: f64) -> f64 {
-        self.normal.curvature(&model.normal)
+    fn curvature(&self, model: &RoughModel<L, U, N::Loss>, rate: f64) -> f64 {
+        match N::FOLLOWS_RATE {
+            true => {
+                slopes(self, model, |contact: &Self| Contact::<RoughModel<L, U, N::Loss>>::stiffness(contact, rate)).0
+            }
+            false => self.normal().curvature(&model.normal),
+        }
     }
 
-    fn contact_radius(&self, model: &RoughModel<L, U>) -> f64 {
-        self.normal.contact_radius(&model.normal)
+    fn contact_radius(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+        self.normal().contact_radius(&model.normal)
     }
 
-    fn elastic_energy(&self, model: &RoughModel<L, U>) -> f64 {
-        self.normal.elastic_energy(&model.normal)
+    fn elastic_energy(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+        self.normal().elastic_energy(&model.normal)
     }
 
-    fn dissipated_energy(&self, model: &RoughModel<L, U>) -> f64 {
-        self.normal.dissipated_energy(&model.normal)
+    fn dissipated_energy(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+        self.normal().dissipated_energy(&model.normal) + self.normal.heat()
     }
 
-    fn smooth_piece(&self, model: &RoughModel<L, U>) -> (f64, f64) {
-        self.normal.smooth_piece(&model.normal)
+    fn smooth_piece(&self, model: &RoughModel<L, U, N::Loss>) -> (f64, f64) {
+        self.normal().smooth_piece(&model.normal)
     }
 
     /// The springs stay as they are.
-    fn moved_to(&self, model: &RoughModel<L, U>, indentation: f64) -> Self {
-        Rough { normal: self.normal.moved_to(&model.normal, indentation), ..*self }
+    fn moved_to(&self, model: &RoughModel<L, U, N::Loss>, indentation: f64) -> Self {
+        Rough { normal: self.normal.moved_to(&model.normal, &model.loss, indentation), ..*self }
     }
 
     fn tangential_course(&self, direction: usize) -> Course {
@@ -191,7 +199,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         self.ends.get(direction).copied().unwrap_or_default()
     }
 
-    fn tangential(&self, model: &RoughModel<L, U>, quantity: Quantity) -> f64 {
+    fn tangential(&self, model: &RoughModel<L, U, N::Loss>, quantity: Quantity) -> f64 {
         let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
         match quantity {
             Quantity::Force(direction) => of(self.tangential_forces(model), direction),
@@ -205,7 +213,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
 
     fn tangential_derivatives(
         &self,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, N::Loss>,
         quantity: Quantity,
         normal: &Course,
         tangential: &[Course; 2],
@@ -218,16 +226,16 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         Rough::sliding(self)
     }
 
-    fn valid_depth(model: &RoughModel<L, U>) -> f64 {
+    fn valid_depth(model: &RoughModel<L, U, N::Loss>) -> f64 {
         model.normal.valid_depth()
     }
 
-    fn may_refuse(model: &RoughModel<L, U>) -> bool {
-        <History as Contact<Model<L, U>>>::may_refuse(&model.normal)
+    fn may_refuse(model: &RoughModel<L, U, N::Loss>) -> bool {
+        N::FOLLOWS_RATE || <History as Contact<Model<L, U>>>::may_refuse(&model.normal)
     }
 
     fn save(&self, store: &mut impl FnMut(u64)) {
-        Contact::<Model<L, U>>::save(&self.normal, store);
+        self.normal.save(store);
         self.springs.save(store);
         let Rough { courses, ends, mean_force, impulse, work, lost, .. } = self;
         for (course, end) in courses.iter().zip(ends) {
@@ -243,9 +251,9 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         }
     }
 
-    fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U>) -> Option<Self> {
-        let normal = History::load(words, &model.normal)?;
-        let springs = SpringsOf::load(words, model, &normal)?;
+    fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U, N::Loss>) -> Option<Self> {
+        let normal = N::load(words, &model.normal, &model.loss)?;
+        let springs = SpringsOf::load(words, model, normal.plastic())?;
         let mut courses = [Course::default(); D];
         let mut ends = courses;
         for (course, end) in courses.iter_mut().zip(&mut ends) {

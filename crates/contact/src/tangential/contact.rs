@@ -1,6 +1,6 @@
 //! A contact with friction: a normal contact, its springs, and the tangential rates.
 
-use super::{RoughModel, Shear, Sliding, SpringsOf, Stuck, plane};
+use super::{Normal, RoughModel, Shear, Sliding, SpringsOf, Stuck, plane};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
@@ -13,10 +13,10 @@ use crate::unloading::Unloading;
 ///
 /// The tangential rates are inputs that hold until they are set again; derivatives apply to one step. Every step follows all
 /// rates. There is no [short step](Contact::short_step). Without `MEAN`, the mean force, the impulse and the work of friction
-/// are not computed and stay zero.
+/// are not computed and stay zero. The normal part `N` may have a loss, for bodies that [move together](crate::shared).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rough<K, const D: usize, const MEAN: bool> {
-    pub(super) normal: History,
+pub struct Rough<K, const D: usize, const MEAN: bool, N = History> {
+    pub(super) normal: N,
     pub(super) springs: SpringsOf<K, D, true>,
     /// Tangential rates over the next step \[m/s\].
     pub(super) courses: [Course; D],
@@ -33,15 +33,15 @@ pub struct Rough<K, const D: usize, const MEAN: bool> {
 }
 
 /// A contact with friction in one direction, whose springs form a list of `N` segments.
-pub type RoughContact<const N: usize, const MEAN: bool = true> = Rough<Stuck<N>, 1, MEAN>;
+pub type RoughContact<const N: usize, const MEAN: bool = true, C = History> = Rough<Stuck<N>, 1, MEAN, C>;
 
 /// A contact with friction in two directions, whose springs form a list of `N` segments; sixteen are recommended.
-pub type PlaneContact<const N: usize, const MEAN: bool = true> = Rough<plane::Stuck<N>, 2, MEAN>;
+pub type PlaneContact<const N: usize, const MEAN: bool = true, C = History> = Rough<plane::Stuck<N>, 2, MEAN, C>;
 
-impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
-    /// The normal contact.
+impl<K: Shear<D>, const D: usize, const MEAN: bool, N: Normal> Rough<K, D, MEAN, N> {
+    /// The elastoplastic normal contact.
     pub fn normal(&self) -> &History {
-        &self.normal
+        self.normal.plastic()
     }
 
     /// Relative tangential speeds of the two contact points \[m/s\].
@@ -55,8 +55,11 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
     }
 
     /// Tangential forces \[N\]; positive against positive rates.
-    pub fn tangential_forces<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> [f64; D] {
-        self.springs.forces(&model.friction, self.normal.indentation())
+    pub fn tangential_forces<L: Loading + Copy, U: Unloading + Copy>(
+        &self,
+        model: &RoughModel<L, U, N::Loss>,
+    ) -> [f64; D] {
+        self.springs.forces(&model.friction, self.normal().indentation())
     }
 
     /// Mean tangential forces of the last step \[N\].
@@ -74,9 +77,9 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
     ///
     /// # Errors
     /// As for [`Contact::step`].
-    pub fn predicted_tangential_forces<L: Loading, U: Unloading>(
+    pub fn predicted_tangential_forces<L: Loading + Copy, U: Unloading + Copy>(
         &self,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, N::Loss>,
         rate: f64,
         step: f64,
     ) -> Result<[f64; D], TooDeep> {
@@ -86,21 +89,21 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
     }
 
     /// Elastic energy of the tangential strain \[J\].
-    pub fn tangential_energy<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
-        self.springs.energy(&model.friction, self.normal.indentation())
+    pub fn tangential_energy<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+        self.springs.energy(&model.friction, self.normal().indentation())
     }
 
     /// Energy lost by slip since the start \[J\]: the work of the tangential force that is not stored.
     ///
     /// It never falls. Where the springs of a growing dent or of a full list move approximately, they may store more than the
     /// work; the energy lost then stays until slip has lost as much as was stored too much.
-    pub fn friction_work<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
+    pub fn friction_work<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
         largest(self.lost, self.work.total() - self.tangential_energy(model))
     }
 
     /// Radius of the stick area \[m\].
-    pub fn stick_radius<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
-        self.springs.stick_radius(self.normal.contact_radius(&model.normal), self.normal.indentation())
+    pub fn stick_radius<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+        self.springs.stick_radius(self.normal().contact_radius(&model.normal), self.normal().indentation())
     }
 
     /// How much of the contact slips.
@@ -122,7 +125,7 @@ impl<const N: usize, const MEAN: bool> RoughContact<N, MEAN> {
     }
 
     /// Tangential force \[N\]; positive against a positive rate.
-    pub fn tangential_force<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
+    pub fn tangential_force<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U>) -> f64 {
         let [force] = self.tangential_forces(model);
         force
     }
@@ -143,7 +146,7 @@ impl<const N: usize, const MEAN: bool> RoughContact<N, MEAN> {
     ///
     /// # Errors
     /// As for [`Contact::step`].
-    pub fn predicted_tangential_force<L: Loading, U: Unloading>(
+    pub fn predicted_tangential_force<L: Loading + Copy, U: Unloading + Copy>(
         &self,
         model: &RoughModel<L, U>,
         rate: f64,

@@ -4,7 +4,7 @@
 //! computed in steps: the contact moves over `(v0 + v1)/2` times the step, with `v1 = v0 - step T/m_t` for the mean
 //! force `T` of the step. With this, the kinetic energy changes by exactly the work of the tangential force.
 
-use super::{RoughModel, Sliding, Springs};
+use super::{Mean, RoughModel, Sliding, Springs};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::impact::{self, Impact};
@@ -183,7 +183,7 @@ impl<'a, L: Loading, U: Unloading> Run<'a, L, U> {
         for _ in 0..ITERATIONS {
             let (mut contact, mut springs) = (self.contact, self.springs);
             let way = (increment, step * (slip - stiffness * mean));
-            let found = part * springs.advance(&mut contact, self.model, way, way, true).ok()?;
+            let found = part * springs.advance(&mut contact, self.model, way, way, Mean::Exact).ok()?;
             let change = fabs(found - mean);
             mean = found;
             if change <= CLOSE * limit {
@@ -191,7 +191,7 @@ impl<'a, L: Loading, U: Unloading> Run<'a, L, U> {
             }
         }
         let way = (increment, step * (slip - stiffness * mean));
-        self.springs.advance(&mut self.contact, self.model, way, way, false).ok()?;
+        self.springs.advance(&mut self.contact, self.model, way, way, Mean::Skipped).ok()?;
         self.ball = self.ball.after(mean * step);
         self.work += mean * way.1;
         let end = self.springs.sliding();

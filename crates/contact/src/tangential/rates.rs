@@ -1,6 +1,6 @@
 //! Time derivatives of the quantities of friction.
 
-use super::{Quantity, Rough, RoughModel, Shear};
+use super::{Normal, Quantity, Rough, RoughModel, Shear};
 use crate::behaviour::Contact;
 use crate::loading::Loading;
 use crate::numbers::quotient;
@@ -15,23 +15,23 @@ const WIDTH: f64 = 1.0 / 8192.0;
 /// The longest trial step \[s\], for motions that are slower than any physical one.
 const LONGEST: f64 = 1e50;
 
-impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
+impl<K: Shear<D>, const D: usize, const MEAN: bool, N: Normal> Rough<K, D, MEAN, N> {
     /// First and second time derivative of `quantity`, for motions that continue on these courses along the normal and in
     /// the tangential directions.
     ///
     /// Those of the force are exact, except on a dent that grows, and the second one in two directions. All others result from
     /// three trial steps, as in [`slopes`](crate::behaviour::slopes): their relative errors are about 1e-9 (first) and 1e-5 (second
     /// derivative), if the branch of the law and the segments that slip remain the same.
-    pub(super) fn derivatives_of<L: Loading, U: Unloading>(
+    pub(super) fn derivatives_of<L: Loading + Copy, U: Unloading + Copy>(
         &self,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, N::Loss>,
         quantity: Quantity,
         normal: &Course,
         tangential: &[Course; D],
     ) -> (f64, f64) {
         let rates = (normal.rate, tangential.map(|course| course.rate));
         let accelerations = (normal.slope, tangential.map(|course| course.slope));
-        let indentation = self.normal.indentation();
+        let indentation = self.normal().indentation();
         let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
         let force = |direction| match self.springs.force_rates(&model.friction, indentation, rates, accelerations) {
             Some((first, second)) => (of(first, direction), of(second, direction)),
@@ -48,14 +48,14 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
     }
 
     /// The derivatives from trial steps.
-    fn by_trial<L: Loading, U: Unloading>(
+    fn by_trial<L: Loading + Copy, U: Unloading + Copy>(
         &self,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, N::Loss>,
         quantity: Quantity,
         normal: &Course,
         tangential: &[Course; D],
     ) -> (f64, f64) {
-        let indentation = self.normal.indentation();
+        let indentation = self.normal().indentation();
         let scale = model.friction.scale();
         let speed = tangential.iter().fold(fabs(normal.rate), |sum, course| sum + fabs(scale * course.rate));
         if indentation <= 0.0 || speed == 0.0 {

@@ -15,13 +15,33 @@ use crate::{Model, Surface};
 /// this between the smallest and the largest indentation.
 const MOST_PIECES: u32 = 10_000;
 
+/// How the mean tangential force of a way is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mean {
+    /// Not at all: it is zero.
+    Skipped,
+    /// As exactly as the springs move.
+    Exact,
+    /// For short ways: where there is no closed form, and while a dent grows, as the mean of both ends.
+    OfEnds,
+}
+
+/// The mean of two vectors.
+fn middle<const D: usize>(one: [f64; D], other: [f64; D]) -> [f64; D] {
+    let mut mean = one;
+    mean.iter_mut().zip(other).for_each(|(mean, other)| *mean = 0.5 * (*mean + other));
+    mean
+}
+
 /// The parameters of a contact with friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RoughModel<L, U> {
+pub struct RoughModel<L, U, X = ()> {
     /// The bodies and the laws of the normal force.
     pub normal: Model<L, U>,
     /// Friction between the bodies.
     pub friction: Friction,
+    /// The [loss](crate::losses::Loss) without yield of bodies that move together; `()` without one.
+    pub loss: X,
 }
 
 /// The tangential part of a contact with friction: its springs in `D` directions, and their force-indentation curve. The
@@ -43,7 +63,7 @@ pub type Springs<const N: usize, const LATTICE: bool = true, const PARTS: u32 = 
 /// The springs of a contact in two directions, in a list of `N` segments.
 pub type PlaneSprings<const N: usize, const LATTICE: bool = true> = SpringsOf<plane::Stuck<N>, 2, LATTICE>;
 
-impl<L: Loading, U: Unloading> RoughModel<L, U> {
+impl<L: Loading, U: Unloading, X> RoughModel<L, U, X> {
     /// The unloading curve of a contact whose largest indentation was `largest` \[m\].
     fn curve_below(&self, largest: f64) -> Segment {
         let yields_at = self.normal.yield_point().indentation;
@@ -55,21 +75,21 @@ impl<L: Loading, U: Unloading> RoughModel<L, U> {
 }
 
 impl<const N: usize, const LATTICE: bool, const PARTS: u32> Springs<N, LATTICE, PARTS> {
-    /// [`SpringsOf::advance_along`] in one direction. Returns the mean tangential force \[N\] if it `is_asked` for,
-    /// otherwise 0.
+    /// [`SpringsOf::advance_along`] in one direction. Returns the mean tangential force \[N\] as
+    /// `asked` for.
     ///
     /// # Errors
     /// [`TooDeep`] as for [`History::advance`]; the contact and the springs are then unchanged.
     #[inline]
-    pub fn advance<L: Loading, U: Unloading>(
+    pub fn advance<L: Loading, U: Unloading, X>(
         &mut self,
         contact: &mut History,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, X>,
         (increment, slip): (f64, f64),
         rates: (f64, f64),
-        is_asked: bool,
+        asked: Mean,
     ) -> Result<f64, TooDeep> {
-        let [mean] = self.advance_along(contact, model, (increment, [slip]), (rates.0, [rates.1]), is_asked)?;
+        let [mean] = self.advance_along(contact, model, (increment, [slip]), (rates.0, [rates.1]), asked)?;
         Ok(mean)
     }
 
@@ -82,25 +102,24 @@ impl<const N: usize, const LATTICE: bool, const PARTS: u32> Springs<N, LATTICE, 
 
 impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> {
     /// The springs of a `contact` that has just started: no tangential displacement.
-    pub fn start<L: Loading, U: Unloading>(model: &RoughModel<L, U>, contact: &History) -> Self {
+    pub fn start<L: Loading, U: Unloading, X>(model: &RoughModel<L, U, X>, contact: &History) -> Self {
         let curve = model.curve_below(contact.max_indentation());
         SpringsOf { stuck: K::pressed(&curve, contact.indentation()), curve }
     }
 
     /// Moves a `contact` and its springs by `increment` along the normal and by `slip` in the tangential directions
-    /// \[m\]; `rates` are these rates \[m/s\]. Returns the mean tangential force \[N\] if it `is_asked` for,
-    /// otherwise 0.
+    /// \[m\]; `rates` are these rates \[m/s\]. Returns the mean tangential force \[N\] as `asked` for.
     ///
     /// # Errors
     /// [`TooDeep`] as for [`History::advance`]; the contact and the springs are then unchanged.
     #[inline]
-    pub fn advance_along<L: Loading, U: Unloading>(
+    pub fn advance_along<L: Loading, U: Unloading, X>(
         &mut self,
         contact: &mut History,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, X>,
         (increment, slip): (f64, [f64; D]),
         rates: (f64, [f64; D]),
-        is_asked: bool,
+        asked: Mean,
     ) -> Result<[f64; D], TooDeep> {
         let from = contact.indentation();
         contact.advance(&model.normal, increment)?;
@@ -108,7 +127,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         let scale = model.friction.scale();
         let scaled = |lengths: [f64; D]| lengths.map(|length| scale * length);
         let way = Motion { from, to, shift: scaled(slip), normal: rates.0, tangential: scaled(rates.1) };
-        let pull = self.follow(model, &way, is_asked);
+        let pull = self.follow(model, &way, asked);
         // a fresh surface forgets the dent once the bodies separate beyond the original surface
         if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
             self.curve = model.curve_below(0.0);
@@ -118,14 +137,14 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
 
     /// Moves the springs along a `way` that the contact has completed: up to the growth of its dent, then over the
     /// pieces of the growth. Returns their mean force \[N\].
-    fn follow<L: Loading, U: Unloading>(
+    fn follow<L: Loading, U: Unloading, X>(
         &mut self,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, X>,
         way: &Motion<D>,
-        is_asked: bool,
+        asked: Mean,
     ) -> [f64; D] {
         if way.to <= self.curve.upper {
-            return self.move_on_curve(way, is_asked);
+            return self.move_on_curve(way, asked);
         }
         let (mut here, mut sum) = (way.from, [0.0; D]);
         let rise = way.rise();
@@ -137,7 +156,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
             let end = if grows { smallest(self.next_border(model, here), way.to) } else { self.curve.upper };
             let part = (end - here) / rise;
             let piece = Motion { from: here, to: end, shift: way.shift.map(|shift| part * shift), ..*way };
-            let mean = if grows { self.grow(model, &piece, is_asked) } else { self.move_on_curve(&piece, is_asked) };
+            let mean = if grows { self.grow(model, &piece, asked) } else { self.move_on_curve(&piece, asked) };
             for (sum, mean) in sum.iter_mut().zip(mean) {
                 *sum += part * mean;
             }
@@ -147,7 +166,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
     }
 
     /// The next corner of the loading law or lattice point above `indentation` \[m\].
-    fn next_border<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>, indentation: f64) -> f64 {
+    fn next_border<L: Loading, U: Unloading, X>(&self, model: &RoughModel<L, U, X>, indentation: f64) -> f64 {
         let corner = model.normal.loading.next_corner(&model.normal.pair, indentation);
         if LATTICE {
             smallest(next_of_lattice(indentation, model.normal.yield_point().indentation), corner)
@@ -158,19 +177,24 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
 
     /// Moves the springs on a `way` along the current curve. Returns their mean force \[N\].
     #[inline]
-    fn move_on_curve(&mut self, way: &Motion<D>, is_asked: bool) -> [f64; D] {
+    fn move_on_curve(&mut self, way: &Motion<D>, asked: Mean) -> [f64; D] {
         let curve = self.curve;
-        let mean = if is_asked { self.stuck.mean_pull(&curve, way) } else { [0.0; D] };
+        let exact = asked == Mean::Exact || asked == Mean::OfEnds && self.stuck.has_closed_mean();
+        let mean = if exact { self.stuck.mean_pull(&curve, way) } else { [0.0; D] };
+        let before = self.stuck;
         self.stuck.settle(&curve, way);
+        if asked == Mean::OfEnds && !exact {
+            return middle(before.pull(&curve, way.from), self.stuck.pull(&curve, way.to));
+        }
         mean
     }
 
     /// Moves the springs on a `way` with a growing dent. Returns their mean force \[N\].
-    fn grow<L: Loading, U: Unloading>(
+    fn grow<L: Loading, U: Unloading, X>(
         &mut self,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, X>,
         way: &Motion<D>,
-        is_asked: bool,
+        asked: Mean,
     ) -> [f64; D] {
         let before = *self;
         let after = |way: &Motion<D>| {
@@ -180,14 +204,21 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
             springs
         };
         *self = after(way);
-        if !is_asked {
-            return [0.0; D];
+        match asked {
+            Mean::Skipped => return [0.0; D],
+            Mean::OfEnds => return middle(before.pull(way.from), self.pull(way.to)),
+            Mean::Exact => (),
         }
         let tolerance = TOLERANCE * largest(before.curve.force(way.from), self.curve.force(way.to));
         mean_over(before.pull(way.from), self.pull(way.to), tolerance, |part| {
             let begun = way.first_part(part);
             after(&begun).pull(begun.to)
         })
+    }
+
+    /// The unloading path of the present dent; before yield, Hertz's curve.
+    pub(super) fn curve(&self) -> Segment {
+        self.curve
     }
 
     /// Whether a step with held rates to this `indentation` \[m\] has an exact result.
@@ -263,9 +294,9 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
     }
 
     /// The springs of a `contact` that [`SpringsOf::save`] has stored; `None` if a word is not a finite number.
-    pub fn load<L: Loading, U: Unloading>(
+    pub fn load<L: Loading, U: Unloading, X>(
         words: &mut impl Iterator<Item = u64>,
-        model: &RoughModel<L, U>,
+        model: &RoughModel<L, U, X>,
         contact: &History,
     ) -> Option<Self> {
         let curve = model.curve_below(contact.max_indentation());

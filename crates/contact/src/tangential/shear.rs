@@ -32,6 +32,9 @@ pub trait Shear<const D: usize>: Copy {
     /// Mean tangential force of a step on this `way` that is yet to come \[N\].
     fn mean_pull(&self, curve: &Segment, way: &Motion<D>) -> [f64; D];
 
+    /// Whether that mean force has a closed form.
+    fn has_closed_mean(&self) -> bool;
+
     /// First and second time derivative of the tangential force, for the rates of a `way` that begins at the current position
     /// and for these accelerations along the normal and in the tangential directions.
     fn pull_rates(&self, curve: &Segment, way: &Motion<D>, accelerations: (f64, [f64; D])) -> Rates<D>;
@@ -173,6 +176,10 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
         [mean]
     }
 
+    fn has_closed_mean(&self) -> bool {
+        self.is_within_cones()
+    }
+
     fn pull_rates(&self, curve: &Segment, way: &Motion<1>, (normal, [tangential]): (f64, [f64; 1])) -> Rates<1> {
         let (first, second) = Stuck::pull_rates(self, curve, &way.way(), (normal, tangential));
         ([first], [second])
@@ -228,6 +235,10 @@ impl<const N: usize> Shear<2> for plane::Stuck<N> {
 
     fn mean_pull(&self, curve: &Segment, way: &Motion<2>) -> [f64; 2] {
         plane::Stuck::mean_pull(self, curve, way)
+    }
+
+    fn has_closed_mean(&self) -> bool {
+        false
     }
 
     fn pull_rates(&self, curve: &Segment, way: &Motion<2>, accelerations: (f64, [f64; 2])) -> Rates<2> {

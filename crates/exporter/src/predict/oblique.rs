@@ -177,7 +177,7 @@ pub fn rough(
     let normal = choice.model.elastoplastic().filter(|_| refusal(choice).is_none()).ok_or_else(none)?;
     let [impactor, target] = scene.bodies_with(0, values);
     let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
-    Ok(RoughModel { normal: *normal, friction })
+    Ok(RoughModel { normal: *normal, friction, loss: () })
 }
 
 impl Outcome {

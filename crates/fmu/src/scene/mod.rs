@@ -179,7 +179,7 @@ pub fn with_friction<L, U>(normal: Model<L, U>, value: impl Fn(Parameter) -> f64
     let target = body(Parameter::TargetYoungsModulus, Parameter::TargetPoissonsRatio);
     let coefficient = value(Parameter::FrictionCoefficient);
     let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
-    RoughModel { normal, friction }
+    RoughModel { normal, friction, loss: () }
 }
 
 /// Whether the impactor is the softer body, which a [`Pair`] describes; `value` gives the parameters of the scene. Of equally strong

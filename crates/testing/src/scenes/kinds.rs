@@ -96,7 +96,7 @@ impl<const MEAN: bool> Kind for Rough<MEAN> {
         let rigid = Body { radius: 1.0, youngs_modulus: f64::INFINITY, poissons_ratio: 0.0 };
         let target = Body { youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio, ..rigid };
         let friction = Friction::between(&rigid, &target, pair.modulus, chosen().friction);
-        RoughModel { normal: elastoplastic(pair), friction }
+        RoughModel { normal: elastoplastic(pair), friction, loss: () }
     }
 }
 

@@ -20,15 +20,14 @@ impl<L: Loading, U: Unloading, K: Loss> SharedContact<Model<L, U, K>> for Histor
     }
 
     fn plastic_mut(&mut self) -> &mut crate::History {
-        &mut self.plastic
+        self.elastoplastic_mut()
     }
 
     fn damping(&self) -> Option<Damping> {
-        Some(self.damping_for(0.0))
+        Some(self.loss_at_present())
     }
 
     fn lose(&mut self, model: &Model<L, U, K>, swiftest: f64, heat: f64) -> Result<(), TooDeep> {
-        self.swiftest = swiftest;
-        self.take(model, heat)
+        self.add_heat(model, swiftest, heat)
     }
 }

@@ -1,0 +1,438 @@
+//! The motion of contacts with friction, in straight parts.
+//!
+//! The springs of friction follow a straight way exactly, but not a curved one. A block of contacts with friction therefore
+//! moves along chords. Over a chord of the time `h` every force counts with its mean `F` along the way,
+//!
+//! ```text
+//! rate(h) = rate + h (a - W F),    way = h rate + h^2/2 (a - W F),    F = mean force on this way
+//! ```
+//!
+//! so that the bodies do exactly the work that the contacts take up. The mean forces are found by iteration. The length of
+//! a chord follows from the acceleration: on the curve that the chord replaces, the force would differ.
+//!
+//! # Accuracy
+//! Of second order in the length of a chord: the rates after an impact are off by some 1e-4 of the largest rate that the
+//! energy allows. Work, momentum and Coulomb's bound are exact to rounding, whatever the chords.
+//!
+//! Reference: the mean force on a straight way is the average vector field of G. R. W. Quispel, D. I. McLaren, *J. Phys. A*
+//! 41 (2008) 045206.
+
+use super::gradients::{self, System, Unknown};
+use super::inverse_masses::InverseMasses;
+use super::rest::STILL;
+use super::scales::{Scales, energy_of_load, stiffness_at};
+use super::work::{Instant, Row, Work};
+use super::{Refused, SharedContact};
+use crate::losses::{Damping, Form};
+use crate::motion::MOST_EVALUATIONS;
+use crate::numbers::{largest, quotient, root, smallest};
+use core::borrow::Borrow;
+use core::marker::PhantomData;
+use libm::{cbrt, fabs, sqrt};
+
+/// Number of evaluations that a contact on a chord counts for.
+const CHORD: u32 = 4;
+
+/// Change of a rate by the bend of one chord that is accepted, relative to the largest rate that the energy allows.
+const TOLERANCE: f64 = 3e-7;
+
+/// The first chord after a flight, in units of the time scale.
+const FIRST: f64 = 0.05;
+
+/// The longest chord while a contact is pressed, in the same units.
+const LONGEST: f64 = 0.4;
+
+/// Largest growth of a chord.
+const GROWTH: f64 = 2.0;
+
+/// Largest number of iterations for the mean forces; each reduces the error by `(h omega/2)^2`.
+const ITERATIONS: u32 = 16;
+
+/// A change of a rate in an iteration that is rounding, relative to the largest rate.
+const CLOSE: f64 = 1e-14;
+
+/// A block of contacts with friction that are coupled, in a row of contacts that may have others in between.
+pub(super) struct Chords<'a, C, M, B, F> {
+    work: &'a mut [Work<C>],
+    masses: &'a InverseMasses<'a>,
+    model: &'a F,
+    /// The number of the first contact, which also names the block.
+    block: usize,
+    /// Time left \[s\].
+    left: f64,
+    /// Evaluations so far.
+    pub evaluations: u32,
+    scales: Scales,
+    marker: PhantomData<(M, B)>,
+}
+
+impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, M, B, F> {
+    /// The block of the contact `block`, for `step` \[s\]. `work` is that of all contacts.
+    pub fn new(
+        work: &'a mut [Work<C>],
+        masses: &'a InverseMasses<'a>,
+        model: &'a F,
+        block: usize,
+        step: f64,
+    ) -> Chords<'a, C, M, B, F> {
+        let scales = Scales::default();
+        Chords { work, masses, model, block, left: step, evaluations: 0, scales, marker: PhantomData }
+    }
+
+    fn members(&self) -> impl Iterator<Item = (usize, &Work<C>)> {
+        let block = self.block;
+        self.work.iter().enumerate().filter(move |(_, member)| member.block == block)
+    }
+
+    fn members_mut(&mut self) -> impl Iterator<Item = (usize, &mut Work<C>)> {
+        let block = self.block;
+        self.work.iter_mut().enumerate().filter(move |(_, member)| member.block == block)
+    }
+
+    /// Moves the block through its time.
+    ///
+    /// # Errors
+    /// [`Refused`].
+    pub fn run(&mut self) -> Result<(), Refused> {
+        let model = self.model;
+        for (place, member) in self.members_mut() {
+            member.deepest = member.contact.plastic().max_indentation();
+            let model = model(place);
+            member.ratio = C::stiffness_ratio(model.borrow());
+            // a contact that is pressed at the start and has never moved needs a scale for its damping
+            let plastic = *member.contact.plastic();
+            let is_fitted = |damping: Damping| damping.form == Form::Proportional && damping.swiftest == 0.0;
+            if plastic.force() > 0.0 && member.contact.damping().is_some_and(is_fitted) {
+                let height = plastic.indentation() - member.contact.path().lower;
+                let swiftest = root(member.inverse_mass * plastic.stiffness()) * height;
+                member.contact.lose(model.borrow(), swiftest, 0.0).map_err(|deep| Refused::TooDeep(place, deep))?;
+            }
+        }
+        let mut next = self.left;
+        let mut flying = true;
+        while self.left > 0.0 {
+            self.count(1)?;
+            self.rescale();
+            if self.rests() {
+                self.rest();
+                break;
+            }
+            let before = core::mem::replace(
+                &mut flying,
+                self.members().all(|(_, member)| flies::<C, M>(&member.contact, &member.rows)),
+            );
+            if flying {
+                self.fly()?;
+                continue;
+            }
+            if before {
+                next = FIRST * self.scales.time;
+            }
+            let mut time = smallest(smallest(next, LONGEST * self.scales.time), self.left);
+            let factor = loop {
+                let error = self.attempt(time)?;
+                // the error is of third order
+                let factor = 0.9 * quotient(1.0, cbrt(error), error > 1e-6, 100.0);
+                // written positively to reject NaN
+                if error <= 1.0 {
+                    break factor;
+                }
+                time *= if factor > 0.2 { smallest(factor, 0.9) } else { 0.2 };
+                if time < f64::MIN_POSITIVE {
+                    return Err(Refused::TooLong { left: self.left });
+                }
+            };
+            let is_last = time >= self.left;
+            self.accept(time)?;
+            self.left = if is_last { 0.0 } else { self.left - time };
+            let longer = time * smallest(factor, GROWTH);
+            next = if is_last { largest(longer, next) } else { longer };
+        }
+        for (_, member) in self.members_mut() {
+            let Work { rows: [normal, ..], contact, .. } = *member;
+            let indentation = contact.plastic().indentation();
+            member.now = Instant { force: contact.plastic().force(), ..Instant::at(indentation, normal.rate) };
+            member.now.numbers = [indentation, normal.rate, normal.impulse, normal.moment];
+        }
+        Ok(())
+    }
+
+    /// Adds to the evaluations.
+    fn count(&mut self, evaluations: u32) -> Result<(), Refused> {
+        self.evaluations = self.evaluations.saturating_add(evaluations);
+        if self.evaluations > MOST_EVALUATIONS { Err(Refused::TooLong { left: self.left }) } else { Ok(()) }
+    }
+
+    /// The scales of the motion, from the largest energy so far.
+    fn rescale(&mut self) {
+        let (mut moving, mut stored, mut least) = (0.0, 0.0, 0.0);
+        for (_, member) in self.members() {
+            for row in member.rows() {
+                moving = largest(0.5 * row.rate * row.rate / row.inverse_mass, moving);
+            }
+            let (force, path) = (member.contact.plastic().force(), member.contact.path());
+            // of Hertz's contact, and not more than that of a spring over the whole indentation
+            let stiffness = path.stiffness(member.contact.plastic().indentation());
+            let spring = quotient(0.6 * force * force, stiffness, stiffness > 1e-100 * force, 0.0);
+            stored += smallest(spring, 0.5 * force * fabs(member.contact.plastic().indentation()));
+            least = largest(energy_of_load(&path, fabs(member.acceleration) / member.inverse_mass), least);
+        }
+        let energy = largest(largest(moving + stored, least), 0.5 * self.scales.root_energy * self.scales.root_energy);
+        self.scales.root_energy = sqrt(2.0 * energy);
+        let mut fastest = 0.0;
+        for (_, member) in self.members() {
+            let stiffness = stiffness_at(&member.contact.path(), energy);
+            for (row, ratio) in member.rows().iter().zip(ratios(member)) {
+                fastest = largest(ratio * row.inverse_mass * stiffness, fastest);
+            }
+        }
+        self.scales.time = quotient(1.0, sqrt(fastest), fastest > 0.0, self.left);
+    }
+
+    /// Finds the accelerations for the forces of all rows.
+    fn accelerate(&mut self) {
+        for (_, member) in self.members_mut() {
+            member.rows_mut().iter_mut().for_each(|row| row.net = row.acceleration);
+        }
+        self.respond();
+    }
+
+    /// Adds the response of the bodies to the forces of all rows to their accelerations.
+    fn respond(&mut self) {
+        let count = self.work.len();
+        for (index, entries) in self.masses.rows(0).enumerate() {
+            if self.work.get(index % count).is_none_or(|member| member.block != self.block) {
+                continue;
+            }
+            let force = row_of(self.work, index).map_or(0.0, |row| row.force);
+            let mut own = 0.0;
+            for (other, &entry) in (index..).zip(entries).filter(|(_, entry)| **entry != 0.0) {
+                let Some(row) = row_of(self.work, other) else { continue };
+                own += entry * row.force;
+                if other != index {
+                    row.net -= entry * force;
+                }
+            }
+            row_of(self.work, index).into_iter().for_each(|row| row.net -= own);
+        }
+    }
+
+    /// Tries a chord of this `time` \[s\]: finds its mean forces. Returns the error over that which is accepted.
+    fn attempt(&mut self, time: f64) -> Result<f64, Refused> {
+        let Chords { model, scales, .. } = *self;
+        for (place, member) in self.members_mut() {
+            member.contact.set_forces(model(place).borrow(), &mut member.rows);
+            member.rows_mut().iter_mut().for_each(|row| row.force = row.start + 0.5 * time * row.slope);
+        }
+        let mut spent = 0;
+        for _ in 0..ITERATIONS {
+            self.accelerate();
+            let mut change = 0.0;
+            for (place, member) in self.members_mut() {
+                member.set_ways(time);
+                let mut trial = member.contact;
+                let refused = |deep| Refused::TooDeep(place, deep);
+                trial.go_straight(model(place).borrow(), &mut member.rows, time).map_err(refused)?;
+                member.stiffness = largest(member.contact.plastic().stiffness(), trial.plastic().stiffness());
+                for row in member.rows() {
+                    let off = time * sqrt(row.inverse_mass) * fabs(row.found - row.force);
+                    change = if off > change || off.is_nan() { off } else { change };
+                }
+                spent += CHORD;
+            }
+            for (_, member) in self.members_mut() {
+                member.rows_mut().iter_mut().for_each(|row| row.force = row.found);
+            }
+            if change <= CLOSE * scales.root_energy {
+                self.count(spent)?;
+                self.accelerate();
+                self.members_mut().for_each(|(_, member)| member.set_ways(time));
+                return Ok(self.error(time));
+            }
+        }
+        self.count(spent)?;
+        // a chord this long is not found by iteration
+        Ok(f64::INFINITY)
+    }
+
+    /// The error of a chord, from what its forces would differ on the curve, over that which is accepted.
+    fn error(&self, time: f64) -> f64 {
+        let accepted = TOLERANCE * self.scales.root_energy;
+        let mut error = 0.0;
+        for (_, member) in self.members() {
+            for (row, ratio) in member.rows().iter().zip(ratios(member)) {
+                let force = ratio * member.stiffness * fabs(row.net) * time * time / 12.0;
+                error = largest(force * sqrt(row.inverse_mass) * time, error);
+            }
+        }
+        quotient(error, accepted, accepted > 0.0, 0.0)
+    }
+
+    /// Moves the block along the chord that was tried last.
+    fn accept(&mut self, time: f64) -> Result<(), Refused> {
+        let model = self.model;
+        for (place, member) in self.members_mut() {
+            let refused = |deep| Refused::TooDeep(place, deep);
+            member.contact.go_straight(model(place).borrow(), &mut member.rows, time).map_err(refused)?;
+            member.deepest = largest(member.deepest, member.contact.plastic().max_indentation());
+            for row in member.rows_mut() {
+                row.moment += time * (row.impulse + 0.5 * time * row.force);
+                row.impulse += time * row.force;
+                row.rate += time * row.net;
+                row.slope = 2.0 * (row.force - row.start) / time;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the block is at rest until the end of the step, as that of contacts without friction: every row is slow, and the
+    /// forces without rates are in balance. They are then those of the rows.
+    fn rests(&mut self) -> bool {
+        let model = self.model;
+        let (mut stored, mut stiffest) = (0.0, 0.0);
+        for (_, member) in self.members() {
+            let (force, stiffness) = (member.contact.plastic().force(), member.contact.plastic().stiffness());
+            stored = largest(quotient(force * force, stiffness, stiffness > 1e-100 * force, 0.0), stored);
+            stiffest = largest(stiffness, stiffest);
+        }
+        let slow = STILL * sqrt(stored);
+        // written positively to reject NaN
+        let is_slow =
+            |member: &Work<C>| member.rows().iter().all(|row| fabs(row.rate) <= slow * sqrt(row.inverse_mass));
+        if !(stored > 0.0 && self.members().all(|(_, member)| is_slow(member))) {
+            return false;
+        }
+        for (place, member) in self.members_mut() {
+            member.contact.set_forces(model(place).borrow(), &mut member.rows);
+            let force = member.contact.plastic().force();
+            member.rows_mut().iter_mut().for_each(|row| row.force = row.start);
+            member.rows_mut().iter_mut().take(1).for_each(|row| row.force = force);
+        }
+        self.accelerate();
+        let (balanced, left) = (slow * sqrt(stiffest), self.left);
+        self.members().all(|(_, member)| {
+            let is_pressed = member.contact.plastic().force() > 0.0;
+            let way = |row: &Row| left * (largest(row.rate, 0.0) + 0.5 * left * largest(row.net, 0.0));
+            let [normal, ..] = &member.rows;
+            let stays =
+                is_pressed || member.contact.plastic().indentation() + way(normal) < member.contact.path().lower;
+            stays && member.rows().iter().all(|row| fabs(row.net) <= balanced * row.inverse_mass)
+        })
+    }
+
+    /// Holds every contact where it is until the end of the step. The impulses end the rates, and the distances that the bodies
+    /// would still move: `P = h F + c` and `Q = h^2 F/2 + q` with `W c = r + h r'` and `W q = h r + h^2 r'/2`.
+    fn rest(&mut self) {
+        let h = self.left;
+        self.solve(|row| h * (row.rate + 0.5 * h * row.net));
+        let model = self.model;
+        for (place, member) in self.members_mut() {
+            let is_pressed = member.contact.plastic().force() > 0.0;
+            for row in member.rows_mut() {
+                row.moment += h * (row.impulse + 0.5 * h * row.force) + row.solution.number;
+                row.way = h * (row.rate + 0.5 * h * row.net) - row.solution.product;
+            }
+            if !is_pressed {
+                // within the range of the law, as it stays apart
+                let _ = member.contact.go_straight(model(place).borrow(), &mut member.rows, h);
+            }
+        }
+        self.solve(|row| row.rate + h * row.net);
+        for (_, member) in self.members_mut() {
+            let is_pressed = member.contact.plastic().force() > 0.0;
+            for row in member.rows_mut() {
+                row.impulse += h * row.force + row.solution.number;
+                row.rate = if is_pressed { 0.0 } else { row.rate + h * row.net - row.solution.product };
+            }
+        }
+    }
+
+    /// Solves `W x = side` for the rows of the contacts that are pressed.
+    fn solve(&mut self, side: impl Fn(&Row) -> f64) {
+        for (_, member) in self.members_mut() {
+            let is_pressed = member.contact.plastic().force() > 0.0;
+            for row in member.rows_mut() {
+                (row.start, row.found) = (row.force, row.net);
+                row.solution = Unknown::new(row.inverse_mass, side(row), is_pressed);
+            }
+        }
+        gradients::solve(self);
+        for (_, member) in self.members_mut() {
+            member.rows_mut().iter_mut().for_each(|row| (row.force, row.net) = (row.start, row.found));
+        }
+    }
+
+    /// Lets a block without any force fly, until the first contact touches or to the end of the step.
+    fn fly(&mut self) -> Result<(), Refused> {
+        let model = self.model;
+        let times = self.members().map(|(_, member)| time_to_touch::<C, M>(&member.contact, &member.rows).0);
+        let first = times.fold(f64::INFINITY, smallest);
+        let time = smallest(first, self.left);
+        for (place, member) in self.members_mut() {
+            let refused = |deep| Refused::TooDeep(place, deep);
+            member.rows_mut().iter_mut().for_each(|row| row.net = row.acceleration);
+            member.set_ways(time);
+            // the way to the surface ends there
+            let (until, touches) = time_to_touch::<C, M>(&member.contact, &member.rows);
+            let (surface, touches) = (member.contact.path().lower, touches && until <= time);
+            let way = surface - member.contact.plastic().indentation();
+            member.rows_mut().iter_mut().take(1).filter(|_| touches).for_each(|row| row.way = way);
+            member.contact.go_straight(model(place).borrow(), &mut member.rows, time).map_err(refused)?;
+            for row in member.rows_mut() {
+                row.moment += time * row.impulse;
+                row.rate += time * row.net;
+            }
+        }
+        self.left = if time < self.left { self.left - time } else { 0.0 };
+        Ok(())
+    }
+}
+
+impl<M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> System for Chords<'_, C, M, B, F> {
+    fn visit(&mut self, mut each: impl FnMut(&mut Unknown)) {
+        self.members_mut().for_each(|(_, member)| member.rows_mut().iter_mut().for_each(|row| each(&mut row.solution)));
+    }
+
+    fn multiply(&mut self) {
+        let every = |block: &mut Self, each: &dyn Fn(&mut Row)| {
+            block.members_mut().for_each(|(_, member)| member.rows_mut().iter_mut().for_each(each));
+        };
+        every(self, &|row| (row.force, row.net) = (row.solution.direction, 0.0));
+        self.respond();
+        every(self, &|row| (row.solution.image, row.solution.reply) = (-row.net, -row.net));
+    }
+}
+
+/// The row of the matrix with this `index`: all normals, then all tangents in the first direction, and so on.
+fn row_of<C>(work: &mut [Work<C>], index: usize) -> Option<&mut Row> {
+    let count = work.len();
+    work.get_mut(index % count)?.rows_mut().get_mut(index / count)
+}
+
+/// Stiffness of the rows of a contact over that of the normal.
+fn ratios<C>(member: &Work<C>) -> [f64; 3] {
+    [1.0, member.ratio, member.ratio]
+}
+
+/// Whether no force acts, and the contact does not touch at once.
+fn flies<C: SharedContact<M>, M>(contact: &C, rows: &[Row; 3]) -> bool {
+    contact.plastic().force() == 0.0 && time_to_touch::<C, M>(contact, rows).0 > 0.0
+}
+
+/// Time until a contact without force touches \[s\], infinite if it does not; and whether it touches then. One that leaves a dent
+/// and comes back does not touch, but is where it turns: a fresh surface may have forgotten the dent by then.
+fn time_to_touch<C: SharedContact<M>, M>(contact: &C, [Row { rate, acceleration, .. }, ..]: &[Row; 3]) -> (f64, bool) {
+    let surface = contact.path().lower;
+    let gap = surface - contact.plastic().indentation();
+    let touches = gap <= 4.0 * f64::EPSILON * fabs(surface);
+    if touches && (*rate > 0.0 || (*rate == 0.0 && *acceleration > 0.0)) {
+        return (0.0, true);
+    }
+    let square = rate * rate + 2.0 * acceleration * largest(gap, 0.0);
+    let sum = rate + root(square);
+    match *acceleration > 0.0 && *rate < 0.0 {
+        true if surface > 0.0 => (-rate / acceleration, false),
+        true => ((root(square) - rate) / acceleration, true),
+        false => (quotient(2.0 * gap, sum, square >= 0.0 && sum > 0.0 && !touches, f64::INFINITY), true),
+    }
+}

@@ -1,0 +1,278 @@
+//! Contacts with friction that share bodies: what must hold for any bodies and any step, and how they come to rest.
+
+use crate::physics::{AnyModel, Random, loading, pair_of, unloading};
+use crate::shared_motion::{Group, random_rows};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses::{AnyLoss, Fitted, History as LosingHistory};
+use brinell_contact::shared::SharedContact;
+use brinell_contact::tangential::{Friction, Rough, RoughModel, Stuck, plane};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Contact, Surface};
+
+type Model = RoughModel<AnyLoading, AnyUnloading>;
+type LosingModel = RoughModel<AnyLoading, AnyUnloading, AnyLoss>;
+type OneWay = Rough<Stuck<16>, 1, true>;
+type TwoWays = Rough<plane::Stuck<16>, 2, true>;
+type LosingOneWay = Rough<Stuck<16>, 1, true, LosingHistory<AnyLoss>>;
+type LosingTwoWays = Rough<plane::Stuck<16>, 2, true, LosingHistory<AnyLoss>>;
+
+const G: f64 = 9.81;
+
+/// Ratio of the stiffnesses for a Poisson's ratio of 0.3.
+const RATIO: f64 = 2.0 * 0.7 / 1.7;
+
+/// A box on spherical feet of 5 mm.
+struct Feet {
+    mass: f64,
+    inertia: [f64; 3],
+    /// From the centre of mass [m].
+    arms: [[f64; 3]; 4],
+}
+
+const BOX: Feet = Feet {
+    mass: 0.3,
+    inertia: [2e-4, 3e-4, 4e-4],
+    arms: [[0.03, 0.02, -0.01], [-0.03, 0.02, -0.01], [0.03, -0.02, -0.01], [-0.03, -0.02, -0.01]],
+};
+
+impl Feet {
+    /// The upper triangle of the inverse masses, with so many tangential `directions` [1/kg].
+    fn inverse_masses(&self, directions: usize) -> Vec<f64> {
+        let cross = |a: [f64; 3], b: [f64; 3]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
+        let axes = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let rows: Vec<_> = axes[..=directions]
+            .iter()
+            .flat_map(|&axis| self.arms.iter().map(move |&arm| (axis, cross(arm, axis))))
+            .collect();
+        let mut entries = Vec::new();
+        for (i, one) in rows.iter().enumerate() {
+            for other in &rows[i..] {
+                let of = |axis: usize| {
+                    one.0[axis] * other.0[axis] / self.mass + one.1[axis] * other.1[axis] / self.inertia[axis]
+                };
+                entries.push((0..3).map(of).sum());
+            }
+        }
+        entries
+    }
+}
+
+fn rough(law: (&str, &str), coefficient: f64) -> Model {
+    let normal = AnyModel {
+        pair: pair_of(5e-3, 1.13e11, 3e8),
+        loading: loading(law.0),
+        unloading: unloading(law.1),
+        surface: Surface::Dented,
+    };
+    RoughModel { normal, friction: Friction { coefficient, stiffness_ratio: RATIO }, loss: () }
+}
+
+fn losing(law: (&str, &str), coefficient: f64) -> LosingModel {
+    let RoughModel { normal, friction, .. } = rough(law, coefficient);
+    RoughModel { normal, friction, loss: AnyLoss::Fitted(Fitted { restitution: 0.9 }) }
+}
+
+/// The box on a slope, in so many directions.
+fn on_slope<M, C: Contact<M> + SharedContact<M>>(model: impl Fn() -> M, slope: f64, gap: f64) -> Group<M, C> {
+    let directions = <C as Contact<M>>::DIRECTIONS;
+    let mut accelerations = vec![G * slope.cos(); 4];
+    accelerations.extend([G * slope.sin(); 4]);
+    accelerations.resize(4 * (1 + directions), 0.0);
+    let rates = vec![0.0; accelerations.len()];
+    Group::new((0..4).map(|_| model()).collect(), &[gap; 4], BOX.inverse_masses(directions), accelerations, rates)
+}
+
+/// The box after it was dropped from 1 mm and has come to rest, and the time that took [ms].
+fn at_rest<M, C: Contact<M> + SharedContact<M> + Clone>(model: impl Fn() -> M, slope: f64) -> (Group<M, C>, u32)
+where
+    M: Clone,
+{
+    let mut group: Group<M, C> = on_slope(model, slope, 1e-3);
+    for steps in 1..1000 {
+        group.step(1e-3);
+        if group.rates.iter().all(|rate| rate.abs() < 1e-14) {
+            return (group, steps);
+        }
+    }
+    panic!("{:?}", group.rates)
+}
+
+#[test]
+fn a_box_that_is_dropped_on_a_slope_comes_to_rest_and_stays_there() {
+    let slope: f64 = 0.2;
+    let law = ("brinell", "brinell");
+    let (mut group, time): (Group<LosingModel, LosingOneWay>, u32) = at_rest(|| losing(law, 0.5), slope);
+    println!("at rest after {time} ms and {} evaluations", group.evaluations);
+    // the energy of the fall
+    assert!(group.imbalance < 1e-10 * BOX.mass * G * 1e-3, "{:e}", group.imbalance);
+    let depths = group.depths();
+    group.evaluations = 0;
+    for _ in 0..100_000 {
+        group.impulses.fill(0.0);
+        group.step(1e-3);
+        assert!(group.rates.iter().all(|rate| rate.abs() < 1e-14), "{:?}", group.rates);
+    }
+    assert_eq!(group.depths(), depths);
+    assert!(group.evaluations <= 100_000 * 12, "{} evaluations", group.evaluations);
+    let (normal, tangential) = group.impulses.split_at(4);
+    for (found, expected) in [(normal, slope.cos()), (tangential, slope.sin())] {
+        let weight = 1e-3 * BOX.mass * G * expected;
+        let off = found.iter().sum::<f64>() / weight - 1.0;
+        assert!(off.abs() < 1e-12, "{off:.1e}: {found:?}");
+    }
+    // anything that changes wakes it
+    for row in 0..8 {
+        let mut group = group.clone();
+        group.accelerations[row] -= 5.0;
+        group.step(1e-3);
+        assert!(group.rates.iter().any(|rate| rate.abs() > 1e-5), "{:?}", group.rates);
+    }
+}
+
+#[test]
+fn a_box_in_two_directions_comes_to_rest() {
+    let (group, time): (Group<LosingModel, LosingTwoWays>, u32) =
+        at_rest(|| losing(("hertz", "contact-radius"), 0.3), 0.1);
+    println!("at rest after {time} ms and {} evaluations", group.evaluations);
+}
+
+#[test]
+fn a_box_that_slides_loses_the_work_of_friction() {
+    let (slope, coefficient): (f64, f64) = (0.4, 0.1);
+    let model = || losing(("hertz", "contact-radius"), coefficient);
+    let mut group: Group<LosingModel, LosingOneWay> = on_slope(model, slope, 1e-6);
+    (0..300).for_each(|_| group.step(1e-3));
+    let energy = |group: &Group<LosingModel, LosingOneWay>| -> f64 {
+        group.contacts.iter().zip(&group.models).map(|(contact, model)| contact.friction_work(model)).sum()
+    };
+    let (before, rate) = (energy(&group), group.rates[4]);
+    group.impulses.fill(0.0);
+    (0..100).for_each(|_| group.step(1e-3));
+    let gained = group.rates[4] - rate;
+    let expected = 0.1 * G * (slope.sin() - coefficient * slope.cos());
+    assert!((gained / expected - 1.0).abs() < 1e-6, "{gained} instead of {expected} m/s");
+    let way = 0.1 * (rate + 0.5 * gained);
+    let work = coefficient * BOX.mass * G * slope.cos() * way;
+    let lost = energy(&group) - before;
+    assert!((lost / work - 1.0).abs() < 1e-6, "{lost} instead of {work} J");
+}
+
+/// Random bodies with friction in as many directions as their contacts have, and their energy [J].
+fn random_rough<C: Contact<Model> + SharedContact<Model>>(random: &mut Random, count: usize) -> (Group<Model, C>, f64) {
+    let directions = <C as Contact<Model>>::DIRECTIONS;
+    let (start, kinetic) = random_rows(random, count, directions);
+    let models = start.models.iter().map(|normal| {
+        let coefficient = random.next();
+        let friction = Friction { coefficient, stiffness_ratio: RATIO };
+        // a law without segments has no springs
+        let normal = match normal.is_segmented() {
+            true => *normal,
+            false => AnyModel { unloading: unloading("contact-radius"), loading: loading("johnson"), ..*normal },
+        };
+        RoughModel { normal, friction, loss: () }
+    });
+    let models: Vec<Model> = models.collect();
+    let gaps: Vec<f64> = start.depths().iter().map(|depth| -depth).collect();
+    (Group::new(models, &gaps, start.entries, start.accelerations, start.rates), kinetic)
+}
+
+/// Follows random bodies in steps that are cut in different ways; returns the differences in rising order.
+fn differences<C: Contact<Model> + SharedContact<Model>>(seed: u64) -> Vec<f64> {
+    let mut random = Random(seed);
+    let mut differences = Vec::new();
+    for index in 0..60 {
+        let count = 1 + index % 6;
+        let (start, kinetic) = random_rough::<C>(&mut random, count);
+        let rows = start.rates.len();
+        let most = (0..rows).map(|i| start.masses().of(i, i)).fold(0.0, f64::max);
+        let speed = (2.0 * kinetic * most).sqrt();
+        let radius = start.models[0].normal.pair.radius;
+        let step = (3e-2 * radius / speed).min(1e-2);
+        let mut whole = start.clone();
+        whole.step(step);
+        let energy = kinetic.max(whole.energy());
+        assert!(whole.imbalance < 1e-10 * energy, "{index}: {:e} of {energy:e} J", whole.imbalance);
+        for (contact, model) in whole.models.iter().enumerate() {
+            let tangents = (1..=<C as Contact<Model>>::DIRECTIONS)
+                .map(|direction| whole.impulses[contact + direction * count].powi(2));
+            let (slipped, pressed) = (tangents.sum::<f64>().sqrt(), whole.impulses[contact]);
+            let limit = model.friction.coefficient * pressed;
+            assert!(slipped <= limit * (1.0 + 1e-12), "{index}: an impulse of {slipped} N.s, not {limit} N.s");
+        }
+        for parts in [3, 50] {
+            let mut cut = start.clone();
+            (0..parts).for_each(|_| cut.step(step / f64::from(parts)));
+            differences.push(whole.difference(&cut, speed, 1e-2 * radius));
+        }
+    }
+    differences.sort_by(f64::total_cmp);
+    differences
+}
+
+#[test]
+fn random_bodies_with_friction_keep_balance_and_bound_and_hardly_care_how_time_is_cut() {
+    for differences in [differences::<OneWay>(21), differences::<TwoWays>(22)] {
+        let (median, most) = (differences[60], differences[114]);
+        println!(
+            "differences: median {median:.1e}, nine in ten below {:.1e}, worst {:.1e}",
+            differences[108], differences[119]
+        );
+        assert!(median < 1e-5 && most < 1e-3, "{median:.1e}, {most:.1e}");
+    }
+}
+
+#[test]
+fn contacts_that_are_not_coupled_move_as_if_each_were_alone() {
+    let model = rough(("brinell", "brinell"), 0.3);
+    let alone = |rate: f64, slip: f64| {
+        let mut group: Group<Model, OneWay> =
+            Group::new(vec![model], &[1e-6], vec![30.0, 2.0, 100.0], vec![0.0, 1.0], vec![rate, slip]);
+        group.step(4e-5);
+        group
+    };
+    let (one, other) = (alone(0.3, 0.1), alone(0.5, -0.2));
+    // normals, then tangents: each contact is coupled with itself
+    let entries = vec![30.0, 0.0, 2.0, 0.0, 30.0, 0.0, 2.0, 100.0, 0.0, 100.0];
+    let rates = vec![0.3, 0.5, 0.1, -0.2];
+    let mut both: Group<Model, OneWay> =
+        Group::new(vec![model; 2], &[1e-6; 2], entries, vec![0.0, 0.0, 1.0, 1.0], rates);
+    both.step(4e-5);
+    assert_eq!(both.rates, [one.rates[0], other.rates[0], one.rates[1], other.rates[1]]);
+    assert_eq!(both.contacts, [one.contacts[0], other.contacts[0]]);
+}
+
+#[test]
+fn powers_of_two_in_mass_length_and_time_change_nothing_else() {
+    for (mass, length, time) in [(4.0, 1.0, 1.0), (1.0, 16.0, 1.0), (1.0, 1.0, 0.25), (0.5, 0.25, 4.0)] {
+        let model = rough(("thornton", "thornton"), 0.3);
+        let pressure = mass / (length * time * time);
+        let pair = model.normal.pair;
+        let pair = pair_of(length * pair.radius, pressure * pair.modulus, pressure * pair.yield_strength);
+        let scaled_model = Model { normal: AnyModel { pair, ..model.normal }, ..model };
+        let speed = |rates: &[f64]| rates.iter().map(|rate| length / time * rate).collect::<Vec<f64>>();
+        let (entries, rates) = (vec![30.0, 2.0, 100.0], [0.3, 0.1]);
+        let mut group: Group<Model, OneWay> =
+            Group::new(vec![model], &[1e-6], entries.clone(), vec![0.0; 2], rates.to_vec());
+        let scaled_entries = entries.iter().map(|entry| entry / mass).collect();
+        let mut scaled: Group<Model, OneWay> =
+            Group::new(vec![scaled_model], &[length * 1e-6], scaled_entries, vec![0.0; 2], speed(&rates));
+        group.step(1e-4);
+        scaled.step(1e-4 * time);
+        for (found, expected) in scaled.rates.iter().zip(speed(&group.rates)) {
+            assert!((found / expected - 1.0).abs() < 1e-9, "{found} and {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_symmetric_box_stays_symmetric() {
+    let mut group: Group<Model, OneWay> = on_slope(|| rough(("brinell", "brinell"), 0.3), 0.2, 1e-5);
+    group.rates[..4].fill(0.2);
+    group.step(1e-4);
+    // feet on one line across the slope
+    for (one, other) in [(0, 2), (1, 3), (4, 6), (5, 7)] {
+        assert!((group.rates[one] - group.rates[other]).abs() < 1e-13, "{:?}", group.rates);
+    }
+}
