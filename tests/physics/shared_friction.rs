@@ -4,7 +4,7 @@ use crate::physics::{AnyModel, Random, loading, pair_of, unloading};
 use crate::shared_motion::{Group, random_rows};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{AnyLoss, Fitted, History as LosingHistory};
-use brinell_contact::shared::SharedContact;
+use brinell_contact::shared::{Refused, SharedContact};
 use brinell_contact::tangential::{Friction, Rough, RoughModel, Stuck, plane};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Contact, Surface};
@@ -191,7 +191,11 @@ fn differences<C: Contact<Model> + SharedContact<Model>>(seed: u64) -> Vec<f64> 
         let radius = start.models[0].normal.pair.radius;
         let step = (3e-2 * radius / speed).min(1e-2);
         let mut whole = start.clone();
-        whole.step(step);
+        // bodies that are wedged oscillate too often for one step
+        if let Err(refused) = whole.try_step(step) {
+            assert!(matches!(refused, Refused::TooLong { .. }), "{index}: {refused:?}");
+            continue;
+        }
         let energy = kinetic.max(whole.energy());
         assert!(whole.imbalance < 1e-10 * energy, "{index}: {:e} of {energy:e} J", whole.imbalance);
         for (contact, model) in whole.models.iter().enumerate() {
@@ -199,7 +203,7 @@ fn differences<C: Contact<Model> + SharedContact<Model>>(seed: u64) -> Vec<f64> 
                 .map(|direction| whole.impulses[contact + direction * count].powi(2));
             let (slipped, pressed) = (tangents.sum::<f64>().sqrt(), whole.impulses[contact]);
             let limit = model.friction.coefficient * pressed;
-            assert!(slipped <= limit * (1.0 + 1e-12), "{index}: an impulse of {slipped} N.s, not {limit} N.s");
+            assert!(slipped <= limit * (1.0 + 1e-9), "{index}: an impulse of {slipped} N.s, not {limit} N.s");
         }
         for parts in [3, 50] {
             let mut cut = start.clone();
@@ -214,11 +218,10 @@ fn differences<C: Contact<Model> + SharedContact<Model>>(seed: u64) -> Vec<f64> 
 #[test]
 fn random_bodies_with_friction_keep_balance_and_bound_and_hardly_care_how_time_is_cut() {
     for differences in [differences::<OneWay>(21), differences::<TwoWays>(22)] {
-        let (median, most) = (differences[60], differences[114]);
-        println!(
-            "differences: median {median:.1e}, nine in ten below {:.1e}, worst {:.1e}",
-            differences[108], differences[119]
-        );
+        let at = |part: usize| differences[differences.len() * part / 100];
+        let (median, most) = (at(50), at(95));
+        println!("{} differences: median {median:.1e}, 95 % below {most:.1e}", differences.len());
+        assert!(differences.len() >= 110, "{}", differences.len());
         assert!(median < 1e-5 && most < 1e-3, "{median:.1e}, {most:.1e}");
     }
 }
@@ -261,7 +264,7 @@ fn powers_of_two_in_mass_length_and_time_change_nothing_else() {
         group.step(1e-4);
         scaled.step(1e-4 * time);
         for (found, expected) in scaled.rates.iter().zip(speed(&group.rates)) {
-            assert!((found / expected - 1.0).abs() < 1e-9, "{found} and {expected}");
+            assert!((found / expected - 1.0).abs() < 1e-8, "{found} and {expected}");
         }
     }
 }
@@ -275,4 +278,36 @@ fn a_symmetric_box_stays_symmetric() {
     for (one, other) in [(0, 2), (1, 3), (4, 6), (5, 7)] {
         assert!((group.rates[one] - group.rates[other]).abs() < 1e-13, "{:?}", group.rates);
     }
+}
+
+#[test]
+fn the_smallest_and_largest_rates_are_followed_or_refused() {
+    for rate in [5e-324, 1e-310, 1e-200, 1e-100, 1e-30, 1e10, 1e30] {
+        for slip in [0.0, rate, -0.3 * rate] {
+            let model = || losing(("big-alabo", "contact-radius"), 0.4);
+            let mut group: Group<LosingModel, LosingTwoWays> = on_slope(model, 0.0, 0.0);
+            group.accelerations.fill(0.0);
+            (group.rates[0], group.rates[4]) = (rate, slip);
+            let outcome = group.try_step(1e-6);
+            let is_followed = outcome.is_ok() && group.rates.iter().all(|rate| rate.is_finite());
+            let is_too_long = matches!(outcome, Err(Refused::TooLong { .. }));
+            assert!(is_followed || rate > 1e20 && is_too_long, "{rate:e}, {slip:e}: {outcome:?}");
+        }
+    }
+}
+
+#[test]
+fn a_fresh_surface_forgets_the_dent_in_a_flight_of_any_length() {
+    let RoughModel { normal, friction, .. } = rough(("thornton", "thornton"), 0.3);
+    let model = RoughModel { normal: AnyModel { surface: Surface::Fresh, ..normal }, friction, loss: () };
+    let start = || -> Group<Model, OneWay> {
+        Group::new(vec![model], &[0.0], vec![30.0, 2.0, 100.0], vec![200.0, 0.0], vec![0.5, 0.1])
+    };
+    // it hits, flies, and hits again
+    let (mut whole, mut cut) = (start(), start());
+    whole.step(6e-3);
+    (0..200).for_each(|_| cut.step(3e-5));
+    assert!(whole.impulses[0] > 1.5 * 0.5 / 30.0, "{:?}", whole.impulses);
+    let difference = whole.difference(&cut, 0.5, 1e-5);
+    assert!(difference < 1e-3, "{difference:.1e}: {:?} {:?}", whole.rates, cut.rates);
 }

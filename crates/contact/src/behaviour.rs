@@ -165,6 +165,10 @@ pub trait Contact<M>: Copy {
         Course::held(0.0)
     }
 
+    /// Sets the course on which the tangential rate in this direction ended the last step, of a contact that others have moved. Its
+    /// derivatives for the next step are those of no course. It has no effect without friction.
+    fn set_tangential_end(&mut self, _direction: usize, _end: &Course) {}
+
     /// A quantity of the friction; NaN without friction.
     fn tangential(&self, _model: &M, _quantity: Quantity) -> f64 {
         f64::NAN

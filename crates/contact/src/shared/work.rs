@@ -37,11 +37,11 @@ pub struct Work<C> {
     pub(super) solution: Unknown,
     /// The largest indentation of dents that were left behind \[m\].
     pub(super) deepest: f64,
+    /// A contact with friction at the end of the chord that is tried.
+    pub(super) moved: C,
     /// The directions of a contact with friction, of which it uses so many: first the normal, then the tangents.
     pub(super) rows: [Row; 3],
     pub(super) used: usize,
-    /// The larger stiffness of the two ends of a chord \[N/m\].
-    pub(super) stiffness: f64,
     /// Ratio of the tangential to the normal stiffness.
     pub(super) ratio: f64,
 }
@@ -61,8 +61,8 @@ pub struct Row {
     pub(super) moment: f64,
     /// Force at the start of the chord \[N\].
     pub(crate) start: f64,
-    /// The derivative of the force over the last chord \[N/s\].
-    pub(super) slope: f64,
+    /// The force at the start of the last chord and in its middle \[N\], and its time \[s\].
+    pub(super) last: [f64; 3],
     /// Mean force of the chord that the way follows from \[N\].
     pub(super) force: f64,
     /// Mean acceleration with these forces \[m/s^2\].
@@ -71,6 +71,16 @@ pub struct Row {
     pub(crate) way: f64,
     /// Mean force on this way \[N\].
     pub(crate) found: f64,
+    /// The stiffness at the start of the chord, and how the force grows with the indentation beside \[N/m\].
+    pub(super) stiffness_before: [f64; 2],
+    /// The same as means over the chord.
+    pub(super) stiffness: [f64; 2],
+    /// The part of the force on a curved way that grows with the indentation \[N\].
+    pub(crate) beside: f64,
+    /// The moment of the impulse by which the way is not straight \[N.s^2\].
+    pub(super) bend: f64,
+    /// Mean acceleration with the mean forces on the way \[m/s^2\].
+    pub(super) curved: f64,
     /// Of a block that comes to rest.
     pub(super) solution: Unknown,
 }
@@ -84,6 +94,18 @@ impl Row {
     /// Mean force of the chord \[N\].
     pub fn force(&self) -> f64 {
         self.force
+    }
+
+    /// The mean force of the next chord, of this `time` \[s\], if the force goes on along a parabola \[N\].
+    pub(super) fn expected(&self, time: f64) -> f64 {
+        let [start, middle, before] = self.last;
+        if before == 0.0 {
+            return self.start;
+        }
+        // with the mean of the last chord, and the forces at its start and end
+        let (slope, bend) = (4.0 * self.start + 2.0 * start - 6.0 * middle, 3.0 * (self.start + start - 2.0 * middle));
+        let part = time / before;
+        self.start + part * (0.5 * slope + part * bend / 3.0)
     }
 
     /// Rate at present \[m/s\].
@@ -150,11 +172,12 @@ impl Instant {
     }
 }
 
-impl<C> Work<C> {
+impl<C: Copy> Work<C> {
     /// Working memory for `contact`; any contact will do.
     pub fn new(contact: C) -> Work<C> {
         Work {
             contact,
+            moved: contact,
             block: 0,
             reach: 0,
             active: false,
@@ -170,11 +193,12 @@ impl<C> Work<C> {
             deepest: 0.0,
             rows: [Row::default(); 3],
             used: 0,
-            stiffness: 0.0,
             ratio: 1.0,
         }
     }
+}
 
+impl<C> Work<C> {
     /// The directions in use.
     pub(super) fn rows(&self) -> &[Row] {
         self.rows.get(..self.used).unwrap_or_default()

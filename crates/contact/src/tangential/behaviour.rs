@@ -18,8 +18,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
     Contact<RoughModel<L, U, N::Loss>> for Rough<K, D, MEAN, N>
 {
     const FOLLOWS_RATE: bool = N::FOLLOWS_RATE;
-    /// A contact with a loss moves together with others: its inputs have no derivatives.
-    const DERIVATIVES: i32 = if N::FOLLOWS_RATE { 0 } else { 2 };
+    const DERIVATIVES: i32 = N::DERIVATIVES;
     const WORDS: usize = N::WORDS + SpringsOf::<K, D, true>::WORDS + 5 * D + if MEAN { 3 * D + 3 } else { 0 };
     const DIRECTIONS: usize = D;
 
@@ -48,6 +47,8 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
         Contact::<Model<L, U>>::mean_force_of_short_step(self.normal.plastic(), from)
     }
 
+    /// With a loss the contact moves on one straight way, as a short part of the motion of bodies that share contacts.
+    ///
     /// A course with a changing rate is divided where springs may begin to stick or to slip. Each part counts as
     /// straight. Slip is then exact at the end of a part; stick is of second order in the length of the part.
     fn step<B: Borrow<RoughModel<L, U, N::Loss>>>(
@@ -76,8 +77,15 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
             let (increment, slip) = (way(course), tangential.map(|course| way(&course)));
             // within a divided step the ratio of the held rates is the same to the last bit
             let rates = if is_held { (course.rate, tangential.map(|course| course.rate)) } else { (increment, slip) };
-            let mean =
-                moved.springs.advance_along(moved.normal.plastic_mut(), model, (increment, slip), rates, asked)?;
+            let mean = match moved.normal.loss() {
+                None => {
+                    moved.springs.advance_along(moved.normal.plastic_mut(), model, (increment, slip), rates, asked)?
+                }
+                Some(_) => {
+                    let (force, time) = (moved.normal.force(course.rate), end - start);
+                    moved.go_with_loss(model, (increment, slip), (force, time))?.2
+                }
+            };
             for ((impulse, mean), slip) in impulse.iter_mut().zip(mean).zip(slip) {
                 *impulse += mean * (end - start);
                 work += mean * slip;
@@ -197,6 +205,12 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
 
     fn tangential_end(&self, direction: usize) -> Course {
         self.ends.get(direction).copied().unwrap_or_default()
+    }
+
+    fn set_tangential_end(&mut self, direction: usize, end: &Course) {
+        for (course, slot) in self.courses.iter_mut().zip(&mut self.ends).skip(direction).take(1) {
+            (*course, *slot) = (Course::held(course.rate), *end);
+        }
     }
 
     fn tangential(&self, model: &RoughModel<L, U, N::Loss>, quantity: Quantity) -> f64 {

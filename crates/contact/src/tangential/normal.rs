@@ -18,6 +18,9 @@ pub trait Normal: Copy {
     /// Whether the force depends on the rate at the same instant.
     const FOLLOWS_RATE: bool;
 
+    /// The highest order of the time derivative of the force.
+    const DERIVATIVES: i32;
+
     /// Number of words in a saved normal part.
     const WORDS: usize;
 
@@ -90,6 +93,7 @@ impl Normal for History {
     type Loss = ();
 
     const FOLLOWS_RATE: bool = false;
+    const DERIVATIVES: i32 = 2;
     const WORDS: usize = <History as Contact<AnyModel>>::WORDS;
 
     fn start<L: Loading + Copy, U: Unloading + Copy>(
@@ -173,6 +177,7 @@ impl<X: Loss> Normal for losses::History<X> {
     type Loss = X;
 
     const FOLLOWS_RATE: bool = X::FOLLOWS_RATE;
+    const DERIVATIVES: i32 = if X::FOLLOWS_RATE { 1 } else { 0 };
     const WORDS: usize = <History as Normal>::WORDS + 4;
 
     fn start<L: Loading + Copy, U: Unloading + Copy>(model: &Model<L, U>, loss: &X, gap: f64) -> Result<Self, TooDeep> {
@@ -283,6 +288,7 @@ impl Straight {
     /// only a [fitted](losses::Fitted) loss has one.
     pub fn tangential(&self, elastic: f64) -> f64 {
         let Damping { form, factor, swiftest } = self.damping;
-        quotient(factor * elastic, swiftest, form == Form::Proportional && swiftest > 0.0, 0.0)
+        let damping = factor * elastic;
+        quotient(damping, swiftest, form == Form::Proportional && swiftest > 1e-100 * damping, 0.0)
     }
 }

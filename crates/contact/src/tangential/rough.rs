@@ -275,6 +275,13 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         }
     }
 
+    /// Stiffness of the springs that stick \[N/m\], divided by the ratio of the stiffnesses; and how the tangential force grows with
+    /// the indentation where those at the edge slip, divided by the coefficient of friction \[N/m\].
+    pub(super) fn stiffnesses(&self, indentation: f64) -> (f64, [f64; D]) {
+        let [stick, whole] = [self.stuck.stick_height(indentation), indentation].map(|h| self.curve.stiffness(h));
+        (stick, self.stuck.edge().map(|slope| slope * (whole - stick)))
+    }
+
     /// Slip state of the contact.
     pub fn sliding(&self) -> Sliding {
         self.stuck.sliding()

@@ -7,8 +7,7 @@ use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
-use crate::numbers::{quotient, root};
-use crate::path::Course;
+use crate::numbers::{largest, quotient, root};
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::shared::{Row, SharedContact};
@@ -58,7 +57,16 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
         }
     }
 
-    /// With a fitted loss the tangential motion is damped as much as the normal one, within Coulomb's bound.
+    fn stiffnesses(&self, model: &RoughModel<L, U, N::Loss>) -> [[f64; 2]; 3] {
+        let normal = self.normal();
+        let (stick, edge) = self.springs.stiffnesses(normal.indentation());
+        let mut rows = [[normal.stiffness(), 0.0], [0.0; 2], [0.0; 2]];
+        for (row, edge) in rows.iter_mut().skip(1).zip(edge) {
+            *row = [model.friction.stiffness_ratio * stick, model.friction.coefficient * edge];
+        }
+        rows
+    }
+
     fn go_straight(
         &mut self,
         model: &RoughModel<L, U, N::Loss>,
@@ -68,27 +76,12 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
         let [normal, tangents @ ..] = rows;
         let mut slip = [0.0; D];
         slip.iter_mut().zip(&*tangents).for_each(|(slip, row)| *slip = row.way);
-        let before = *self.normal();
-        let is_new = before.force() == 0.0;
-        let straight = self.normal.loss().map(|loss| Straight::new(&loss, normal.way, normal.force(), time, is_new));
-        let increment = straight.as_ref().map_or(normal.way, |straight| straight.increment);
-        let elastic = Contact::mean_force(&before, &model.normal, increment / time, time)?;
-        let way = (increment, slip);
-        let contact = self.normal.plastic_mut();
-        let mut mean = self.springs.advance_along(contact, model, way, way, Mean::OfEnds)?;
-        normal.found = elastic;
-        if let Some(straight) = straight {
-            normal.found = straight.force(elastic, [before.stiffness(), self.normal().stiffness()]);
-            let (swiftest, heat) = straight.lost(normal.found, elastic);
-            self.normal.lose(&model.normal, &model.loss, swiftest, heat)?;
-            let damping = model.friction.stiffness_ratio * straight.tangential(elastic);
-            mean.iter_mut().zip(slip).for_each(|(mean, slip)| *mean += damping * (slip / time));
-        }
-        // the mean of both ends may be beyond the bound
-        let (limit, size) = (model.friction.coefficient * elastic, root(mean.iter().map(|part| part * part).sum()));
-        let part = quotient(limit, size, size > limit, 1.0);
-        mean.iter_mut().for_each(|mean| *mean *= part);
-        for ((row, mean), slip) in tangents.iter_mut().zip(mean).zip(slip) {
+        let (mean, elastic, mut tangential) = self.go_with_loss(model, (normal.way, slip), (normal.force(), time))?;
+        normal.found = mean;
+        tangential.iter_mut().zip(&*tangents).for_each(|(mean, row)| *mean -= row.beside);
+        // on the curved way the normal force differs as much
+        within(&mut tangential, model.friction.coefficient * (elastic + (normal.force() - mean)));
+        for ((row, mean), slip) in tangents.iter_mut().zip(tangential).zip(slip) {
             row.found = mean;
             self.work = self.work.plus(mean * slip);
         }
@@ -97,11 +90,49 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
 
     fn end_step(&mut self, rows: &[Row; 3], step: f64) {
         let tangents = rows.iter().skip(1);
-        let sums = self.impulse.iter_mut().zip(&mut self.mean_force).zip(&mut self.ends);
-        for (row, ((impulse, mean), end)) in tangents.zip(sums) {
+        for (row, (impulse, mean)) in tangents.zip(self.impulse.iter_mut().zip(&mut self.mean_force)) {
             *impulse = impulse.plus(row.impulse());
             *mean = row.impulse() / step;
-            *end = Course::held(row.rate());
         }
     }
+}
+
+impl<K: Shear<D>, const D: usize, const MEAN: bool, N: Normal> Rough<K, D, MEAN, N> {
+    /// Moves the contact on a short straight way: the bodies close by the first length and slip by the others \[m\], in a
+    /// `time` \[s\] and under a mean normal `force` \[N\] that matters to a target that gives way. Returns the mean normal force,
+    /// its part without a loss, and the mean tangential forces \[N\].
+    ///
+    /// With a fitted loss the tangential motion is damped as much as the normal one, within Coulomb's bound.
+    pub(super) fn go_with_loss<L: Loading + Copy, U: Unloading + Copy>(
+        &mut self,
+        model: &RoughModel<L, U, N::Loss>,
+        (way, slip): (f64, [f64; D]),
+        (force, time): (f64, f64),
+    ) -> Result<(f64, f64, [f64; D]), TooDeep> {
+        let before = *self.normal();
+        let straight = self.normal.loss().map(|loss| Straight::new(&loss, way, force, time, before.force() == 0.0));
+        let increment = straight.as_ref().map_or(way, |straight| straight.increment);
+        let elastic = Contact::mean_force(&before, &model.normal, increment / time, time)?;
+        let ways = (increment, slip);
+        let contact = self.normal.plastic_mut();
+        let mut mean = self.springs.advance_along(contact, model, ways, ways, Mean::OfEnds)?;
+        let mut normal = elastic;
+        if let Some(straight) = straight {
+            normal = straight.force(elastic, [before.stiffness(), self.normal().stiffness()]);
+            let (swiftest, heat) = straight.lost(normal, elastic);
+            self.normal.lose(&model.normal, &model.loss, swiftest, heat)?;
+            let damping = model.friction.stiffness_ratio * straight.tangential(elastic);
+            mean.iter_mut().zip(slip).for_each(|(mean, slip)| *mean += damping * (slip / time));
+        }
+        // the mean of both ends may be beyond the bound
+        within(&mut mean, model.friction.coefficient * elastic);
+        Ok((normal, elastic, mean))
+    }
+}
+
+/// Shortens a vector to this `limit`, if it is longer.
+fn within<const D: usize>(vector: &mut [f64; D], limit: f64) {
+    let (limit, size) = (largest(limit, 0.0), root(vector.iter().map(|part| part * part).sum()));
+    let part = quotient(limit, size, size > limit, 1.0);
+    vector.iter_mut().for_each(|number| *number *= part);
 }

@@ -48,6 +48,9 @@ pub trait Shear<const D: usize>: Copy {
     /// Height \[m\] of the highest spring that sticks, for a contact at `indentation` \[m\].
     fn stick_height(&self, indentation: f64) -> f64;
 
+    /// The slope of the offsets at the edge: a unit vector where springs slip there.
+    fn edge(&self) -> [f64; D];
+
     /// Number of segments in the list.
     fn segments(&self) -> usize;
 
@@ -197,6 +200,10 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
         Stuck::stick_height(self, indentation)
     }
 
+    fn edge(&self) -> [f64; 1] {
+        [self.list.last().map_or(0.0, |last| last.slope)]
+    }
+
     fn segments(&self) -> usize {
         Stuck::segments(self)
     }
@@ -255,6 +262,10 @@ impl<const N: usize> Shear<2> for plane::Stuck<N> {
 
     fn stick_height(&self, indentation: f64) -> f64 {
         plane::Stuck::stick_height(self, indentation)
+    }
+
+    fn edge(&self) -> [f64; 2] {
+        plane::Stuck::edge(self)
     }
 
     fn segments(&self) -> usize {

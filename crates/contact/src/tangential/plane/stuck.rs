@@ -183,6 +183,11 @@ impl<const N: usize> Stuck<N> {
     }
 
     /// Height \[m\] of the lowest springs that slipped on the last way; without slip, the `indentation` \[m\].
+    pub fn edge(&self) -> Vector {
+        self.list.last().map_or(ZERO, |last| last.slope)
+    }
+
+    /// Height \[m\] of the highest spring that sticks, for a contact at `indentation` \[m\].
     pub fn stick_height(&self, indentation: f64) -> f64 {
         smallest(self.slips_from, indentation)
     }
