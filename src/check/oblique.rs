@@ -8,7 +8,7 @@ use brinell_contact::Contact;
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::impact::Ball;
-use brinell_contact::tangential::{RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::constants::{MEMORY, parameters, start_value};
 use brinell_exporter::scene::Scene;
@@ -69,9 +69,14 @@ fn by_library(scene: &Scene, group: usize, ball: Ball, step: f64) -> Option<Rebo
     Some((rebound.ok()??, contact.friction_work(&model)))
 }
 
+/// The friction of the contacts of `group`.
+pub fn friction_of(scene: &Scene, group: usize) -> Friction {
+    model_of(scene, group).friction
+}
+
 /// The contact of `group` with friction.
 fn model_of(scene: &Scene, group: usize) -> RoughModel<AnyLoading, AnyUnloading> {
-    with_friction(scene.model_of(group), |which| {
+    with_friction(scene.model_of(group), (), |which| {
         let variable = parameters().nth(which as usize);
         variable.map_or(f64::NAN, |variable| start_value(scene, group, &variable.name))
     })

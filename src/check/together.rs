@@ -1,10 +1,12 @@
 //! The impact of a scene on one of several contacts that share bodies: all of them move. The library's own motion is the prediction.
 
-use super::Row;
+use super::{Row, oblique};
 use crate::importer::{Archive, ImportError, Unit};
 use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::shared::{InverseMasses, Refused, SharedContact, Work, follow};
+use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
 use brinell_contact::{Contact, History};
+use brinell_exporter::constants::SHARED_MEMORY;
 use brinell_exporter::interface::{INVERSE_MASS, inverse_mass_inputs};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::scene::{self, Scene, place};
@@ -24,13 +26,14 @@ struct Together<'a, M, C> {
 }
 
 impl<M, C: SharedContact<M>> Together<'_, M, C> {
-    /// Moves them for `step` \[s\] and returns the impulses \[N.s\].
+    /// Moves them for `step` \[s\] and returns the impulses of all rows \[N.s\].
     fn step(&mut self, step: f64) -> Result<Vec<f64>, Refused> {
         let mut work: Vec<_> = self.contacts.iter().map(|contact| Work::new(*contact)).collect();
-        let still = vec![0.0; self.contacts.len()];
+        let still = vec![0.0; self.rates.len()];
         let model = |contact: usize| &self.models[contact];
         follow(&mut self.contacts, model, &self.masses, &still, &mut self.rates, &mut work, step)?;
-        Ok(work.iter().map(Work::impulse).collect())
+        let tangential = |direction| work.iter().map(move |work: &Work<C>| work.tangential_impulse(direction));
+        Ok(work.iter().map(Work::impulse).chain((0..C::DIRECTIONS).flat_map(tangential)).collect())
     }
 }
 
@@ -41,7 +44,7 @@ struct Start<'a> {
     contacts: Vec<(usize, String)>,
     /// Inverse masses \[1/kg\].
     entries: &'a [f64],
-    /// Closing rates \[m/s\].
+    /// Closing rates of all contacts, and then their tangential rates \[m/s\].
     rates: Vec<f64>,
 }
 
@@ -54,7 +57,7 @@ impl Start<'_> {
         loop {
             let contacts = models.iter().enumerate();
             let contacts = contacts.map(|(contact, model)| C::start(model, gap(contact)).expect("a checked scene"));
-            let masses = InverseMasses::new(models.len(), entries).expect("a checked scene has all inverse masses");
+            let masses = InverseMasses::new(rates.len(), entries).expect("a checked scene has all inverse masses");
             let mut bodies = Together { models, contacts: contacts.collect::<Vec<C>>(), masses, rates: rates.clone() };
             match (0..STEPS).map(|_| bodies.step(step)).collect::<Result<Vec<_>, Refused>>() {
                 Ok(impulses) => return (impulses, step),
@@ -72,15 +75,20 @@ pub fn entries(masses: &scene::InverseMasses, scene: &Scene) -> Vec<f64> {
         scene::InverseMasses::Constant(entries) => entries.clone(),
         scene::InverseMasses::Inputs => {
             let inverse = 0.5 / scene.impact.mass;
-            let entry = |apart: usize| [2.0 * inverse, -inverse].get(apart).copied().unwrap_or(0.0);
-            let count = scene.contact_count();
-            (0..count).flat_map(|row| (0..count - row).map(entry)).collect()
+            let (count, rows) = (scene.contact_count(), scene.rows());
+            // the bodies don't turn: one direction doesn't accelerate the others
+            let entry = |row: usize, column: usize| match (row / count == column / count, column - row) {
+                (true, apart) => [2.0 * inverse, -inverse].get(apart).copied().unwrap_or(0.0),
+                _ => 0.0,
+            };
+            (0..rows).flat_map(|row| (row..rows).map(move |column| entry(row, column))).collect()
         }
     }
 }
 
-/// The impulses of all contacts when the first one of `group` closes with the speed of the scene's impact, and the others are at
-/// rest: predicted by the library, and simulated by the FMU. `entries` are the inverse masses.
+/// The impulses of all contacts when the first one of `group` closes with the speed of the scene's impact, with friction also slips
+/// with half of it, and the others are at rest: predicted by the library, and simulated by the FMU. `entries` are the inverse
+/// masses.
 ///
 /// # Errors
 /// [`ImportError`] if the FMU rejects a call.
@@ -96,43 +104,74 @@ pub fn compare(
     let contacts: Vec<_> = contacts.collect();
     let count = contacts.len();
     let first = contacts.iter().position(|(other, _)| *other == group);
-    let rates = (0..count).map(|contact| if Some(contact) == first { scene.impact.speed } else { 0.0 }).collect();
+    let speed_of = |row: usize| if row / count == 0 { scene.impact.speed } else { 0.5 * scene.impact.speed };
+    let rates = (0..scene.rows()).map(|row| if Some(row % count) == first { speed_of(row) } else { 0.0 }).collect();
     let start = Start { scene, contacts, entries, rates };
     let step = LENGTH * scene.predictions[group].contact_time() / f64::from(STEPS);
+    let (predicted, step) = predicted(&start, step);
+    let simulated = simulate(archive, unit, &start, step)?;
+    let total = |impulses: &[Vec<f64>], row: usize| impulses.iter().map(|step| step[row]).sum::<f64>();
+    let scale = (0..scene.rows()).map(|row| total(&predicted, row).abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let row = |row: usize| {
+        let [predicted, simulated] = [&predicted, &simulated].map(|impulses| total(impulses, row));
+        let contact = start.contacts[row % count].1.trim_end_matches('.');
+        let what = match row / count {
+            0 => "impulse of",
+            1 => "tangential impulse of",
+            _ => "second tangential impulse of",
+        };
+        Row::new(format!("{what} {contact}"), "N.s", predicted, simulated, scale)
+    };
+    Ok((0..scene.rows()).map(row).collect())
+}
+
+/// The prediction of the library, and the length of its steps \[s\].
+fn predicted(start: &Start, step: f64) -> (Vec<Vec<f64>>, f64) {
+    let scene = start.scene;
     let models: Vec<_> = start.contacts.iter().map(|(group, _)| scene.any_model_of(*group)).collect();
     let lossy: Vec<_> = models.iter().filter_map(AnyModel::lossy).copied().collect();
-    let (predicted, step) = match lossy.is_empty() {
-        false => start.predicted::<_, losses::History<AnyLoss>>(&lossy, step),
-        true => {
-            let plastic: Vec<_> = models.iter().filter_map(AnyModel::elastoplastic).copied().collect();
-            start.predicted::<_, History>(&plastic, step)
-        }
+    let plastic: Vec<_> = models.iter().filter_map(AnyModel::elastoplastic).copied().collect();
+    let friction = |place: usize| oblique::friction_of(scene, start.contacts[place].0);
+    let rough = || -> Vec<_> {
+        let all = plastic.iter().enumerate();
+        all.map(|(place, &normal)| RoughModel { normal, friction: friction(place), loss: () }).collect()
     };
-    let total = |impulses: &[Vec<f64>], contact: usize| impulses.iter().map(|step| step[contact]).sum::<f64>();
-    let simulated = simulate(archive, unit, &start, step)?;
-    let scale = (0..count).map(|contact| total(&predicted, contact)).fold(f64::MIN_POSITIVE, f64::max);
-    let row = |contact: usize| {
-        let [predicted, simulated] = [&predicted, &simulated].map(|impulses| total(impulses, contact));
-        Row::new(
-            format!("impulse of {}", start.contacts[contact].1.trim_end_matches('.')),
-            "N.s",
-            predicted,
-            simulated,
-            scale,
-        )
+    let rough_and_lossy = || -> Vec<_> {
+        let all = lossy.iter().enumerate();
+        all.map(|(place, &losses::Model { plastic: normal, loss })| RoughModel {
+            normal,
+            friction: friction(place),
+            loss,
+        })
+        .collect()
     };
-    Ok((0..count).map(row).collect())
+    type Lossy = losses::History<AnyLoss>;
+    match (scene.directions, lossy.is_empty()) {
+        (0, true) => start.predicted::<_, History>(&plastic, step),
+        (0, false) => start.predicted::<_, Lossy>(&lossy, step),
+        (1, true) => start.predicted::<_, RoughContact<SHARED_MEMORY>>(&rough(), step),
+        (1, false) => start.predicted::<_, RoughContact<SHARED_MEMORY, true, Lossy>>(&rough_and_lossy(), step),
+        (_, true) => start.predicted::<_, PlaneContact<SHARED_MEMORY>>(&rough(), step),
+        (_, false) => start.predicted::<_, PlaneContact<SHARED_MEMORY, true, Lossy>>(&rough_and_lossy(), step),
+    }
 }
 
 /// The impulses of each step of the FMU \[N.s\].
 fn simulate(archive: &Archive, unit: &Unit, start: &Start, step: f64) -> Result<Vec<Vec<f64>>, ImportError> {
     let Start { scene, contacts, entries, rates: speeds } = start;
-    let count = contacts.len();
-    let references = |name: &str| {
-        let all = contacts.iter().map(|(_, prefix)| archive.description.real(&format!("{prefix}{name}")));
-        all.collect::<Result<Vec<_>, ImportError>>()
+    let count = scene.rows();
+    // of the normals, then of the tangents
+    let references = |normal: &str, tangential: &str| {
+        let names = match scene.directions {
+            0 => vec![normal.to_string()],
+            1 => vec![normal.into(), tangential.into()],
+            _ => vec![normal.into(), format!("{tangential}[1]"), format!("{tangential}[2]")],
+        };
+        let all = names.iter().flat_map(|name| contacts.iter().map(move |(_, prefix)| format!("{prefix}{name}")));
+        all.map(|name| archive.description.real(&name)).collect::<Result<Vec<_>, ImportError>>()
     };
-    let (rates, forces) = (references("indentation_rate")?, references("mean_force")?);
+    let rates = references("indentation_rate", "tangential_rate")?;
+    let forces = references("mean_force", "mean_tangential_force")?;
     let mut instance = unit.instantiate()?;
     instance.setup_experiment(0.0)?;
     instance.call("fmi2EnterInitializationMode")?;

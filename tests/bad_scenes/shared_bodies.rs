@@ -374,15 +374,9 @@ fn an_effective_mass_beyond_its_limits_is_refused_with_its_contact() {
 }
 
 #[test]
-fn friction_and_laws_of_the_rate_are_refused() {
+fn laws_of_the_rate_are_refused() {
     for (scene, table) in [(SCENE, "[[body]]\nname = \"front\""), (INPUTS, "[coupling]")] {
         let with = |more: &str| format!("{more}{table}");
-        refused(
-            scene,
-            table,
-            &with("§[friction]\ncoefficient = 0.3\n"),
-            &["[friction]", "share bodies", "isn't available yet"],
-        );
         let law = "[law]\nloading = §\"tsuji\"\nrestitution = 0.5\n";
         refused(
             scene,
@@ -396,5 +390,84 @@ fn friction_and_laws_of_the_rate_are_refused() {
         let hard = "radius = 5e-3\nmaterial = \"titanium Ti-6Al-4V\"\nyield_strength = 9e8\n";
         let text = scene.replacen("radius = 5e-3\n", &format!("{hard}{rate}\n"), 1);
         refused_text(&text, &["impactor.rate", "share bodies", "yield_strength"]);
+    }
+}
+
+/// The box with friction, without errors.
+fn rough_box() -> String {
+    let more = "[friction]\ncoefficient = 0.3\n\n[[body]]";
+    let text = BOX.replacen("[[body]]", more, 1).replace("normal = ", "tangent = [1, 0, 0]\nnormal = ");
+    let arms = "arms = [[-0.04, 0, -0.025], []]";
+    assert!(text.contains(arms));
+    text
+}
+
+#[test]
+fn contacts_with_friction_need_a_tangent_across_their_normal() {
+    let rough = rough_box();
+    let left = "name = \"left\"\nbetween = [\"box\", \"ground\"]\ntangent = [1, 0, 0]\n";
+    let with = |tangent: &str| left.replace("tangent = [1, 0, 0]\n", tangent);
+    let missing = &format!("§[[contact]]\n{}", with(""));
+    refused(
+        &rough,
+        &format!("[[contact]]\n{left}"),
+        missing,
+        &["contact `left`", "`tangent` is missing", "[friction]"],
+    );
+    for (tangent, shown) in [
+        ("[0, 0, 1]", "[0, 0, 1]"),
+        ("[1, 0, 1e-3]", "[1, 0, 0.001]"),
+        ("[0, 0, 0]", "[0, 0, 0]"),
+        ("[1, 0]", "[1, 0]"),
+        ("[nan, 0, 0]", "[NaN, 0, 0]"),
+    ] {
+        let given = with(&format!("tangent = §{tangent}\n"));
+        refused(
+            &rough,
+            left,
+            &given,
+            &["contact `left`", &format!("tangent = {shown}"), "right angles", "three finite"],
+        );
+    }
+    // without friction it has no effect
+    let smooth = rough.replace("[friction]\ncoefficient = 0.3\n", "");
+    refused(
+        &smooth,
+        left,
+        &with("tangent = §[1, 0, 0]\n"),
+        &["contact `left`", "tangent has no effect without [friction]"],
+    );
+    // a row of balls has no tangents
+    let row = SCENE.replacen("[[body]]", "[friction]\ncoefficient = 0.3\n\n[[body]]", 1);
+    refused(
+        &row,
+        "[[contact]]\nname = \"wall\"",
+        "§[[contact]]\nname = \"wall\"",
+        &["contact `wall`", "`normal` is missing"],
+    );
+}
+
+#[test]
+fn a_body_that_friction_turns_needs_its_inertia() {
+    let rough = rough_box().replace("inertia = [1.2e-4, 2.6e-4, 3.5e-4]\n", "");
+    let below = rough.replace("[-0.04, 0, -0.025]", "[0, 0, -0.025]").replace("[0.04, 0, -0.025]", "[0, 0, -0.025]");
+    refused(
+        &below,
+        "arms = [[0, 0, -0.025], []]",
+        "arms = [§[0, 0, -0.025], []]",
+        &["contact `left`", "the normal or the tangent", "give its inertia"],
+    );
+}
+
+#[test]
+fn outputs_of_the_motion_need_shared_bodies() {
+    let text = |output: &str| {
+        format!(
+            "name = \"alone\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[friction]\n\
+             coefficient = 0.3\n[fmu]\noutputs = [§\"{output}\"]\n"
+        )
+    };
+    for output in ["tangential_speed", "tangential_impulse_moment"] {
+        refused_text(&text(output), &[&format!("the output {output}"), "share bodies", "[[body]]"]);
     }
 }

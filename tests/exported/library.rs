@@ -17,6 +17,9 @@ const LARGEST_WITH_FRICTION: u64 = 121_000;
 /// The same where contacts share bodies: the integration of all contacts, optimized for speed.
 const LARGEST_OF_SHARED_BODIES: u64 = 160_000;
 
+/// The same with friction in two directions, whose springs are followed along chords.
+const LARGEST_OF_SHARED_BODIES_WITH_FRICTION: u64 = 205_000;
+
 /// Largest size of the library of the default scene [bytes].
 const LARGEST_OF_DEFAULT: u64 = 37_000;
 
@@ -44,6 +47,9 @@ fn it_is_small() {
         let size = fs::metadata(&library).unwrap().len();
         let bytes = fs::read(&library).unwrap();
         let largest = match () {
+            () if contains(&bytes, "touch, part and turn") && contains(&bytes, "tangential_rate") => {
+                LARGEST_OF_SHARED_BODIES_WITH_FRICTION
+            }
             () if contains(&bytes, "tangential_rate") => LARGEST_WITH_FRICTION,
             () if contains(&bytes, "touch, part and turn") => LARGEST_OF_SHARED_BODIES,
             () => LARGEST,

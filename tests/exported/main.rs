@@ -34,6 +34,7 @@ mod prebuilt_refusals;
 mod rebounds;
 mod several_contacts;
 mod shared_bodies;
+mod shared_friction;
 mod ssp;
 mod standalone_unit;
 mod strain_rate;

@@ -80,6 +80,7 @@ fn kinds() -> String {
                 "makes-energy" => "whose laws make energy",
                 "loses-less" => "whose laws lose less in a deeper dent",
                 "finds-strength" => "that knows the mass, with `rate`",
+                "shared-friction" => "that moves bodies with friction",
                 other => panic!("what is the kind {other}?"),
             };
             table += &row(&[&name, kind, text(instead, "description")]);

@@ -189,19 +189,33 @@ fn together(scene: &Scene) -> String {
         }
         _ => "",
     };
-    let acceleration = if coupling.acceleration_input {
+    let acceleration = if coupling.acceleration_input && scene.has_friction() {
+        "<code>external_acceleration</code> and <code>external_tangential_acceleration</code> of each contact"
+    } else if coupling.acceleration_input {
         "<code>external_acceleration</code> of each contact"
     } else {
         "as the first input derivative of each rate (<code>fmi2SetRealInputDerivatives</code>, again for every step),"
+    };
+    let friction = scene.has_friction();
+    let [rates, forces, moments] = match friction {
+        true => [
+            "<code>indentation_rate</code> and <code>tangential_rate</code> of each contact to the rates of its bodies",
+            "<code>mean_force</code> and <code>mean_tangential_force</code>",
+            "<code>impulse_moment</code>/m, across by <code>tangential_impulse_moment</code>/m",
+        ],
+        false => [
+            "<code>indentation_rate</code> of each contact to the closing rate of its bodies",
+            "<code>mean_force</code>",
+            "<code>impulse_moment</code>/m",
+        ],
     };
     let force =
         if coupling.parallel { "over the next step, held constant (Jacobi)" } else { "over that step (Gauss-Seidel)" };
     format!(
         "The contacts share bodies, and the FMU moves all of them together through each step. Before a step, set {masses}\
-         <code>indentation_rate</code> of each contact to the closing rate of its bodies, and {acceleration} to the closing \
-         acceleration by all forces but those of these contacts. After the step, apply <code>mean_force</code> of each contact to both \
-         of its bodies {force}: they get the speeds that the FMU has computed. A body of mass m is displaced by \
-         <code>impulse_moment</code>/m. The FMU warns once in the log if the importer works in the other order. The inverse masses \
+         {rates}, and {acceleration} to the acceleration by all forces but those of these contacts. After the step, apply {forces} \
+         of each contact to both of its bodies {force}: they get the speeds that the FMU has computed. A body of mass m is \
+         displaced by {moments}. The FMU warns once in the log if the importer works in the other order. The inverse masses \
          are constant within a step."
     )
 }

@@ -141,10 +141,15 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
                 follows: follows.then_some(first),
                 follows_tangential: tangential_rates
                     .iter()
-                    .filter(|_| variable.follows_tangential_rate)
+                    .filter(|_| variable.follows_tangential_rate == Follows::Always)
                     .map(|place| place * scene.contact_count() + first)
                     .collect(),
-                follows_at_start: follows_at_start.then_some(first),
+                follows_at_start: follows_at_start.then_some(first).or_else(|| {
+                    let direction = usize::from(variable.second_of.is_some());
+                    let place = tangential_rates.get(direction)?;
+                    let follows = variable.follows_tangential_rate == Follows::AtStart;
+                    follows.then_some(place * scene.contact_count() + first)
+                }),
                 nominal: nominals[index].get(variable),
                 is_first: scene.directions > 1 && has_second(variable),
                 cell: None,
@@ -171,7 +176,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
         nominal: None,
     }));
     let variable = table::variable(INVERSE_MASS);
-    let contacts = if inverse_mass_inputs(scene) > 0 { scene.contact_count() } else { 0 };
+    let contacts = if inverse_mass_inputs(scene) > 0 { scene.rows() } else { 0 };
     // before they are set, the contacts share no body, and each has the mass of the impact
     let cells = (0..contacts).flat_map(|row| {
         let rest = contacts - row - 1;
@@ -204,8 +209,8 @@ pub const INVERSE_MASS: &str = "inverse_mass";
 
 /// The number of these inputs: the upper triangle of the matrix.
 pub fn inverse_mass_inputs(scene: &Scene) -> usize {
-    let contacts = scene.contact_count();
-    if scene.inverse_masses == Some(InverseMasses::Inputs) { contacts * (contacts + 1) / 2 } else { 0 }
+    let rows = scene.rows();
+    if scene.inverse_masses == Some(InverseMasses::Inputs) { rows * (rows + 1) / 2 } else { 0 }
 }
 
 /// Whether `variable` has a second direction.

@@ -92,6 +92,8 @@ fn kinds(scene: &Scene, energy: Energy) -> Vec<Feature> {
     // a loss adds heat to that of yielding
     let heats = scene.loss.is_some() && coupling.is_none() && energy == Energy::Passive;
     let kinds = [
+        // before those that describe the same variable for the normal alone
+        (Feature::SharedFriction, scene.inverse_masses.is_some() && scene.has_friction()),
         (Feature::RateDependent, scene.damped.is_some() || heats),
         (Feature::HeldInputs, !scene.input_derivatives),
         (Feature::Parallel, coupling.is_some_and(|coupling| coupling.parallel)),

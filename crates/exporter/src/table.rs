@@ -31,9 +31,9 @@ pub struct Variable {
     pub nominal_from: Option<String>,
     #[serde(default)]
     pub follows_rate: Follows,
-    /// Whether an output also depends on the tangential rate at the same instant.
+    /// Whether an output also depends on the tangential rate at the same instant: on both, or before the first step on its own.
     #[serde(default)]
-    pub follows_tangential_rate: bool,
+    pub follows_tangential_rate: Follows,
     /// Whether it belongs to FMUs with friction only.
     #[serde(default)]
     pub friction: bool,
@@ -92,6 +92,8 @@ pub enum Feature {
     LosesLess,
     /// It finds the strength of each impact.
     FindsStrength,
+    /// It moves bodies that share contacts with friction.
+    SharedFriction,
 }
 
 impl Variable {

@@ -126,6 +126,7 @@ pub const FRICTIONS: [Real; 7] = [
 impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Model = K::Model;
     type Contact = K::Contact;
+    type Rows<T: Copy> = Self::Contacts<T>;
     type Contacts<T: Copy> = [T; N];
     type Groups<T: Copy> = [T; N];
     type Values = [f64; 3];

@@ -7,8 +7,8 @@ use std::fmt::Debug;
 /// Number of segments in which the springs of a contact with friction in one direction remember its past.
 pub const MEMORY: usize = 12;
 
-/// The same for two directions.
-const PLANE_MEMORY: usize = 16;
+/// The same for two directions, and for bodies that share contacts.
+pub const SHARED_MEMORY: usize = 16;
 
 /// The laws, as the entry `laws`.
 pub fn of(scene: &Scene) -> String {
@@ -41,8 +41,16 @@ pub fn of(scene: &Scene) -> String {
 fn friction(scene: &Scene) -> String {
     let needs_mean = ["mean_tangential_force", "tangential_impulse", "friction_work"];
     let mean = scene.outputs.iter().any(|output| needs_mean.contains(&output.as_str()));
+    let loss = match scene.loss {
+        Some(Loss::Fitted(_)) => " Fitted",
+        Some(Loss::Waves) => " Waves",
+        Some(Loss::Plate(_)) => " Plate",
+        None => "",
+    };
     match scene.directions {
-        2 => format!("(friction PlaneContact {PLANE_MEMORY} {mean})"),
+        2 => format!("(friction PlaneContact {SHARED_MEMORY} {mean}{loss})"),
+        // the motion of bodies that share contacts is curved
+        _ if scene.inverse_masses.is_some() => format!("(friction RoughContact {SHARED_MEMORY} {mean}{loss})"),
         _ => format!("(friction RoughContact {MEMORY} {mean})"),
     }
 }

@@ -10,7 +10,7 @@ use crate::scene::{Coupling, Group, InverseMasses, Scene};
 use crate::table::{Causality, Symbol, Variable};
 use std::fmt::{Display, Write};
 
-pub use laws::MEMORY;
+pub use laws::{MEMORY, SHARED_MEMORY};
 pub use parameters::{parameters, start_value};
 
 const HEAD: &str = "\

@@ -49,7 +49,8 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         unloading: unloading.map(|(name, _)| name),
         passivity_guard,
         has_loss: loss.is_some(),
-        knows_mass: coupling.is_some(),
+        knows_mass: coupling.is_some() && inverse_masses.is_none(),
+        shares_bodies: inverse_masses.is_some(),
     };
     let directions = friction::check(file.friction.as_ref(), &beside)?;
     let friction = directions > 0;
@@ -57,7 +58,8 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let follows_rate = damped.is_some() || loss.is_some();
     let input_derivatives =
         check_input_derivatives(file.fmu.input_derivatives.as_ref(), coupling.is_some(), follows_rate)?;
-    let shared_mass = inverse_masses.as_ref().and_then(|masses| masses.effective_mass(0, contacts.count()));
+    let shared_mass =
+        inverse_masses.as_ref().and_then(|masses| masses.effective_mass(0, contacts.count() * (1 + directions)));
     let impact_mass = known_mass.clone().or(shared_mass.map(|mass| Spanned::new(0..0, mass)));
     let impact = check_impact(file.impact.as_ref(), impact_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
@@ -72,7 +74,13 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let has = fmu::Has { mass: coupling.is_some(), shared_bodies: shared, friction };
     let mut outputs = check_outputs(&file.fmu.outputs, &has)?;
     // without them such an FMU is useless
-    let needed = [(coupling.is_some(), "mean_force"), (shared, "impulse_moment"), (friction, "tangential_force")];
+    let needed = [
+        (coupling.is_some(), "mean_force"),
+        (shared, "impulse_moment"),
+        (friction, "tangential_force"),
+        (shared && friction, "mean_tangential_force"),
+        (shared && friction, "tangential_impulse_moment"),
+    ];
     for (needed, name) in needed {
         if needed && !outputs.iter().any(|output| output == name) {
             outputs.push(name.into());

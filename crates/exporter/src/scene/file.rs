@@ -215,6 +215,7 @@ pub struct ContactTable {
     pub direction: Option<Spanned<i64>>,
     pub normal: Option<Spanned<Vec<f64>>>,
     pub arms: Option<Spanned<Vec<Spanned<Vec<f64>>>>>,
+    pub tangent: Option<Spanned<Vec<f64>>>,
     #[serde(default)]
     pub impactor: Impactor,
     #[serde(default)]

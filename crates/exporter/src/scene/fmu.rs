@@ -120,9 +120,10 @@ pub fn check_outputs(chosen: &[Spanned<String>], has: &Has) -> Result<Vec<String
                 "the output closing_speed needs [coupling] effective_mass: the FMU must move the bodies itself";
             return Err(Mistake(name.span(), message.into()));
         }
-        if text == "impulse_moment" && !shared_bodies {
-            let message = "the output impulse_moment needs contacts that share bodies: tables [[body]]";
-            return Err(Mistake(name.span(), message.into()));
+        let of_shared = ["impulse_moment", "tangential_impulse_moment", "tangential_speed"];
+        if of_shared.contains(&text.as_str()) && !shared_bodies {
+            let message = format!("the output {text} needs contacts that share bodies: tables [[body]]");
+            return Err(Mistake(name.span(), message));
         }
         if table::variable(text).friction && !friction {
             let message = format!("the output {text} needs friction: give [friction] coefficient");

@@ -15,8 +15,10 @@ pub struct BesideFriction<'a> {
     pub passivity_guard: bool,
     /// Whether the law has a loss below yield.
     pub has_loss: bool,
-    /// Whether the FMU moves the bodies itself.
+    /// Whether the FMU moves the bodies itself, each contact alone.
     pub knows_mass: bool,
+    /// Whether contacts share bodies, which the FMU moves together.
+    pub shares_bodies: bool,
 }
 
 impl Scene {
@@ -59,14 +61,14 @@ pub fn check(table: Option<&Spanned<FrictionTable>>, beside: &BesideFriction) ->
             "[friction] doesn't go with law.passivity_guard: how exact it is on guarded paths wasn't measured".into()
         );
     }
-    if beside.has_loss {
+    if beside.has_loss && !beside.shares_bodies {
         return no("[friction] doesn't go with law.elastic_restitution or target.plate_thickness: the springs of the contact follow \
-                   a force without such losses; leave one of them out"
+                   a force without such losses; leave one of them out, or give tables [[body]], with which both go"
             .into());
     }
     if beside.knows_mass {
-        return no("[friction] doesn't go with [coupling] effective_mass: the tangential motion within a step would have to be \
-                   moved, too; leave one of them out"
+        return no("[friction] doesn't go with [coupling] effective_mass: the tangential motion within a step has to be moved, too; \
+                   give tables [[body]] instead of the effective mass, or coupling.inverse_masses"
             .into());
     }
     Ok(directions)

@@ -13,21 +13,21 @@ pub enum InverseMasses {
 }
 
 impl InverseMasses {
-    /// The mass that the force of this `contact` of `count` accelerates by itself, `1/W_ii` \[kg\]; `None` if the entries are
-    /// inputs.
-    pub fn effective_mass(&self, contact: usize, count: usize) -> Option<f64> {
+    /// The mass that the force of this `row` of `count` accelerates by itself, `1/W_ii` \[kg\]; `None` if the entries are inputs.
+    /// The rows of the normals are the first ones, in the order of the contacts.
+    pub fn effective_mass(&self, row: usize, count: usize) -> Option<f64> {
         match self {
-            InverseMasses::Constant(entries) => Some(1.0 / entries[place(count, contact, contact)]),
+            InverseMasses::Constant(entries) => Some(1.0 / entries[place(count, row, row)]),
             InverseMasses::Inputs => None,
         }
     }
 }
 
-/// The place of the entry of two contacts, counted from 0 in the order of the scene, in the upper triangle of a matrix for
-/// `count` contacts.
+/// The place of the entry of two rows, counted from 0, in the upper triangle of a matrix of `count` rows: those of the normals, in
+/// the order of the contacts, then those of the tangents in each direction.
 pub fn place(count: usize, one: usize, other: usize) -> usize {
     let (row, column) = (one.min(other), one.max(other));
-    debug_assert!(column < count, "there are {count} contacts");
+    debug_assert!(column < count, "there are {count} rows");
     // above it are the rows of count, count - 1, ... entries
     row * (2 * count - row + 1) / 2 + (column - row)
 }
@@ -106,7 +106,8 @@ fn dot(one: Vector, other: Vector) -> f64 {
     one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 }
 
-fn cross([ax, ay, az]: Vector, [bx, by, bz]: Vector) -> Vector {
+/// The vector across two others.
+pub(super) fn cross([ax, ay, az]: Vector, [bx, by, bz]: Vector) -> Vector {
     [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
@@ -121,6 +122,19 @@ pub(super) fn direction(vector: Vector) -> Option<Vector> {
     let length = dot(scaled, scaled).sqrt();
     Some(scaled.map(|part| part / length))
 }
+
+/// The part of the unit vector `tangent` across the unit vector `normal`, as a unit vector; `None` unless they are at right angles
+/// within 1e-6.
+pub(super) fn across(normal: Vector, tangent: Vector) -> Option<Vector> {
+    let along = dot(normal, tangent);
+    if along.abs() > SQUARE {
+        return None;
+    }
+    direction([0, 1, 2].map(|k| tangent[k] - along * normal[k]))
+}
+
+/// Cosine of the angle up to which two directions are at right angles.
+const SQUARE: f64 = 1e-6;
 
 /// The upper triangle, row by row, of `W = J M^-1 J^T` for contacts with these ends: the sum over the ends that two contacts have
 /// at the same body of `n.n'/m + (r x n).I^-1 (r' x n')`. Contacts without a common body have an exact zero.

@@ -157,7 +157,7 @@ impl Scene {
     /// The impact on the contacts of `group`. If the FMU knows their mass, that mass is used, also where it follows from bodies.
     pub fn impact_of(&self, group: usize) -> Impact {
         // contacts of bodies are groups of one
-        let shared = self.inverse_masses.as_ref().and_then(|masses| masses.effective_mass(group, self.contacts.len()));
+        let shared = self.inverse_masses.as_ref().and_then(|masses| masses.effective_mass(group, self.rows()));
         let mass = self.group_value(group, "effective_mass").or(shared);
         Impact { mass: mass.unwrap_or(self.impact.mass), ..self.impact }
     }
@@ -171,6 +171,10 @@ impl Scene {
     pub fn has_input(&self, name: &str) -> bool {
         if let Some(direction) = ["tangential_rate", "tangential_rate[2]"].iter().position(|rate| *rate == name) {
             return direction < self.directions;
+        }
+        let tangential = ["external_tangential_acceleration", "external_tangential_acceleration[2]"];
+        if let Some(direction) = tangential.iter().position(|acceleration| *acceleration == name) {
+            return self.has_input("external_acceleration") && direction < self.directions;
         }
         self.coupling.is_some_and(|coupling| match name {
             "external_acceleration" => coupling.acceleration_input,
@@ -187,6 +191,11 @@ impl Scene {
     /// The number of contacts of the FMU.
     pub fn contact_count(&self) -> usize {
         self.contacts.iter().map(Group::size).sum()
+    }
+
+    /// The number of rows of contacts that share bodies: a normal for each, and its tangents.
+    pub fn rows(&self) -> usize {
+        self.contact_count() * (1 + self.directions)
     }
 
     /// The physical model of the first contact.

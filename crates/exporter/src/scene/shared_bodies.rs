@@ -1,6 +1,6 @@
 //! Contacts that share bodies: the tables `[[body]]`, what each contact says of its two bodies, and what doesn't go with them.
 
-use super::file::{ContactTable, SceneFile, SharedBodyTable};
+use super::file::{ContactTable, FrictionTable, SceneFile, SharedBodyTable};
 use super::inverse_masses::{self, End, FreeBody, Inertia, InverseMasses, Vector};
 use super::names::check_identifier;
 use crate::layout::shortened;
@@ -69,12 +69,17 @@ pub fn check(file: &SceneFile, damped: Option<&str>) -> Result<Option<InverseMas
                 return Err(Mistake(first.span(), message.into()));
             };
             check_count(first.span(), file)?;
-            of_bodies(bodies.get_ref(), contacts)?
+            of_bodies(bodies.get_ref(), contacts, directions(file))?
         }
     };
-    refuse_friction(file)?;
     refuse_rates(file, damped)?;
     Ok(Some(inverse_masses))
+}
+
+/// The number of tangential directions that the scene asks for, whether or not that is right.
+fn directions(file: &SceneFile) -> usize {
+    let of = |friction: &Spanned<FrictionTable>| friction.get_ref().directions.as_ref().map(|number| *number.get_ref());
+    file.friction.as_ref().map_or(0, |friction| if of(friction) == Some(2) { 2 } else { 1 })
 }
 
 fn contacts_of(file: &SceneFile) -> Option<&[Spanned<ContactTable>]> {
@@ -108,6 +113,7 @@ fn refuse_ends(file: &SceneFile, why: &str) -> Result<(), Mistake> {
             ("direction", contact.direction.as_ref().map(Spanned::span)),
             ("normal", contact.normal.as_ref().map(Spanned::span)),
             ("arms", contact.arms.as_ref().map(Spanned::span)),
+            ("tangent", contact.tangent.as_ref().map(Spanned::span)),
         ];
         if let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) {
             return Err(wrong(contact, span, &format!("{key} {why}")));
@@ -141,15 +147,6 @@ fn refuse_masses(file: &SceneFile, why: &str) -> Result<(), Mistake> {
         Some(mass) => refused("impact.mass", mass),
         None => Ok(()),
     }
-}
-
-/// Rejects friction.
-fn refuse_friction(file: &SceneFile) -> Result<(), Mistake> {
-    let Some(friction) = &file.friction else { return Ok(()) };
-    Err(Mistake(
-        friction.span(),
-        "[friction]: friction of contacts that share bodies isn't available yet; leave it out".into(),
-    ))
 }
 
 /// Rejects laws whose force or strength depends on the rate.
@@ -291,14 +288,15 @@ fn check_inertia(name: &str, given: &Spanned<Value>) -> Result<Inertia, Mistake>
     })
 }
 
-/// The matrix for these `contacts` of the bodies in `tables`.
+/// The matrix for these `contacts` of the bodies in `tables`, with friction in so many `directions`.
 fn of_bodies(
     tables: &[Spanned<SharedBodyTable>],
     contacts: &[Spanned<ContactTable>],
+    directions: usize,
 ) -> Result<InverseMasses, Mistake> {
     let bodies = Bodies::of(tables)?;
     let normals = contacts.iter().any(|contact| contact.get_ref().normal.is_some());
-    let (mut all, mut touched) = (Vec::new(), HashSet::new());
+    let (mut all, mut touched) = (vec![Vec::new(); 1 + directions], HashSet::new());
     for contact in contacts {
         let table = contact.get_ref();
         if let Some(count) = &table.count {
@@ -310,38 +308,87 @@ fn of_bodies(
         }
         let between = bodies.between(contact)?;
         touched.extend(between);
-        let normal = if normals { normal_of(contact)? } else { line_of(table)? };
+        let normal = if normals || directions > 0 { normal_of(contact)? } else { line_of(table)? };
+        let tangents = tangents_of(contact, normal, directions)?;
         let arms = arms_of(table, between)?;
-        let mut ends = Vec::new();
-        for (place, (body, sign)) in between.into_iter().zip([1.0, -1.0]).enumerate() {
-            let Some(body) = body else { continue };
-            let end = End::of(&bodies.free, body, normal.map(|part| sign * part), arms[place]);
-            ends.push(end.ok_or_else(|| {
-                let name = bodies.names[body];
-                let message = format!(
-                    "arms[{}] = {} isn't parallel to the normal, so that the force turns the body `{name}`: give its inertia",
-                    place + 1,
-                    numbers_in_message(&arms[place])
-                );
-                wrong(table, table.arms.as_ref().map_or(0..0, |arms| arms.get_ref()[place].span()), &message)
-            })?);
+        for (rows, axis) in all.iter_mut().zip([normal].into_iter().chain(tangents)) {
+            rows.push(ends_of(table, &bodies, between, (axis, arms))?);
         }
-        all.push(ends);
     }
     if let Some(index) = (0..tables.len()).find(|index| !touched.contains(&Some(*index))) {
         let message = format!("body `{}` is in no contact: name it in `between`, or leave it out", bodies.names[index]);
         return Err(Mistake(tables[index].span(), message));
     }
-    let matrix = InverseMasses::Constant(inverse_masses::triangle(&bodies.free, &all));
+    let rows = all.concat();
+    let matrix = InverseMasses::Constant(inverse_masses::triangle(&bodies.free, &rows));
     let allowed = masses();
-    for (index, contact) in contacts.iter().enumerate() {
-        let mass = matrix.effective_mass(index, contacts.len()).expect("the matrix is constant");
+    for row in 0..rows.len() {
+        let contact = &contacts[row % contacts.len()];
+        let mass = matrix.effective_mass(row, rows.len()).expect("the matrix is constant");
         if !allowed.contains(&mass) {
             let message = format!("the effective mass of its bodies {}", out_of_range(mass, &allowed, "kg"));
             return Err(wrong(contact.get_ref(), contact.span(), &message));
         }
     }
     Ok(matrix)
+}
+
+/// The ends of a `contact` along an `axis`, its normal or a tangent, at the bodies `between` which it is and at these `arms`.
+fn ends_of(
+    contact: &ContactTable,
+    bodies: &Bodies<'_>,
+    between: [Option<usize>; 2],
+    (axis, arms): (Vector, [Vector; 2]),
+) -> Result<Vec<End>, Mistake> {
+    let mut ends = Vec::new();
+    for (place, (body, sign)) in between.into_iter().zip([1.0, -1.0]).enumerate() {
+        let Some(body) = body else { continue };
+        let end = End::of(&bodies.free, body, axis.map(|part| sign * part), arms[place]);
+        ends.push(end.ok_or_else(|| {
+            let name = bodies.names[body];
+            let what = if contact.tangent.is_some() { "the normal or the tangent" } else { "the normal" };
+            let message = format!(
+                "arms[{}] = {} isn't parallel to {what}, so that the force turns the body `{name}`: give its inertia",
+                place + 1,
+                numbers_in_message(&arms[place])
+            );
+            wrong(contact, contact.arms.as_ref().map_or(0..0, |arms| arms.get_ref()[place].span()), &message)
+        })?);
+    }
+    Ok(ends)
+}
+
+/// The tangents of a `contact` with this `normal`, in so many `directions`: the given one as far as it is across the normal, and
+/// the one across both.
+fn tangents_of(
+    contact: &Spanned<ContactTable>,
+    normal: Vector,
+    directions: usize,
+) -> Result<impl Iterator<Item = Vector> + use<>, Mistake> {
+    let table = contact.get_ref();
+    let (Some(given), true) = (&table.tangent, directions > 0) else {
+        return match (&table.tangent, directions) {
+            (Some(tangent), _) => Err(wrong(table, tangent.span(), "tangent has no effect without [friction]")),
+            (None, 0) => Ok([[0.0; 3]; 2].into_iter().take(0)),
+            (None, _) => {
+                let message = "`tangent` is missing: with [friction] each contact needs the direction [x, y, z] of its \
+                               tangential_rate, across its normal";
+                Err(wrong(table, contact.span(), message))
+            }
+        };
+    };
+    let numbers = given.get_ref();
+    let tangent = <[f64; 3]>::try_from(numbers.as_slice()).ok().and_then(inverse_masses::direction);
+    let across = tangent.and_then(|tangent| inverse_masses::across(normal, tangent));
+    let Some(first) = across else {
+        let message = format!(
+            "tangent = {} is no direction along the surface: allowed are three finite numbers x, y, z at right angles to the \
+             normal, within 1e-6",
+            numbers_in_message(numbers)
+        );
+        return Err(wrong(table, given.span(), &message));
+    };
+    Ok([first, inverse_masses::cross(normal, first)].into_iter().take(directions))
 }
 
 /// The normal of a `contact` on a line, from its first body to its second. The line is the axis x.
@@ -373,7 +420,8 @@ fn normal_of(contact: &Spanned<ContactTable>) -> Result<Vector, Mistake> {
         return Err(wrong(table, direction.span(), &message));
     }
     let Some(normal) = &table.normal else {
-        let message = "`normal` is missing: another contact of the scene has one, and so each needs one";
+        let message =
+            "`normal` is missing: with [friction], or if another contact of the scene has one, each contact needs one";
         return Err(wrong(table, contact.span(), message));
     };
     let numbers = normal.get_ref();

@@ -109,32 +109,32 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// Closing acceleration of `contact` by all forces except the contact force \[m/s^2\]: the input if there is one, otherwise
-    /// the `slope` of the rate.
-    pub(super) fn acceleration(&self, contact: usize, slope: f64) -> f64 {
-        match self.contacts.accelerations.as_ref().get(contact) {
+    /// Acceleration of a row by all forces except the contact forces \[m/s^2\]: the input if there is one, otherwise the `slope` of
+    /// the rate.
+    pub(super) fn acceleration(&self, row: usize, slope: f64) -> f64 {
+        match self.contacts.accelerations.as_ref().get(row) {
             Some(&acceleration) if S::has_input(Real::ExternalAcceleration) => acceleration,
             _ => slope,
         }
     }
 
-    /// The part of the given rate of `contact` that the importer has yet to remove \[m/s\].
-    pub(super) fn owed(&self, contact: usize) -> f64 {
+    /// The part of the given rate of a row that the importer has yet to remove \[m/s\].
+    pub(super) fn owed(&self, row: usize) -> f64 {
         let accounts = self.contacts.accounts.as_ref();
         match is_parallel::<S>() {
-            true => self.response(contact, |other| accounts.get(other).map_or(0.0, |account| account.debt)),
+            true => self.response(row, |other| accounts.get(other).map_or(0.0, |account| account.debt)),
             false => 0.0,
         }
     }
 
-    /// The change of the closing speed of `contact` by these impulses \[N.s\] at the contacts that share its bodies: how much it
+    /// The change of the speed of a row by these impulses \[N.s\] of all rows of contacts that share its bodies: how much it
     /// loses \[m/s\]. With forces \[N\], it is an acceleration.
-    pub(super) fn response(&self, contact: usize, impulse: impl Fn(usize) -> f64) -> f64 {
+    pub(super) fn response(&self, row: usize, impulse: impl Fn(usize) -> f64) -> f64 {
         if !S::Shared::IS_PRESENT {
-            return impulse(contact) / self.mass(contact);
+            return impulse(row) / self.mass(row);
         }
         let masses = self.inverse_masses();
-        (0..S::CONTACTS).map(|other| masses.of(contact, other) * impulse(other)).sum()
+        (0..S::ROWS).map(|other| masses.of(row, other) * impulse(other)).sum()
     }
 
     /// Records the end of a `step` \[s\] of `contact`: its `speed` \[m/s\] and its `mean_force` \[N\].
@@ -147,10 +147,10 @@ impl<S: Scene> Instance<S> {
     }
 
     /// Records the end of a step except for the jump, and returns the change of the impulse of a step that causes it \[N.s\].
-    pub(super) fn book(&mut self, contact: usize, speed: f64, mean_force: f64, step: f64) -> f64 {
+    pub(super) fn book(&mut self, row: usize, speed: f64, mean_force: f64, step: f64) -> f64 {
         let Contacts { endings, accounts, .. } = &mut self.contacts;
-        let Some(ending) = endings.as_mut().get_mut(contact) else { return 0.0 };
-        let force = match accounts.as_mut().get_mut(contact) {
+        let Some(ending) = endings.as_mut().get_mut(row) else { return 0.0 };
+        let force = match accounts.as_mut().get_mut(row) {
             Some(account) => account.book(mean_force * step, ending.force, step),
             None => mean_force,
         };

@@ -140,12 +140,20 @@ impl<S: Scene> Instance<S> {
             | Real::SlidingNumber
             | Real::MeanForce
             | Real::ImpulseMoment
+            | Real::TangentialImpulseMoment
+            | Real::SecondTangentialImpulseMoment
             | Real::PredictedForce
             | Real::PredictedTangentialForce
             | Real::SecondPredictedTangentialForce => return Some((0.0, 0.0)),
             // the force changes with the distance
             Real::ClosingSpeed if Self::MOVES => {
                 return Some((slope, -self.response(contact, |other| self.growth_of_force(other))));
+            }
+            Real::TangentialSpeed | Real::SecondTangentialSpeed => {
+                let direction = usize::from(output == Real::SecondTangentialSpeed);
+                let slope = self.tangential_end_of(contact, direction).slope;
+                let row = (1 + direction) * S::CONTACTS + contact;
+                return Some((slope, -self.response(row, |other| self.growth_of_force(other))));
             }
             // the heat is not a function of the indentation, but the remaining part of the work is
             Real::DissipatedEnergy if S::Contact::FOLLOWS_RATE => Real::ElasticEnergy,
@@ -160,10 +168,15 @@ impl<S: Scene> Instance<S> {
         Some(if rest { (work.0 - first, work.1 - second) } else { (first, second) })
     }
 
-    /// The derivative of the force of `contact` with respect to time \[N/s\]; for a force that depends on the rate, without that part.
-    fn growth_of_force(&self, contact: usize) -> f64 {
-        let rate = self.end_of(contact).0;
-        self.histories().get(contact).map_or(0.0, |history| history.stiffness(rate) * rate)
+    /// The derivative of the force of a row with respect to time \[N/s\]; for a force that depends on the rate, without that part.
+    fn growth_of_force(&self, row: usize) -> f64 {
+        let (contact, direction) = Self::place_of(row);
+        let Some(history) = self.histories().get(contact) else { return 0.0 };
+        let (rate, slope) = self.end_of(contact);
+        let Some(direction) = direction else { return history.stiffness(rate) * rate };
+        let normal = Course { rate, slope, bend: 0.0 };
+        let tangential = [0, 1].map(|direction| self.tangential_end_of(contact, direction));
+        history.tangential_derivatives(&self.model(contact), Quantity::Force(direction), &normal, &tangential).0
     }
 
     /// The derivative of a variable with respect to the input of contact `by` at the present time. It is zero except for
@@ -282,6 +295,10 @@ impl<S: Scene> Instance<S> {
     /// The derivative of `variable` with respect to the tangential rate of its `contact` in this `direction`: of the predicted
     /// tangential force \[N.s/m\], otherwise zero.
     fn by_tangential_rate(&self, variable: Real, contact: usize, direction: usize) -> Option<f64> {
+        let speed = [Real::TangentialSpeed, Real::SecondTangentialSpeed].get(direction).copied();
+        if Some(variable) == speed && self.phase() == Phase::Initialization {
+            return Some(1.0);
+        }
         let Some(of) = variable.predicted_direction() else { return Some(0.0) };
         if self.clock.curved {
             return Some(0.0);

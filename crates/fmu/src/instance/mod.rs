@@ -37,6 +37,9 @@ pub const FASTEST: f64 = 1e40;
 /// One value for each contact of a scene, if `P` is present.
 type IfPresent<P, S, T> = <P as Presence>::Of<T, <S as Scene>::Contacts<T>>;
 
+/// One value for each row of its contacts.
+type RowsIfPresent<P, S, T> = <P as Presence>::Of<T, <S as Scene>::Rows<T>>;
+
 /// The data of the contacts. A plain step and a reading of the force use the first fields only.
 #[repr(C)]
 struct Contacts<S: Scene> {
@@ -49,10 +52,10 @@ struct Contacts<S: Scene> {
     curves: IfPresent<S::Course, S, Curve>,
     /// Length of the last step \[s\], if a force is predicted from it.
     last_step: <S::Prediction as Presence>::Of<f64, [f64; 1]>,
-    endings: IfPresent<<S::Coupling as Coupling>::Ending, S, Ending>,
-    accounts: IfPresent<<S::Coupling as Coupling>::Account, S, Account>,
+    endings: RowsIfPresent<<S::Coupling as Coupling>::Ending, S, Ending>,
+    accounts: RowsIfPresent<<S::Coupling as Coupling>::Account, S, Account>,
     /// Accelerations by all forces except the contact force \[m/s^2\].
-    accelerations: IfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
+    accelerations: RowsIfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
     /// Effective masses \[kg\], if they are inputs.
     masses: IfPresent<<S::Coupling as Coupling>::Mass, S, f64>,
     /// The last examined steps, if the scene detects steps that are too long.
@@ -63,7 +66,7 @@ struct Contacts<S: Scene> {
     /// What is known of bodies that contacts share without the FMU's knowledge.
     suspects: IfPresent<<S::Coupling as Coupling>::Ending, S, Suspect>,
     /// Moments of the impulses of the last step, if contacts share bodies \[N.s^2\].
-    moments: IfPresent<S::Shared, S, f64>,
+    moments: RowsIfPresent<S::Shared, S, f64>,
     /// Inverse effective masses that are inputs \[1/kg\].
     inverse_masses: S::InverseMasses,
     /// Working memory to check them, and whether they are right.
@@ -155,6 +158,21 @@ impl<S: Scene> Instance<S> {
         self.contacts.rates.as_ref()
     }
 
+    /// The contact of a row, and its tangential direction; `None` for the normal.
+    fn place_of(row: usize) -> (usize, Option<usize>) {
+        (row % S::CONTACTS, (row / S::CONTACTS).checked_sub(1))
+    }
+
+    /// The rate of a row that the importer has given \[m/s\].
+    fn given_rate(&self, row: usize) -> f64 {
+        let (contact, direction) = Self::place_of(row);
+        let given = match direction {
+            None => self.rates().get(contact).copied(),
+            Some(direction) => self.histories().get(contact).map(|history| history.tangential_course(direction).rate),
+        };
+        given.unwrap_or(0.0)
+    }
+
     /// Discards the derivatives of the inputs.
     fn straighten(&mut self) {
         self.clock.curved = false;
@@ -221,8 +239,9 @@ impl<S: Scene> Instance<S> {
             check_rate(history, rate)?;
         }
         // moved bodies have their speed from the start
-        for (ending, &rate) in self.contacts.endings.as_mut().iter_mut().zip(self.contacts.rates.as_ref()) {
-            ending.speed = rate;
+        for row in 0..S::ROWS {
+            let rate = self.given_rate(row);
+            self.contacts.endings.as_mut().get_mut(row).into_iter().for_each(|ending| ending.speed = rate);
         }
         self.set_phase(Phase::StepComplete);
         // a contact may begin at any indentation

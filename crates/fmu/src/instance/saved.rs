@@ -26,10 +26,12 @@ impl<S: Scene> Instance<S> {
         + S::Contact::WORDS
         + count(Self::CURVE)
         + count(Self::MOMENTUM)
-        + if <S::Coupling as Coupling>::Ending::IS_PRESENT { Ending::WORDS } else { 0 }
+        + <S::Coupling as Coupling>::Mass::IS_PRESENT as usize;
+
+    /// Number of words of a row.
+    const ROW_WORDS: usize = if <S::Coupling as Coupling>::Ending::IS_PRESENT { Ending::WORDS } else { 0 }
         + if <S::Coupling as Coupling>::Account::IS_PRESENT { Account::WORDS } else { 0 }
         + <S::Coupling as Coupling>::Acceleration::IS_PRESENT as usize
-        + <S::Coupling as Coupling>::Mass::IS_PRESENT as usize
         + S::Shared::IS_PRESENT as usize;
 
     /// Number of words that hold an instance.
@@ -38,7 +40,8 @@ impl<S: Scene> Instance<S> {
         + <S::Values as Store<f64>>::LENGTH
         + S::InverseMasses::LENGTH
         + 2 * S::GROUPS
-        + Self::CONTACT_WORDS * S::CONTACTS;
+        + Self::CONTACT_WORDS * S::CONTACTS
+        + Self::ROW_WORDS * S::ROWS;
 
     /// Makes this instance equal to `other` and returns true. If the parameters differ, or `other` is in fact of another scene, it
     /// changes nothing and returns false.
@@ -112,7 +115,10 @@ impl<S: Scene> Instance<S> {
             if let Some(momentum) = momenta.get(contact) {
                 momentum.save(Self::MOMENTUM, &mut store);
             }
-            self.save_coupling(contact, &mut store);
+            self.contacts.masses.as_ref().get(contact).into_iter().for_each(|mass| store(mass.to_bits()));
+        }
+        for row in 0..S::ROWS {
+            self.save_row(row, &mut store);
         }
     }
 
@@ -167,9 +173,7 @@ impl<S: Scene> Instance<S> {
         }
         let Contacts { histories, rates, curves, momenta, endings, accounts, accelerations, masses, moments, .. } =
             &mut self.contacts;
-        let mut moments = moments.as_mut().iter_mut();
-        let (mut endings, mut accounts) = (endings.as_mut().iter_mut(), accounts.as_mut().iter_mut());
-        let (mut accelerations, mut masses) = (accelerations.as_mut().iter_mut(), masses.as_mut().iter_mut());
+        let mut masses = masses.as_mut().iter_mut();
         let (mut curves, mut momenta) = (curves.as_mut().iter_mut(), momenta.as_mut().iter_mut());
         let slots = histories.as_mut().iter_mut().zip(rates.as_mut());
         for (contact, (history_slot, rate_slot)) in slots.enumerate() {
@@ -200,14 +204,16 @@ impl<S: Scene> Instance<S> {
                 curves.next().into_iter().for_each(|slot| *slot = curve);
                 momenta.next().into_iter().for_each(|slot| *slot = momentum);
             }
-            put(endings.next(), in_earnest, || Ending::load(&mut words))?;
-            put(accounts.next(), in_earnest, || Account::load(&mut words))?;
-            put(accelerations.next(), in_earnest, || load_numbers(&mut words).map(|[value]| value))?;
             put(masses.next(), in_earnest, || {
                 let [mass] = load_numbers(&mut words)?;
                 is_mass(mass).then_some(mass)
             })?;
-            put(moments.next(), in_earnest, || load_numbers(&mut words).map(|[moment]| moment))?;
+        }
+        for row in 0..S::ROWS {
+            put(endings.as_mut().get_mut(row), in_earnest, || Ending::load(&mut words))?;
+            put(accounts.as_mut().get_mut(row), in_earnest, || Account::load(&mut words))?;
+            put(accelerations.as_mut().get_mut(row), in_earnest, || load_numbers(&mut words).map(|[value]| value))?;
+            put(moments.as_mut().get_mut(row), in_earnest, || load_numbers(&mut words).map(|[moment]| moment))?;
         }
         if in_earnest {
             self.contacts.checked = false;
@@ -224,16 +230,16 @@ impl<S: Scene> Instance<S> {
         Some(())
     }
 
-    /// Passes the data that `contact` keeps for its importer to `store`.
-    fn save_coupling(&self, contact: usize, store: &mut impl FnMut(u64)) {
-        let Contacts { endings, accounts, accelerations, masses, moments, .. } = &self.contacts;
-        if let Some(ending) = endings.as_ref().get(contact) {
+    /// Passes the data that a row keeps for its importer to `store`.
+    fn save_row(&self, row: usize, store: &mut impl FnMut(u64)) {
+        let Contacts { endings, accounts, accelerations, moments, .. } = &self.contacts;
+        if let Some(ending) = endings.as_ref().get(row) {
             ending.save(store);
         }
-        if let Some(account) = accounts.as_ref().get(contact) {
+        if let Some(account) = accounts.as_ref().get(row) {
             account.save(store);
         }
-        let numbers = [accelerations.as_ref(), masses.as_ref(), moments.as_ref()].map(|all| all.get(contact));
+        let numbers = [accelerations.as_ref(), moments.as_ref()].map(|all| all.get(row));
         numbers.into_iter().flatten().for_each(|input| store(input.to_bits()));
     }
 }

@@ -91,7 +91,9 @@ impl<S: Scene> Contacts<S> {
         }
         let force = history.force(0.0);
         self.momenta.as_mut().get_mut(contact).into_iter().for_each(|momentum| *momentum = Momentum::start(force));
-        self.endings.as_mut().get_mut(contact).into_iter().for_each(|ending| *ending = Ending::start(force));
+        let endings = self.endings.as_mut().iter_mut().skip(contact).step_by(S::CONTACTS);
+        // the springs start without tangential displacement
+        endings.zip([force, 0.0, 0.0]).for_each(|(ending, force)| *ending = Ending::start(force));
     }
 }
 

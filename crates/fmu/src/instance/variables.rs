@@ -52,14 +52,15 @@ impl<S: Scene> Instance<S> {
         }
         let slot = match variable {
             Real::IndentationRate => self.contacts.rates.as_mut().get_mut(contact),
-            Real::ExternalAcceleration => self.contacts.accelerations.as_mut().get_mut(contact),
             Real::EffectiveMass => self.contacts.masses.as_mut().get_mut(contact),
             Real::InverseMass => {
                 self.contacts.checked = false;
                 self.contacts.inverse_masses.as_mut().get_mut(contact)
             }
             Real::Parameter(index) => self.settings.values.as_mut().get_mut(index),
-            _ => None,
+            _ => variable
+                .external_acceleration()
+                .and_then(|row| self.contacts.accelerations.as_mut().get_mut(row * S::CONTACTS + contact)),
         };
         if let Some(slot) = slot {
             *slot = value;
@@ -140,11 +141,11 @@ impl<S: Scene> Instance<S> {
         true
     }
 
-    /// The speed of bodies that the FMU moves \[m/s\]; `None` before the initialization ends.
+    /// The speed of a row of bodies that the FMU moves \[m/s\]; `None` before the initialization ends.
     #[inline(always)]
-    pub(super) fn own_speed(&self, contact: usize) -> Option<f64> {
+    pub(super) fn own_speed(&self, row: usize) -> Option<f64> {
         let has_started = !matches!(self.phase(), Phase::Instantiated | Phase::Initialization);
-        self.contacts.endings.as_ref().get(contact).filter(|_| has_started).map(|ending| ending.speed)
+        self.contacts.endings.as_ref().get(row).filter(|_| has_started).map(|ending| ending.speed)
     }
 
     /// The rate at which outputs that follow it are shown \[m/s\]: the speed of bodies that the FMU moves, otherwise the input.
@@ -176,12 +177,18 @@ impl<S: Scene> Instance<S> {
                 Some(ending) => ending.force,
                 None => momentum().map_or(f64::NAN, |momentum| momentum.mean_force),
             },
-            Real::ImpulseMoment => self.contacts.moments.as_ref().get(contact).copied().unwrap_or(f64::NAN),
+            Real::ImpulseMoment => self.moment(contact),
+            Real::TangentialImpulseMoment => self.moment(S::CONTACTS + contact),
+            Real::SecondTangentialImpulseMoment => self.moment(2 * S::CONTACTS + contact),
+            Real::TangentialSpeed => self.speed_of_row(S::CONTACTS + contact),
+            Real::SecondTangentialSpeed => self.speed_of_row(2 * S::CONTACTS + contact),
+            // of bodies that the FMU moves, the force that the importer applies
+            Real::MeanTangentialForce if S::Shared::IS_PRESENT => self.force_of_row(S::CONTACTS + contact),
+            Real::SecondMeanTangentialForce if S::Shared::IS_PRESENT => self.force_of_row(2 * S::CONTACTS + contact),
             Real::PredictedForce => self.predicted_force(contact, history),
-            Real::ClosingSpeed if Self::MOVES => self.own_speed(contact).unwrap_or(rate),
+            Real::ClosingSpeed if Self::MOVES => self.speed_of_row(contact),
             Real::RegimeNumber => self.integer((Integer::Regime, contact)).into(),
             Real::SlidingNumber => self.integer((Integer::Sliding, contact)).into(),
-            Real::ExternalAcceleration if S::has_input(variable) => self.acceleration(contact, f64::NAN),
             Real::EffectiveMass if S::has_input(variable) => self.mass(contact),
             Real::TangentialRate => history.tangential_course(0).rate,
             Real::SecondTangentialRate => history.tangential_course(1).rate,
@@ -193,13 +200,34 @@ impl<S: Scene> Instance<S> {
                     _ => f64::NAN,
                 }
             }
-            Real::ClosingSpeed | Real::ExternalAcceleration | Real::EffectiveMass | Real::InverseMass => f64::NAN,
+            Real::ClosingSpeed | Real::EffectiveMass | Real::InverseMass => f64::NAN,
+            Real::ExternalAcceleration
+            | Real::ExternalTangentialAcceleration
+            | Real::SecondExternalTangentialAcceleration => match variable.external_acceleration() {
+                Some(row) if S::has_input(variable) => self.acceleration(row * S::CONTACTS + contact, f64::NAN),
+                _ => f64::NAN,
+            },
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
             output => match output.quantity() {
                 Some(quantity) => history.tangential(&model, quantity),
                 None => of_state::<S>(output, history, &model, shown),
             },
         }
+    }
+
+    /// The moment of the impulse of a row over the last step \[N.s^2\].
+    fn moment(&self, row: usize) -> f64 {
+        self.contacts.moments.as_ref().get(row).copied().unwrap_or(f64::NAN)
+    }
+
+    /// The speed of a row at the end of the last step \[m/s\]; before the first one, the given rate.
+    fn speed_of_row(&self, row: usize) -> f64 {
+        self.own_speed(row).unwrap_or_else(|| self.given_rate(row))
+    }
+
+    /// The mean force of a row that the importer applies \[N\].
+    fn force_of_row(&self, row: usize) -> f64 {
+        self.contacts.endings.as_ref().get(row).map_or(f64::NAN, |ending| ending.force)
     }
 
     /// The force \[N\] of `contact`, with the state `history`, at the end of a next step as long as the last one.
@@ -277,8 +305,10 @@ pub(super) fn of_state<S: Scene>(output: Real, contact: &S::Contact, model: &S::
 fn check_input(variable: Real, value: f64) -> Result<(), Fault> {
     match variable {
         Real::EffectiveMass if !is_mass(value) => Err(Fault::InputOutOfRange { input: variable, value }),
-        Real::ExternalAcceleration if !value.is_finite() => {
-            Err(Fault::NotFinite { name: "external_acceleration", value })
+        _ if !value.is_finite() && variable.external_acceleration().is_some() => {
+            let is_normal = variable == Real::ExternalAcceleration;
+            let name = if is_normal { "external_acceleration" } else { "external_tangential_acceleration" };
+            Err(Fault::NotFinite { name, value })
         }
         _ => Ok(()),
     }

@@ -102,6 +102,18 @@ macro_rules! __laws {
         type Model = $crate::contact::rate::Model<$crate::__laws!(loading $($laws)+), $crate::__laws!(unloading $($laws)+)>;
         type Contact = $crate::contact::rate::History;
     };
+    (types (friction $contact:ident $memory:literal $mean:literal $loss:ident) $($laws:tt)+) => {
+        type Model = $crate::contact::tangential::RoughModel<
+            $crate::__laws!(loading $($laws)+),
+            $crate::__laws!(unloading $($laws)+),
+            $crate::contact::losses::$loss,
+        >;
+        type Contact = $crate::contact::tangential::$contact<
+            $memory,
+            $mean,
+            $crate::contact::losses::History<$crate::contact::losses::$loss>,
+        >;
+    };
     (types (friction $contact:ident $memory:literal $mean:literal) $($laws:tt)+) => {
         type Model = $crate::contact::tangential::RoughModel<
             $crate::__laws!(loading $($laws)+),
@@ -144,6 +156,7 @@ macro_rules! __laws {
         }
     };
     (together (loss $loss:ident)) => { $crate::__laws!(together plain); };
+    (together (friction $($contact:tt)+)) => { $crate::__laws!(together plain); };
     (together $other:tt) => {};
 
     (model $pair:ident $surface:ident $value:ident $density:ident; damped $law:ident $fields:tt) => {{
@@ -181,8 +194,13 @@ macro_rules! __laws {
             harder: if impactor_yields { target } else { impactor },
         }
     }};
+    (model $pair:ident $surface:ident $value:ident $density:ident;
+     (friction $contact:ident $memory:literal $mean:literal $loss:ident) $($laws:tt)+) => {{
+        let loss = <$crate::contact::losses::$loss as $crate::scene::described::LossOfScene>::given(&$value, $density);
+        $crate::scene::with_friction($crate::__laws!(plastic $pair $surface $value; $($laws)+), loss, $value)
+    }};
     (model $pair:ident $surface:ident $value:ident $density:ident; (friction $($contact:tt)+) $($laws:tt)+) => {
-        $crate::scene::with_friction($crate::__laws!(plastic $pair $surface $value; $($laws)+), $value)
+        $crate::scene::with_friction($crate::__laws!(plastic $pair $surface $value; $($laws)+), (), $value)
     };
     (plastic $pair:ident $surface:ident $value:ident; paired $($laws:tt)+) => {{
         let bodies = $crate::scene::two_bodies(&$value);
@@ -271,6 +289,12 @@ macro_rules! __scene {
         pub struct Exported;
 
         const CONTACTS: usize = $contacts;
+        const ROWS: usize = CONTACTS * (1 + DIRECTIONS);
+        /// Of contacts that share bodies.
+        const DIRECTIONS: usize = match <<Exported as Scene>::Shared as $crate::scene::Presence>::IS_PRESENT {
+            true => <<Exported as Scene>::Contact as $crate::contact::Contact<<Exported as Scene>::Model>>::DIRECTIONS,
+            false => 0,
+        };
         const GROUPS: usize = $groups;
 
         /// The contact after the last one of each table.
@@ -311,6 +335,7 @@ macro_rules! __scene {
             $crate::__laws!(types $kind $($laws)+);
 
             type Contacts<T: Copy> = [T; CONTACTS];
+            type Rows<T: Copy> = [T; ROWS];
             type Groups<T: Copy> = [T; GROUPS];
             type Values = [f64; VALUES];
 

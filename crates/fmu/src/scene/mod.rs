@@ -32,6 +32,9 @@ pub trait Scene: Sized {
 
     /// One value for each contact: an array whose length is the number of contacts.
     type Contacts<T: Copy>: Store<T>;
+    /// One value for each row of contacts that share bodies: all normals, then all tangents in each direction. As many as contacts
+    /// without friction.
+    type Rows<T: Copy>: Store<T>;
     /// One value for each group of contacts.
     type Groups<T: Copy>: Store<T>;
     /// The values of the parameters that can be set, and possibly of others.
@@ -65,6 +68,8 @@ pub trait Scene: Sized {
 
     /// The number of contacts.
     const CONTACTS: usize = <Self::Contacts<u8> as Store<u8>>::LENGTH;
+    /// The number of rows.
+    const ROWS: usize = <Self::Rows<u8> as Store<u8>>::LENGTH;
     /// The number of groups.
     const GROUPS: usize = <Self::Groups<u8> as Store<u8>>::LENGTH;
 
@@ -145,10 +150,14 @@ pub trait Scene: Sized {
     #[inline(always)]
     fn has_input(variable: Real) -> bool {
         match variable {
-            Real::ExternalAcceleration => <Self::Coupling as Coupling>::Acceleration::IS_PRESENT,
             Real::EffectiveMass => <Self::Coupling as Coupling>::Mass::IS_PRESENT,
             Real::InverseMass => Self::InverseMasses::LENGTH > 0,
-            _ => variable.tangential_rate().is_some_and(|direction| direction < Self::Contact::DIRECTIONS),
+            _ => match variable.external_acceleration() {
+                Some(row) => {
+                    <Self::Coupling as Coupling>::Acceleration::IS_PRESENT && row * Self::CONTACTS < Self::ROWS
+                }
+                None => variable.tangential_rate().is_some_and(|direction| direction < Self::Contact::DIRECTIONS),
+            },
         }
     }
 
@@ -168,8 +177,8 @@ pub trait Scene: Sized {
     fn integer(value_reference: u32) -> Option<(Integer, usize)>;
 }
 
-/// The model `normal` with friction between its bodies; `value` gives the parameters of the scene.
-pub fn with_friction<L, U>(normal: Model<L, U>, value: impl Fn(Parameter) -> f64) -> RoughModel<L, U> {
+/// The model `normal` with friction between its bodies, and a `loss` or `()`; `value` gives the parameters of the scene.
+pub fn with_friction<L, U, X>(normal: Model<L, U>, loss: X, value: impl Fn(Parameter) -> f64) -> RoughModel<L, U, X> {
     let body = |youngs_modulus, poissons_ratio| Body {
         radius: f64::INFINITY,
         youngs_modulus: value(youngs_modulus),
@@ -179,7 +188,7 @@ pub fn with_friction<L, U>(normal: Model<L, U>, value: impl Fn(Parameter) -> f64
     let target = body(Parameter::TargetYoungsModulus, Parameter::TargetPoissonsRatio);
     let coefficient = value(Parameter::FrictionCoefficient);
     let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
-    RoughModel { normal, friction, loss: () }
+    RoughModel { normal, friction, loss }
 }
 
 /// Whether the impactor is the softer body, which a [`Pair`] describes; `value` gives the parameters of the scene. Of equally strong

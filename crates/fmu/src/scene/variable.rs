@@ -204,6 +204,10 @@ variables! {
         ImpulseMoment = "impulse_moment",
         /// Acceleration by all forces except the contact force, an input \[m/s^2\].
         ExternalAcceleration = "external_acceleration",
+        /// Tangential acceleration by all forces except those of the contacts, an input \[m/s^2\].
+        ExternalTangentialAcceleration = "external_tangential_acceleration",
+        /// The same in the second direction.
+        SecondExternalTangentialAcceleration = "external_tangential_acceleration[2]",
         /// An inverse mass of contacts that share bodies, an input \[1/kg\]. Instead of a contact, it has the place of the entry in the
         /// upper triangle of the matrix.
         InverseMass = "inverse_mass",
@@ -225,6 +229,14 @@ variables! {
         TangentialImpulse = "tangential_impulse",
         /// Integral of the tangential force in the second direction since the start \[N.s\].
         SecondTangentialImpulse = "tangential_impulse[2]",
+        /// Moment of the tangential impulse of the last step \[N.s^2\].
+        TangentialImpulseMoment = "tangential_impulse_moment",
+        /// The same in the second direction.
+        SecondTangentialImpulseMoment = "tangential_impulse_moment[2]",
+        /// Tangential speed at the end of a step \[m/s\].
+        TangentialSpeed = "tangential_speed",
+        /// The same in the second direction.
+        SecondTangentialSpeed = "tangential_speed[2]",
         /// Predicted tangential force at the end of the next step \[N\].
         PredictedTangentialForce = "predicted_tangential_force",
         /// Predicted tangential force in the second direction at the end of the next step \[N\].
@@ -253,8 +265,20 @@ impl Real {
 
     /// Whether it is an input.
     pub fn is_input(self) -> bool {
-        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::EffectiveMass | Real::InverseMass)
+        matches!(self, Real::IndentationRate | Real::EffectiveMass | Real::InverseMass)
             || self.tangential_rate().is_some()
+            || self.external_acceleration().is_some()
+    }
+
+    /// The row of a contact of which it is the external acceleration: 0 for the normal, then the tangential directions.
+    #[inline(always)]
+    pub fn external_acceleration(self) -> Option<usize> {
+        match self {
+            Real::ExternalAcceleration => Some(0),
+            Real::ExternalTangentialAcceleration => Some(1),
+            Real::SecondExternalTangentialAcceleration => Some(2),
+            _ => None,
+        }
     }
 
     /// Whether it is the number of a state, and jumps.

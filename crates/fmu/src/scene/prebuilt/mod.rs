@@ -71,6 +71,7 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
     type Contact = K::Contact;
 
     type Contacts<T: Copy> = [T; 1];
+    type Rows<T: Copy> = [T; 1];
     type Groups<T: Copy> = [T; 1];
     type Values = [f64; Parameter::PREBUILT];
 
