@@ -85,6 +85,11 @@ class Contact:
     # what the FMU has
 
     @property
+    def directions(self) -> int:
+        """The number of tangential directions, 0 without friction."""
+        return self._variables.directions
+
+    @property
     def contacts(self) -> tuple[str, ...]:
         """Name of each contact; `("",)` if there is only one, without a name."""
         return self._variables.contacts
@@ -223,8 +228,10 @@ class Contact:
 
         `inverse_masses` [1/kg] is for contacts that share bodies, if the scene has `inverse_masses =
         "input"` under `[coupling]`: the symmetric matrix of how a force at one contact accelerates
-        the others, a row and a column for each contact. It holds from this step on.
-        `contact["impulse_moment"]` [N s^2] then displaces the bodies: see the guide on coupling.
+        the others, a row and a column for each contact; with friction, then for the tangents of all
+        contacts in each direction. It holds from this step on. `contact["impulse_moment"]` and
+        `contact["tangential_impulse_moment"]` [N s^2] then displace the bodies: see the guide on
+        coupling.
 
         `tangential_rate` [m/s] is the relative tangential speed of the two contact points, and
         `tangential_acceleration` [m/s^2] its time derivative, if the scene has friction. A rate
@@ -258,10 +265,10 @@ class Contact:
 
     def __getitem__(self, name: str) -> Any:
         """Read any variable by its name, in SI units. With several contacts, the plain name of an
-        output gives an array over the contacts."""
+        output gives an array over the contacts; with two tangential directions, of pairs."""
         with self._lock:
             component, variables = self._alive(), self._variables
-            names = [name] if name in variables else variables.every(name)
+            names = [name] if name in variables else variables.components(name)
             if not names:
                 raise variables.unknown("variable", name)
             real = variables.is_real(names[0])
@@ -273,7 +280,7 @@ class Contact:
             )
             if get(component, references, len(names), values) > WARNING:
                 raise self._instance.refusal(function)
-            return values[0] if len(names) == 1 else np.array(values)
+            return values[0] if len(names) == 1 else variables.shaped(names, values)
 
     def derivative(self, name: str = "force", order: int = 1) -> Any:
         """Read the time derivative of an output at the end of the last step: per second (order 1),

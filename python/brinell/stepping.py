@@ -28,6 +28,8 @@ class Stepping:
         self._external = variables.references(variables.every("external_acceleration"))
         self._tangential = variables.references(variables.components("tangential_rate"))
         self._tangential_values = (c_double * len(self._tangential))()
+        across = variables.components("external_tangential_acceleration")
+        self._external_tangential = variables.references(across)
         # orders 1 of all contacts, then orders 2
         self._twice = variables.references(variables.rates * 2)
         self._orders = (c_int * (2 * count))(*[1] * count, *[2] * count)
@@ -158,6 +160,9 @@ class Stepping:
         if acceleration is not None:
             values = (c_double * count)()
             self._fill_tangential(values, "tangential_acceleration", acceleration)
+            if len(self._external_tangential) > 0:
+                calls.append(("SetReal", (self._external_tangential, count, values)))
+                return calls
             orders = (c_int * count)(*[1] * count)
             calls.append(("SetRealInputDerivatives", (references, count, orders, values)))
         return calls
@@ -181,12 +186,9 @@ class Stepping:
         names = self._variables.components(name)
         if not names:
             raise self._variables.unknown("output", name, self._variables.outputs)
-        count = self._count
         values = (c_double * len(names))()
         instance.call("GetReal", self._variables.references(names), len(names), values)
-        if len(names) == count:
-            return values[0] if count == 1 else np.array(values)
-        return np.array(values) if count == 1 else np.reshape(values, (count, 2))
+        return self._variables.shaped(names, values)
 
     def _follow(self, instance: Instance, h: float, gap: Numbers) -> None:
         """Contacts that cannot touch within the step end it where those of the engine do: a rate
@@ -228,7 +230,8 @@ class Stepping:
         instance.call("SetReal", self._variables.references(names), len(names), array)
 
     def _set_inverse_masses(self, instance: Instance, matrix: Any) -> None:
-        names, count, path = self._variables.inverse_masses, self._count, self._path
+        variables, path = self._variables, self._path
+        names, count = variables.inverse_masses, self._count * (1 + variables.directions)
         if not names:
             raise ContactError(
                 f'inverse_masses: {path} has no such inputs; inverse_masses = "input" under '
@@ -238,6 +241,7 @@ class Stepping:
             raise TypeError(
                 f"inverse_masses = {matrix!r}: {count} x {count} numbers are needed, a row and a "
                 "column for each contact"
+                + (", and for each of its tangents" if variables.directions else "")
             )
         entries = [[number("inverse_masses", value) for value in row] for row in matrix]
         values = np.array(entries)

@@ -66,6 +66,19 @@ class Variables:
         whole, parts = self.every(name), (self.every(f"{name}[1]"), self.every(f"{name}[2]"))
         return whole or [it for both in zip(*parts, strict=True) for it in both]
 
+    @property
+    def directions(self) -> int:
+        """The number of tangential directions, 0 without friction."""
+        return len(self.components("tangential_rate")) // len(self.contacts)
+
+    def shaped(self, names: Sequence[str], values: Sequence[float]) -> Any:
+        """Values of `components`: a number or an array over the contacts, with two tangential
+        directions of their two components each."""
+        count = len(self.contacts)
+        if len(names) == count:
+            return values[0] if count == 1 else np.array(values)
+        return np.array(values) if count == 1 else np.reshape(values, (count, 2))
+
     def owners(self, name: str, causality: str | None = None) -> list[str]:
         """All variables with this name, with or without the name of a contact or group in front."""
         return [

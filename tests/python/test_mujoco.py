@@ -16,8 +16,9 @@ material = "mild steel"
 [law]
 loading = "{law}"
 unloading = "contact-radius"
+{friction}
 [fmu]
-outputs = ["indentation", "elastic_energy", "dissipated_energy"]
+outputs = ["indentation", "elastic_energy", "dissipated_energy"{outputs}]
 [impact]
 mass = 0.1
 speed = 0.3
@@ -36,11 +37,14 @@ FEET = np.array([[x, y, -0.02] for x in (-0.04, 0.04) for y in (-0.025, 0.025)])
 def unit(tmp_path_factory):
     folder, made = tmp_path_factory.mktemp("units"), {}
 
-    def export(count, coupling=INPUTS):
-        name = f"feet{count}" + ("" if coupling == INPUTS else "_alone")
+    def export(count, coupling=INPUTS, directions=0):
+        name = f"feet{count}" + ("" if coupling == INPUTS else "_alone") + "_rough" * directions
         if name not in made:
             scene = folder / f"{name}.toml"
             values = {"name": name, "law": "big-alabo", "coupling": coupling, "count": count}
+            rough = f"[friction]\ncoefficient = 0.3\ndirections = {directions}"
+            values["friction"] = rough if directions else ""
+            values["outputs"] = ', "tangential_energy", "friction_work"' if directions else ""
             scene.write_text(SCENE.format(**values), encoding="utf-8")
             made[name] = brinell.export(scene, folder / f"{name}.fmu")
         return made[name]
@@ -139,7 +143,8 @@ def collide(path, bodies, pairs, speed, step):
     with brinell.mujoco.attach(model, data, pairs, path) as attached:
         for _ in range(round(0.02 / step)):
             attached.step()
-        taken = np.sum(attached.contact["dissipated_energy"])
+        names = ["dissipated_energy"] + ["friction_work"] * (attached.contact.directions > 0)
+        taken = sum(np.sum(attached.contact[name]) for name in names)
         assert taken > 0.1 * before[2] and np.all(attached.gaps > 0.0)
     after = momentum(model, data)
     scales = [np.linalg.norm(before[0]), np.linalg.norm(before[1]), before[2]]
@@ -230,9 +235,10 @@ def test_what_is_refused_names_the_pair(unit):
     model, data = world(FLOOR + BOX + '<geom name="block" type="box" size=".1 .1 .1"/>')
     for pairs, error, text in (
         ([("foot0", "roof")], UnknownName, r"no geom 'roof'; there are: floor, block, foot0"),
-        ([("foot0", "block")], ContactError, r"pair 'foot0' and 'block': sphere and box; allowed are a sphere"),
+        ([("foot0", "block")], ContactError, r"pair 'foot0' and 'block': sphere and box; allowed are a sphere, a capsule or a box and a plane"),
         (["foot0"], ContactError, r"pair 'foot0': two names of geoms are needed"),
-        (PAIRS[:3], ContactError, r"3 pairs of geoms: feet4.fmu needs foot\[1\], foot\[2\]"),
+        ([("block", "floor")], ContactError, r"pair 'block' and 'floor': corner = None: a box needs the radius"),
+        (PAIRS[:3], ContactError, r"3 contacts of geoms: feet4.fmu has foot\[1\], foot\[2\]"),
     ):
         with pytest.raises(error, match=text):
             brinell.mujoco.attach(model, data, pairs, unit(4))
@@ -241,3 +247,83 @@ def test_what_is_refused_names_the_pair(unit):
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
     with pytest.raises(ContactError, match="integrator = rk4: attach needs MuJoCo's default, Euler"):
         brinell.mujoco.attach(model, data, PAIRS, unit(4))
+
+
+def test_the_inverse_masses_of_feet_with_friction_have_rows_for_their_tangents(unit):
+    model, data = world(FLOOR + BOX)
+    data.qpos[2] = 0.3
+    mujoco.mj_forward(model, data)
+    with brinell.mujoco.attach(model, data, PAIRS, unit(4, directions=2)) as attached:
+        assert not attached.step().any()
+        contact_points = FEET - [0.0, 0.0, 5e-3]
+        axes = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        rows = [(axis, np.cross(point, axis)) for axis in np.array(axes) for point in contact_points]
+        moves, turns = (np.array(part) for part in zip(*rows, strict=True))
+        expected = moves @ moves.T / MASS + turns @ (turns / INERTIA).T
+        # a tangent may point to the other side
+        assert np.abs(attached.inverse_masses) == pytest.approx(np.abs(expected), rel=1e-9, abs=1e-9)
+
+
+def slide(path, step, end=0.03):
+    """A box that is thrown onto the floor: its velocities at the end, and the error of the energy."""
+    model, data = world(FLOOR + BOX, step)
+    data.qpos[:] = [0.0, 0.0, 0.0305, 0.999, 0.03, 0.02, 0.01]
+    mujoco.mju_normalize4(data.qpos[3:])
+    data.qvel[:] = [0.4, -0.2, -0.1, 0.0, 0.0, 1.0]
+    names = ("elastic_energy", "dissipated_energy", "tangential_energy", "friction_work")
+    with brinell.mujoco.attach(model, data, PAIRS, path) as attached:
+        def total():
+            mujoco.mj_forward(model, data)
+            mujoco.mj_energyPos(model, data)
+            mujoco.mj_energyVel(model, data)
+            return data.energy.sum() + sum(np.sum(attached.contact[name]) for name in names)
+
+        start = total()
+        while data.time < end - 0.5 * step:
+            attached.step()
+        assert np.sum(attached.contact["friction_work"]) > 1e-4
+        return data.qvel.copy(), abs(total() - start) / start
+
+
+def test_a_box_that_slides_ends_alike_in_long_and_short_steps(unit):
+    path = unit(4, directions=2)
+    (long, long_error), (short, short_error) = slide(path, 1e-3), slide(path, 1e-4)
+    assert long_error < 1e-4 and short_error < 1e-5
+    assert long[:3] == pytest.approx(short[:3], abs=2e-3)
+
+
+def test_bodies_that_rub_keep_their_momentum(unit):
+    """A ball that spins hits another: friction turns both."""
+    balls = "".join(
+        f'<body name="{name}" pos="{place}"><freejoint/><geom name="{name}" size="5e-3" mass="4e-3"/></body>'
+        for name, place in (("still", "0 0 0.1"), ("cue", "0.02 3e-3 0.102"))
+    )
+    for step, allowed in ((1e-3, (1e-14, 1e-4, 5e-3)), (1e-4, (1e-14, 5e-6, 5e-4))):
+        errors = collide(unit(1, directions=2), balls, [("cue", "still")], [-2.0, 0.1, 0.05], step)
+        assert np.all(np.array(errors) < allowed), f"{step}: {errors}"
+
+
+def test_ends_of_capsules_and_corners_of_boxes_are_spheres(unit):
+    inertial = f'<inertial pos="0 0 0" mass="{MASS}" diaginertia="1.2e-4 2.6e-4 3.5e-4"/>'
+    shapes = {
+        2: ('<geom name="shape" type="capsule" size="5e-3 .03"/>', [(0, 0, 0.03), (0, 0, -0.03)]),
+        8: (
+            '<geom name="shape" type="box" size=".04 .03 .02"/>',
+            [(x, y, z) for x in (-0.035, 0.035) for y in (-0.025, 0.025) for z in (-0.015, 0.015)],
+        ),
+    }
+    for count, (shape, places) in shapes.items():
+        spheres = "".join(
+            f'<geom name="s{i}" size="5e-3" pos="{x} {y} {z}"/>' for i, (x, y, z) in enumerate(places)
+        )
+        ends = []
+        for geoms, pairs in ((shape, [("shape", "floor")]), (spheres, [(f"s{i}", "floor") for i in range(count)])):
+            body = f'<body name="body" pos="0 0 .045" euler="20 35 0"><freejoint/>{inertial}{geoms}</body>'
+            model, data = world(FLOOR + body)
+            data.qvel[:] = [0.2, 0.1, -0.5, 1.0, 0.0, 0.0]
+            with brinell.mujoco.attach(model, data, pairs, unit(count, directions=2), corner=5e-3) as attached:
+                for _ in range(60):
+                    attached.step()
+                assert np.sum(attached.contact["dissipated_energy"]) > 1e-4
+            ends.append(np.concatenate((data.qpos, data.qvel)))
+        assert ends[0] == pytest.approx(ends[1], abs=1e-9)
