@@ -78,15 +78,17 @@ def total(model, data):
 
 class Total:
     """Checks that kinetic and potential energy in a model of MuJoCo, and the elastic and dissipated
-    energies of all contacts of an FMU, have the same sum after every step."""
+    energies of all contacts of an FMU, with friction also its own, have the same sum after every
+    step."""
 
     def __init__(self, model, data, contact):
         self.model, self.data, self.contact = model, data, contact
         self.start, self.worst = self._now(), 0.0
 
     def _now(self):
-        held = sum(self.contact[name].sum() for name in ("elastic_energy", "dissipated_energy"))
-        return total(self.model, self.data) + held
+        names = ["elastic_energy", "dissipated_energy"]
+        names += ["tangential_energy", "friction_work"] * (self.contact.directions > 0)
+        return total(self.model, self.data) + sum(self.contact[name].sum() for name in names)
 
     def step(self):
         """To be called after each step."""
@@ -202,6 +204,28 @@ def row(path, start, gap, mass, pull, h):
         place += h * (speed + 0.5 * change)
         speed += change
     return place, speed
+
+
+def blow(name, masses, speeds, end, h):
+    """Speeds [m/s] of masses in a row after `end` [s], and the dent [m] of the last contact.
+
+    All contacts of the scene `name` move in steps of `h` [s], with an FMU that does not know the
+    masses."""
+    tables = (FOLDER / f"{name}.toml").read_text(encoding="utf-8").split("\n\n")
+    lines = "\n\n".join(it for it in tables if not it.startswith("[[body]]")).splitlines()
+    lines = [line.replace('"closing_speed"', '"mean_force"') for line in lines]
+    scene = Path(UNITS.name) / f"loose_{name}.toml"
+    loose = "\n".join(line for line in lines if not line.startswith("between"))
+    scene.write_text(loose, encoding="utf-8")
+    speeds, force = np.array(speeds), np.zeros(len(masses) - 1)
+    with brinell.Contact(brinell.export(scene, scene.with_suffix(".fmu"))) as contacts:
+        for _ in range(round(end / h)):
+            # with the present forces as acceleration
+            pull = np.diff(np.diff([0.0, *force, 0.0]) / masses)
+            mean = contacts.step(h, -np.diff(speeds), pull)
+            speeds -= h * np.diff([0.0, *mean, 0.0]) / masses
+            force = contacts["force"]
+        return speeds, contacts["residual_indentation"][-1]
 
 
 def animation(panels, seconds, slower=1.0, still=None, size=9, rate=20):
