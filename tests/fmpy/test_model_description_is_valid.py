@@ -118,7 +118,7 @@ def test_initial_unknowns_are_complete_and_name_parameters_only(name):
             known = variables[int(index) - 1]
             # a speed before the first step is the given one, and so is the rate that a force follows
             output = variables[int(unknown.get("index")) - 1].get("name")
-            follows = quantity(output) == "closing_speed" or name in ("damped", "stack")
+            follows = quantity(output) in ("closing_speed", "tangential_speed") or name in ("damped", "stack", "slope")
             assert known.get("causality") == "parameter" or follows and known.get("causality") == "input"
 
 
@@ -132,7 +132,8 @@ def test_kinds_of_variables_are_those_of_the_standard(name):
             variability = {"parameter": "tunable"}.get(variable.get("causality"), variability)
         if variable.get("causality") == "output":
             # an importer that smooths continuous signals must not smooth a force that belongs to a whole step
-            is_held = quantity(variable.get("name")) in ("mean_force", "mean_tangential_force", "impulse_moment")
+            held = ("mean_force", "mean_tangential_force", "impulse_moment", "tangential_impulse_moment")
+            is_held = quantity(variable.get("name")) in held
             variability = "discrete" if is_held or variable.find("Enumeration") is not None else "continuous"
         assert (variable.get("variability"), variable.get("initial")) == (variability, initial), variable.get("name")
         starts = variable[0].get("start") is not None

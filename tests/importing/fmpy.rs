@@ -364,6 +364,11 @@ fn a_stack_moves_together_keeps_its_energy_and_comes_to_rest() {
 }
 
 #[test]
+fn a_crate_on_a_slope_keeps_its_energy_and_comes_to_rest() {
+    pytest("test_shared_friction.py", &[scene("slope")]);
+}
+
+#[test]
 fn several_contacts_are_described_as_they_are() {
     let scenes =
         [("several", "law = { loading = \"big-alabo\" }"), ("several_damped", "law = { loading = \"adams-impact\" }")];
