@@ -280,7 +280,8 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             for (place, member) in self.members_mut() {
                 let [normal, ..] = member.rows;
                 let after = member.moved.stiffnesses(model(place).borrow());
-                for (row, after) in member.rows_mut().iter_mut().zip(after) {
+                for (index, (row, after)) in member.rows_mut().iter_mut().zip(after).enumerate() {
+                    let most = if index == 0 { row.stiffest(time) } else { f64::INFINITY };
                     let ([own, beside], [start, start_beside]) = (row.stiffness, row.stiffness_before);
                     let [end, end_beside] = after;
                     let force = row.found - bent * own * row.curved;
@@ -290,7 +291,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                     (row.found, row.beside) = (force, bent * beside * normal.curved);
                     // a contact that slides at last is taken as sliding, for Coulomb's bound
                     let mean = if end > 0.0 { 0.5 * (start + end) } else { 0.0 };
-                    row.stiffness = [mean, 0.5 * (start_beside + end_beside)];
+                    row.stiffness = [smallest(mean, most), 0.5 * (start_beside + end_beside)];
                 }
             }
             // the first turn does not know the stiffnesses of the end

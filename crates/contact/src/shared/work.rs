@@ -5,7 +5,7 @@ use super::dop853::{Numbers, Slopes};
 use super::gradients::Unknown;
 use super::loss::Loss;
 use super::scales::Scales;
-use crate::numbers::quotient;
+use crate::numbers::{largest, quotient, smallest};
 use libm::{fabs, sqrt};
 
 /// Working memory of one contact for a step, and its results. The caller keeps one for each contact, or makes them anew: a
@@ -106,6 +106,14 @@ impl Row {
         let (slope, bend) = (4.0 * self.start + 2.0 * start - 6.0 * middle, 3.0 * (self.start + start - 2.0 * middle));
         let part = time / before;
         self.start + part * (0.5 * slope + part * bend / 3.0)
+    }
+
+    /// The largest stiffness \[N/m\] of a normal row for the bend of a chord of this `time` \[s\]: half of that at which its moment, and
+    /// a quarter of that at which its force, would be zero. Only a contact that touches or parts within the chord has a larger one.
+    pub(super) fn stiffest(&self, time: f64) -> f64 {
+        let force = largest(self.found, 0.0);
+        let least = |pull: f64| quotient(3.0 * force, pull, pull > 1e-100 * force, f64::INFINITY);
+        smallest(least(self.way), least(time * time * self.curved))
     }
 
     /// Rate at present \[m/s\].
