@@ -238,7 +238,7 @@ def test_what_is_refused_names_the_pair(unit):
         ([("foot0", "block")], ContactError, r"pair 'foot0' and 'block': sphere and box; allowed are a sphere, a capsule or a box and a plane"),
         (["foot0"], ContactError, r"pair 'foot0': two names of geoms are needed"),
         ([("block", "floor")], ContactError, r"pair 'block' and 'floor': corner = None: a box needs the radius"),
-        (PAIRS[:3], ContactError, r"3 contacts of geoms: feet4.fmu has foot\[1\], foot\[2\]"),
+        (PAIRS[:3], ContactError, r"3 contacts of the engine: feet4.fmu has foot\[1\], foot\[2\]"),
     ):
         with pytest.raises(error, match=text):
             brinell.mujoco.attach(model, data, pairs, unit(4))
