@@ -67,7 +67,7 @@ struct Example {
     animated: bool,
 }
 
-const EXAMPLES: [Example; 14] = [
+const EXAMPLES: [Example; 15] = [
     Example { name: "mujoco_ball", packages: &["mujoco"], animated: false },
     Example { name: "mujoco_arm", packages: &["mujoco"], animated: true },
     Example { name: "mujoco_box", packages: &["mujoco"], animated: false },
@@ -76,6 +76,7 @@ const EXAMPLES: [Example; 14] = [
     Example { name: "chisel", packages: &[], animated: false },
     Example { name: "exudyn_ball", packages: &["exudyn"], animated: false },
     Example { name: "drake_ball", packages: &["pydrake.all"], animated: false },
+    Example { name: "drake_box", packages: &["pydrake.all"], animated: false },
     Example { name: "pendulum", packages: &[], animated: false },
     Example { name: "cradle", packages: &["mujoco"], animated: true },
     Example { name: "ball_in_box", packages: &[], animated: false },
@@ -145,7 +146,7 @@ fn every_example_judges_itself_and_draws_its_pictures() {
                 // pendulums of the cradle turn within a step
                 let allowed = match name {
                     "billiard" => 1e-4,
-                    "mujoco_box" | "mujoco_slope" => 2e-4,
+                    "mujoco_box" | "drake_box" | "mujoco_slope" => 2e-4,
                     "mujoco_cradle" => 1e-3,
                     _ => 1e-6,
                 };
@@ -189,6 +190,13 @@ fn read(page: &str) -> String {
 static BALL: LazyLock<PathBuf> =
     LazyLock::new(|| unit::export(&unit::write_scene("ball", block(&read("mujoco.md"), "toml"))));
 
+/// The unit of the box on that page.
+fn feet() -> PathBuf {
+    let page = read("mujoco.md");
+    let (_, section) = page.split_once("## Several contacts of one body").expect("the page has this section");
+    unit::export(&unit::write_scene("feet", block(section, "toml")))
+}
+
 /// What docs/guide/tools/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
 fn page(name: &str, packages: &[&str]) {
     if have(packages, &format!("the page {name}")) {
@@ -218,13 +226,27 @@ fn the_box_of_the_page_on_mujoco_prints_what_it_shows() {
     if have(&["mujoco"], "the box of the page mujoco") {
         let page = read("mujoco.md");
         let (_, section) = page.split_once("## Several contacts of one body").expect("the page has this section");
-        prints(section, &["mujoco"], &unit::export(&unit::write_scene("feet", block(section, "toml"))));
+        prints(section, &["mujoco"], &feet());
+    }
+}
+
+#[test]
+fn the_box_of_the_page_on_drake_prints_what_it_shows() {
+    if have(&["pydrake.all"], "the box of the page drake") {
+        let page = read("drake.md");
+        let (_, section) = page.split_once("## Several contacts of one body").expect("the page has this section");
+        prints(section, &["pydrake.all"], &feet());
     }
 }
 
 #[test]
 fn contacts_that_share_bodies_in_mujoco() {
     pytest(&["test_mujoco.py"], &["mujoco"], "attached contacts in mujoco");
+}
+
+#[test]
+fn contacts_that_share_bodies_in_drake() {
+    pytest(&["test_drake.py"], &["pydrake.all"], "attached contacts in drake");
 }
 
 #[test]
@@ -247,7 +269,7 @@ fn pytest(files: &[&str], packages: &[&str], skipped: &str) {
     if !have(packages, skipped) {
         return;
     }
-    let output = interpreter(&[])
+    let output = interpreter(packages)
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
         .args(files)
         .current_dir(root().join("tests/python"))
