@@ -76,19 +76,19 @@ def total(model, data):
     return data.energy.sum()
 
 
-class Total:
-    """Checks that kinetic and potential energy in a model of MuJoCo, and the elastic and dissipated
-    energies of all contacts of an FMU, with friction also its own, have the same sum after every
-    step."""
+class Energy:
+    """Checks that the kinetic and potential energy in an engine, which `energy()` gives [J], and the
+    elastic and dissipated energies of all contacts of an FMU, with friction also its own, have the
+    same sum after every step."""
 
-    def __init__(self, model, data, contact):
-        self.model, self.data, self.contact = model, data, contact
+    def __init__(self, energy, contact):
+        self.energy, self.contact = energy, contact
         self.start, self.worst = self._now(), 0.0
 
     def _now(self):
         names = ["elastic_energy", "dissipated_energy"]
         names += ["tangential_energy", "friction_work"] * (self.contact.directions > 0)
-        return total(self.model, self.data) + sum(self.contact[name].sum() for name in names)
+        return self.energy() + sum(np.sum(self.contact[name]) for name in names)
 
     def step(self):
         """To be called after each step."""
@@ -100,6 +100,13 @@ class Total:
         print(f"balance of energy: {error:.1e} of the {of} (allowed {allowed:g})")
         if not error <= allowed:
             sys.exit(f"the balance errs by more than {allowed}")
+
+
+class Total(Energy):
+    """The same in a model of MuJoCo."""
+
+    def __init__(self, model, data, contact):
+        super().__init__(lambda: total(model, data), contact)
 
 
 def flight(model, data, seconds, scale):
