@@ -67,7 +67,7 @@ struct Example {
     animated: bool,
 }
 
-const EXAMPLES: [Example; 15] = [
+const EXAMPLES: [Example; 16] = [
     Example { name: "mujoco_ball", packages: &["mujoco"], animated: false },
     Example { name: "mujoco_arm", packages: &["mujoco"], animated: true },
     Example { name: "mujoco_box", packages: &["mujoco"], animated: false },
@@ -75,6 +75,7 @@ const EXAMPLES: [Example; 15] = [
     Example { name: "mujoco_slope", packages: &["mujoco"], animated: false },
     Example { name: "chisel", packages: &[], animated: false },
     Example { name: "exudyn_ball", packages: &["exudyn"], animated: false },
+    Example { name: "exudyn_column", packages: &["exudyn"], animated: false },
     Example { name: "drake_ball", packages: &["pydrake.all"], animated: false },
     Example { name: "drake_box", packages: &["pydrake.all"], animated: false },
     Example { name: "pendulum", packages: &[], animated: false },
