@@ -129,6 +129,18 @@ def test_distances_follow_bodies_that_turn_to_the_third_order(unit):
     assert errors[:-1] / errors[1:] == pytest.approx(np.full((2, 2), 8.0), rel=0.1)
 
 
+def test_a_body_turns_by_its_spin(unit):
+    simulator, plant, context = world({"ball": ball(0.1, 5e-3)})
+    put(plant, context, "ball", [0.0, 0.0, 1.0])
+    plant.SetVelocities(context, [100.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    body = plant.GetBodyByName("ball")
+    with brinell.drake.attach(plant, simulator, [(Sphere(body, 5e-3), Plane())], unit(1)) as attached:
+        for _ in range(100):
+            attached.step()
+    turned = plant.EvalBodyPoseInWorld(context, body).rotation().matrix()
+    assert np.arctan2(turned[2, 1], turned[1, 1]) == pytest.approx(10.0 - 4.0 * np.pi, abs=1e-5)
+
+
 def collide(path, step):
     """How momentum, angular momentum and energy change as a ball hits the corner of a box, each over what
     the ball has at first."""
