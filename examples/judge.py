@@ -1,5 +1,6 @@
 """Common code of the examples with multibody engines: the FMU, the checks, the picture."""
 
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -19,9 +20,17 @@ BALANCE = (
 )
 
 
-def unit(name):
-    """The FMU of the scene `name` in the folder of the examples."""
-    return brinell.export(FOLDER / f"{name}.toml", Path(UNITS.name) / f"{name}.fmu")
+def unit(name, **changes):
+    """The FMU of the scene `name` in the folder of the examples, with `changes` of its values."""
+    if not changes:
+        return brinell.export(FOLDER / f"{name}.toml", Path(UNITS.name) / f"{name}.fmu")
+    text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    for key, value in changes.items():
+        text, found = re.subn(rf"^{key} = .*$", f"{key} = {value}", text, flags=re.MULTILINE)
+        assert found == 1, f"{name}.toml has {found} lines with {key}"
+    changed = Path(UNITS.name) / f"{name}.toml"
+    changed.write_text(text, encoding="utf-8")
+    return brinell.export(changed, changed.with_suffix(".fmu"))
 
 
 class Balance:
@@ -304,3 +313,17 @@ def sunk(path, weight):
         with brinell.Contact(path, initial_gap=-middle) as contact:
             low, high = (middle, high) if contact["force"] < weight else (low, middle)
     return low
+
+
+def footfall(spin, half, slope, length, foot, mass, inertia):
+    """The spin [rad/s] of a rigid wheel without a rim above its next foot, if it is `spin` above the
+    present one and no foot bounces or slips: it keeps its angular momentum about the foot that hits.
+
+    Spokes of this `length` [m] are 2 `half` [rad] apart, and end in balls of the radius `foot` [m].
+    """
+    height, side = length * np.cos(half) + foot, length * np.sin(half)
+    upright, oblique = inertia + mass * (length + foot) ** 2, inertia + mass * (height**2 + side**2)
+    kept = (inertia + mass * (height**2 - side**2)) / oblique
+    along = 2.0 * mass * 9.81 * np.sin(slope) * (foot * half + side)
+    down = 2.0 * mass * 9.81 * np.cos(slope) * (length + foot - height)
+    return np.sqrt(kept**2 * (spin**2 + (along + down) / upright) + (along - down) / upright)
