@@ -41,6 +41,28 @@ class Pair:
         return self.own + self.reach
 
 
+@dataclass(frozen=True)
+class _Here:
+    """What a step needs to know of a state of the engine."""
+
+    gaps: Array
+    """Distance [m] of each pair."""
+    pressed: Array
+    """Distance of the centres, over that when the surfaces touch; at most 1. For each row."""
+    acceleration: Array
+    """By all but these contacts."""
+    away: Array
+    """How velocities change the distances, and the ways along the tangents: the rows."""
+    rolling: Array
+    """How the rows change with `pressed`: a dent shortens the arms of friction."""
+    change: Array
+    """How the rows change with time."""
+    response: Array
+    """How an impulse along each row changes the velocities."""
+    turning: Array
+    """How that changes with time."""
+
+
 class Attached(ABC):
     """The contacts of an FMU in an engine; `attach` of the engine's module makes it."""
 
@@ -172,46 +194,44 @@ class Attached(ABC):
         across = before - along[..., None] * normals
         return np.asarray(across / np.linalg.norm(across, axis=2, keepdims=True))
 
-    def _rows(self, gaps: Array) -> tuple[Array, Array, Array]:
+    def _rows(self, pressed: Array) -> tuple[Array, Array, Array]:
         """Derivative of each distance by the engine's velocities; then that of the way by which the
         first point of contact is behind the other, along each tangent. An impulse against the rates
-        acts along these rows. Also the tangents, and how an impulse changes the velocities.
+        acts along these rows. Also how they change with `pressed`, and the tangents.
 
         Distances are those of the centres of spheres: a centre and the point of contact lie on one
-        normal and close at the same rate. These `gaps` say where the point of contact is.
+        normal and close at the same rate. `pressed` says where the point of contact is.
         """
         _, normals = self._distances()
-        tangents, count = self._tangents, len(gaps)
+        tangents, sliding, rolling = self._tangents, [], []
         if self._directions > 0:
             tangents = self._turned_tangents(normals)
-        rows = []
         for index, (pair, normal) in enumerate(zip(self._shapes, normals, strict=True)):
             first, other = self._jacobians(index)
-            apart = first[0] - other[0]
-            rows.append([normal @ apart])
+            apart, along = first[0] - other[0], tangents[:, index]
+            sliding.append([normal @ apart, *(-along @ apart)])
             # from the centres to the point of contact, which both have in common while pressed
-            pressed = min(1.0, 1.0 + gaps[index] / pair.radius)
-            rolling = pressed * (pair.own * first[1] + pair.reach * other[1])
-            for tangent in tangents[:, index]:
-                rows[-1].append(np.cross(normal, tangent) @ rolling - tangent @ apart)
-        away = np.array(rows).swapaxes(0, 1).reshape(count * (1 + len(tangents)), -1)
-        return away, self._solve(away), tangents
+            turns = pair.own * first[1] + pair.reach * other[1]
+            rolling.append([np.zeros_like(apart[0]), *(np.cross(normal, along) @ turns)])
+        parts = np.swapaxes((sliding, rolling), 1, 2).reshape(2, len(pressed), -1)
+        return parts[0] + pressed[:, None] * parts[1], parts[1], tangents
 
-    def _now(self, place: Array, speed: Array) -> tuple[Array, Array, Array, Array, Array]:
-        """In this state: the acceleration, the rows, their time derivative, how an impulse at each
-        contact changes the velocities, and its time derivative."""
+    def _now(self, place: Array, speed: Array) -> _Here:
+        """What a step needs to know of this state."""
         self._put(place, speed)
-        acceleration = self._acceleration()
+        acceleration, (gaps, _) = self._acceleration(), self._distances()
         # how deep they are pressed changes at other rates, within an impact
-        gaps, _ = self._distances()
-        away, response, self._tangents = self._rows(gaps)
-        time, ends = APART * self._timestep, []
+        radii = np.array([pair.radius for pair in self._shapes])
+        pressed = np.tile(np.minimum(1.0, 1.0 + gaps / radii), 1 + self._directions)
+        away, rolling, self._tangents = self._rows(pressed)
+        response, time, ends = self._solve(away), APART * self._timestep, []
         for way in (time, -time):
             self._put(self._moved(place, speed, way), speed)
-            ends.append(self._rows(gaps)[:2])
+            rows = self._rows(pressed)[0]
+            ends.append((rows, self._solve(rows)))
         (away_after, after), (away_before, before) = ends
         change, turning = (away_after - away_before) / (2 * time), (after - before) / (2 * time)
-        return acceleration, away, change, response, turning
+        return _Here(gaps, pressed, acceleration, away, rolling, change, response, turning)
 
     def step(self) -> Array:
         """Make a step of the engine, instead of its own; return the mean force [N] of each contact.
@@ -246,37 +266,38 @@ class Attached(ABC):
         """The step from this state."""
         contact, h, count = self.contact, self._timestep, len(self._shapes)
         place, speed = start
-        pull, away, change, response, _ = self._now(place, speed)
-        rates, accelerations = -(away @ speed), -(away @ pull + change @ speed)
-        self.inverse_masses = _symmetric(away @ response.T)
-        self._put(place, speed)
-        (gaps, _), before = self._distances(), contact.save()
-        impulses, moments = self._step(rates, accelerations, gaps)
+        here = self._now(place, speed)
+        gaps, before = here.gaps, contact.save()
+        self.inverse_masses = _symmetric(here.away @ here.response.T)
+        rates, pull = -(here.away @ speed), here.acceleration
+        impulses, moments = self._step(rates, -(here.away @ pull + here.change @ speed), gaps)
         pushes, time = self.forces > 0.0, 0.5 * h
         if pushes.any():
             time = h - moments[:count].sum() / impulses[:count].sum()
 
-        middle, there = self._moved(place, speed, time), speed + time * pull
+        middle, fast = self._moved(place, speed, time), speed + time * pull
         if not pushes.any():
-            self._put(middle, there)
+            self._put(middle, fast)
             pull = self._acceleration()
             self._end(start, self._moved(place, speed + 0.5 * h * pull, h), speed, pull)
             self.gaps, _ = self._distances()
             return
 
-        pull, away, change, response, turning = self._now(middle, there)
-        accelerations = -(away @ pull + change @ there)
-        self.inverse_masses = _symmetric(away @ response.T)
+        there = self._now(middle, fast)
+        self.inverse_masses = _symmetric(there.away @ there.response.T)
+        # impulses act at the arms of this time: other ones for the rates would take energy
+        rates -= (there.pressed - here.pressed) * (here.rolling @ speed)
+        pull = there.acceleration
         contact.restore(before)
-        impulses, moments = self._step(rates, accelerations, gaps)
+        impulses, moments = self._step(rates, -(there.away @ pull + there.change @ fast), gaps)
         pushes = self.forces > 0.0
         parts = np.full(count, h - time)
         np.divide(moments[:count], impulses[:count], out=parts, where=pushes)
         # friction acts while its contact pushes
         times = np.tile(h - parts, 1 + self._directions)
-        response += (times - time)[:, None] * turning
+        response = there.response + (times - time)[:, None] * there.turning
         kick = impulses @ response
-        self._put(middle, there + kick)
+        self._put(middle, fast + kick)
         pull = (time * pull + (h - time) * self._acceleration()) / h
         mean = speed + 0.5 * h * pull + moments @ response / h
         self._end(start, self._moved(place, mean, h), speed + kick, pull)

@@ -171,6 +171,20 @@ def test_the_errors_of_bodies_that_turn_fall_with_the_step(unit):
             assert np.all(np.array(errors) < allowed), f"{directions}, {step}: {errors}"
 
 
+def test_the_arm_of_friction_is_the_same_for_rates_and_impulses(unit):
+    """A ball spins fast when it hits: the dent shortens the arm, by which its point of contact slips less."""
+    simulator, plant, context = world({"ball": ball(4e-3, 5e-3)}, gravity=0.0)
+    put(plant, context, "ball", [0.0, 0.0, 6e-3])
+    plant.SetVelocities(context, [20.0, 100.0, 30.0, 0.0, 0.0, -0.5])
+    pairs = [(Sphere(plant.GetBodyByName("ball"), 5e-3), Plane())]
+    with brinell.drake.attach(plant, simulator, pairs, unit(1, 2)) as attached:
+        before = energy(plant, context, attached.contact)
+        for _ in range(4):
+            attached.step()
+        assert np.sum(attached.contact["friction_work"]) > 0.1 * before
+        assert energy(plant, context, attached.contact) == pytest.approx(before, rel=1e-11)
+
+
 def test_a_box_that_slides_ends_as_in_mujoco(unit):
     """Two engines, each by its own coordinates, masses and Jacobians."""
     mujoco = pytest.importorskip("mujoco")

@@ -303,6 +303,24 @@ def test_bodies_that_rub_keep_their_momentum(unit):
         assert np.all(np.array(errors) < allowed), f"{step}: {errors}"
 
 
+def test_the_arm_of_friction_is_the_same_for_rates_and_impulses(unit):
+    """A ball spins fast when it hits: the dent shortens the arm, by which its point of contact slips less."""
+    ball = '<body name="ball" pos="0 0 6e-3"><freejoint/><geom name="ball" size="5e-3" mass="4e-3"/></body>'
+    ends = []
+    for step in (1e-3, 1e-5):
+        model, data = world(FLOOR + ball, step, 0.0)
+        data.qvel[:] = [0.0, 0.0, -0.5, 20.0, 100.0, 30.0]
+        kinetic = momentum(model, data)[2]
+        with brinell.mujoco.attach(model, data, [("ball", "floor")], unit(1, directions=2)) as attached:
+            while data.time < 4e-3 - 0.5 * step:
+                attached.step()
+            taken = sum(np.sum(attached.contact[name]) for name in ("dissipated_energy", "friction_work"))
+        assert taken > 0.3 * kinetic
+        assert momentum(model, data)[2] + taken == pytest.approx(kinetic, rel=1e-11)
+        ends.append(data.qvel.copy())
+    assert ends[0] == pytest.approx(ends[1], rel=1e-3, abs=1e-2)
+
+
 def test_ends_of_capsules_and_corners_of_boxes_are_spheres(unit):
     inertial = f'<inertial pos="0 0 0" mass="{MASS}" diaginertia="1.2e-4 2.6e-4 3.5e-4"/>'
     shapes = {
