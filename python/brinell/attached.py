@@ -91,6 +91,8 @@ class Attached(ABC):
         self._directions = contact.directions
         rows = count * (1 + self._directions)
         self.inverse_masses = np.zeros((rows, rows))
+        # way along each row since its contact began to push that only a correction made [m]
+        self._slipped = np.zeros(rows)
         try:
             if len(contact.contacts) != count:
                 shown = ", ".join(contact.contacts)
@@ -281,6 +283,7 @@ class Attached(ABC):
             pull = self._acceleration()
             self._end(start, self._moved(place, speed + 0.5 * h * pull, h), speed, pull)
             self.gaps, _ = self._distances()
+            self._slipped[:] = 0.0
             return
 
         there = self._now(middle, fast)
@@ -330,15 +333,17 @@ class Attached(ABC):
         return by_contact[:, 0] if self._directions == 1 else by_contact
 
     def _settle(self, pushed: NDArray[np.bool_], response: Array) -> None:
-        """Move the bodies of these contacts to their indentations, without slip."""
+        """Move the bodies of these contacts to their indentations, without slip. Redundant contacts
+        can't all follow; what has slipped counts in later steps, or jammed bodies would creep."""
         self.gaps, _ = self._distances()
-        error = np.zeros(len(self.inverse_masses))
-        error[: len(pushed)] = self.gaps + np.atleast_1d(self.contact["indentation"])
-        pushed = np.tile(pushed, 1 + self._directions)
-        masses = self.inverse_masses[np.ix_(pushed, pushed)]
-        way = np.linalg.lstsq(masses, -error[pushed], rcond=SINGULAR)[0]
+        count, rows = len(pushed), np.tile(pushed, 1 + self._directions)
+        error = np.where(rows, self._slipped, 0.0)
+        error[:count] = self.gaps + np.atleast_1d(self.contact["indentation"])
+        masses = self.inverse_masses[:, rows]
+        way = np.linalg.lstsq(masses[rows], -error[rows], rcond=SINGULAR)[0]
+        self._slipped = np.where(rows, error + masses @ way, 0.0)
         place, speed = self._state()
-        self._put(self._moved(place, way @ response[pushed], 1.0), speed)
+        self._put(self._moved(place, way @ response[rows], 1.0), speed)
         self.gaps, _ = self._distances()
 
 
