@@ -195,12 +195,16 @@ fn read(page: &str) -> String {
 static BALL: LazyLock<PathBuf> =
     LazyLock::new(|| unit::export(&unit::write_scene("ball", block(&read("mujoco.md"), "toml"))));
 
-/// The unit of the box on that page.
-fn feet() -> PathBuf {
-    let page = read("mujoco.md");
+/// What a page says of several contacts of one body.
+fn several(page: &str) -> String {
+    let page = read(page);
     let (_, section) = page.split_once("## Several contacts of one body").expect("the page has this section");
-    unit::export(&unit::write_scene("feet", block(section, "toml")))
+    section.into()
 }
+
+/// The unit of the box on the page on MuJoCo.
+static FEET: LazyLock<PathBuf> =
+    LazyLock::new(|| unit::export(&unit::write_scene("feet", block(&several("mujoco.md"), "toml"))));
 
 /// What docs/guide/tools/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
 fn page(name: &str, packages: &[&str]) {
@@ -229,18 +233,14 @@ fn the_page_on_mujoco_prints_what_it_shows() {
 #[test]
 fn the_box_of_the_page_on_mujoco_prints_what_it_shows() {
     if have(&["mujoco"], "the box of the page mujoco") {
-        let page = read("mujoco.md");
-        let (_, section) = page.split_once("## Several contacts of one body").expect("the page has this section");
-        prints(section, &["mujoco"], &feet());
+        prints(&several("mujoco.md"), &["mujoco"], &FEET);
     }
 }
 
 #[test]
 fn the_box_of_the_page_on_drake_prints_what_it_shows() {
     if have(&["pydrake.all"], "the box of the page drake") {
-        let page = read("drake.md");
-        let (_, section) = page.split_once("## Several contacts of one body").expect("the page has this section");
-        prints(section, &["pydrake.all"], &feet());
+        prints(&several("drake.md"), &["pydrake.all"], &FEET);
     }
 }
 

@@ -8,51 +8,9 @@ import pydrake.all as drake
 import pytest
 from brinell import ContactError
 from brinell.drake import Plane, Sphere
+from feet import FEET, INERTIA, MASS, held
 
-SCENE = """
-name = "{name}"
-[impactor]
-radius = 5e-3
-[target]
-material = "mild steel"
-[law]
-loading = "big-alabo"
-unloading = "contact-radius"
-{friction}
-[fmu]
-outputs = ["indentation", "elastic_energy", "dissipated_energy"{outputs}]
-[impact]
-mass = 0.1
-speed = 0.3
-[coupling]
-inverse_masses = "input"
-[[contact]]
-name = "foot"
-count = {count}
-parameters_per_contact = ["initial_gap"]
-"""
-MASS, INERTIA = 0.3, np.array([1.2e-4, 2.6e-4, 3.5e-4])
 CENTRE = np.array([3e-3, 1e-3, 2e-3])
-FEET = np.array([[x, y, -0.02] for x in (-0.04, 0.04) for y in (-0.025, 0.025)])
-ENERGIES = ("elastic_energy", "dissipated_energy", "tangential_energy", "friction_work")
-
-
-@pytest.fixture(scope="module")
-def unit(tmp_path_factory):
-    folder, made = tmp_path_factory.mktemp("units"), {}
-
-    def export(count, directions=0):
-        name = f"feet{count}" + "_rough" * directions
-        if name not in made:
-            scene = folder / f"{name}.toml"
-            rough = f"[friction]\ncoefficient = 0.3\ndirections = {directions}"
-            values = {"friction": rough if directions else "", "count": count, "name": name}
-            values["outputs"] = ', "tangential_energy", "friction_work"' if directions else ""
-            scene.write_text(SCENE.format(**values), encoding="utf-8")
-            made[name] = brinell.export(scene, folder / f"{name}.fmu")
-        return made[name]
-
-    return export
 
 
 def world(bodies, step=1e-3, gravity=9.81, more=lambda builder, plant: None):
@@ -88,9 +46,7 @@ def put(plant, context, name, place, turn=(1.0, 0.0, 0.0, 0.0)):
 
 
 def energy(plant, context, contact):
-    names = ENERGIES[: 4 if contact.directions else 2]
-    held = sum(np.sum(contact[name]) for name in names)
-    return plant.EvalKineticEnergy(context) + plant.EvalPotentialEnergy(context) + held
+    return plant.EvalKineticEnergy(context) + plant.EvalPotentialEnergy(context) + held(contact)
 
 
 def test_the_inverse_masses_of_a_box_are_those_of_its_arms(unit):

@@ -6,50 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 from brinell import ContactError, UnknownName
-
-SCENE = """
-name = "{name}"
-[impactor]
-radius = 5e-3
-[target]
-material = "mild steel"
-[law]
-loading = "{law}"
-unloading = "contact-radius"
-{friction}
-[fmu]
-outputs = ["indentation", "elastic_energy", "dissipated_energy"{outputs}]
-[impact]
-mass = 0.1
-speed = 0.3
-{coupling}
-[[contact]]
-name = "foot"
-count = {count}
-parameters_per_contact = ["initial_gap"]
-"""
-INPUTS = '[coupling]\ninverse_masses = "input"'
-MASS, INERTIA = 0.3, np.array([1.2e-4, 2.6e-4, 3.5e-4])
-FEET = np.array([[x, y, -0.02] for x in (-0.04, 0.04) for y in (-0.025, 0.025)])
-
-
-@pytest.fixture(scope="module")
-def unit(tmp_path_factory):
-    folder, made = tmp_path_factory.mktemp("units"), {}
-
-    def export(count, coupling=INPUTS, directions=0):
-        name = f"feet{count}" + ("" if coupling == INPUTS else "_alone") + "_rough" * directions
-        if name not in made:
-            scene = folder / f"{name}.toml"
-            values = {"name": name, "law": "big-alabo", "coupling": coupling, "count": count}
-            rough = f"[friction]\ncoefficient = 0.3\ndirections = {directions}"
-            values["friction"] = rough if directions else ""
-            values["outputs"] = ', "tangential_energy", "friction_work"' if directions else ""
-            scene.write_text(SCENE.format(**values), encoding="utf-8")
-            made[name] = brinell.export(scene, folder / f"{name}.fmu")
-        return made[name]
-
-    return export
+from feet import FEET, INERTIA, MASS, held
 
 
 def world(bodies, step=1e-3, gravity=-9.81, more=""):
@@ -200,8 +157,7 @@ def test_a_ball_between_two_walls_has_equal_and_opposite_indentations(unit):
                 first, second = contact["indentation"]
                 assert first == pytest.approx(-second, abs=1e-14)
                 assert data.qpos[0] == pytest.approx(first, abs=1e-14)
-                held = contact["elastic_energy"].sum() + contact["dissipated_energy"].sum()
-                assert 0.5 * 4e-3 * data.qvel[0] ** 2 + held == pytest.approx(start, rel=1e-9)
+                assert 0.5 * 4e-3 * data.qvel[0] ** 2 + held(contact) == pytest.approx(start, rel=1e-9)
 
 
 def test_a_box_set_on_its_feet_stays(unit):
@@ -243,7 +199,7 @@ def test_what_is_refused_names_the_pair(unit):
         with pytest.raises(error, match=text):
             brinell.mujoco.attach(model, data, pairs, unit(4))
     with pytest.raises(ContactError, match=r"feet4_alone.fmu has no such inputs; inverse_masses = \"input\""):
-        brinell.mujoco.attach(model, data, PAIRS, unit(4, "[coupling]\neffective_mass = 0.1")).step()
+        brinell.mujoco.attach(model, data, PAIRS, unit(4, coupling="[coupling]\neffective_mass = 0.1")).step()
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
     with pytest.raises(ContactError, match="integrator = rk4: attach needs MuJoCo's default, Euler"):
         brinell.mujoco.attach(model, data, PAIRS, unit(4))
@@ -270,13 +226,12 @@ def slide(path, step, end=0.03):
     data.qpos[:] = [0.0, 0.0, 0.0305, 0.999, 0.03, 0.02, 0.01]
     mujoco.mju_normalize4(data.qpos[3:])
     data.qvel[:] = [0.4, -0.2, -0.1, 0.0, 0.0, 1.0]
-    names = ("elastic_energy", "dissipated_energy", "tangential_energy", "friction_work")
     with brinell.mujoco.attach(model, data, PAIRS, path) as attached:
         def total():
             mujoco.mj_forward(model, data)
             mujoco.mj_energyPos(model, data)
             mujoco.mj_energyVel(model, data)
-            return data.energy.sum() + sum(np.sum(attached.contact[name]) for name in names)
+            return data.energy.sum() + held(attached.contact)
 
         start = total()
         while data.time < end - 0.5 * step:
