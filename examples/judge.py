@@ -135,6 +135,17 @@ def flight(model, data, seconds, scale):
         print(f"the engine's own flight of {seconds} s {shown} gravity: {error:.1e} of that energy")
 
 
+def alone_in_mujoco(model, data, end, values):
+    """Times [s] and the `values()` in steps of MuJoCo alone, with its own contact."""
+    import mujoco
+
+    rows = []
+    while data.time < end:
+        rows.append((data.time, *np.atleast_1d(values())))
+        mujoco.mj_step(model, data)
+    return np.array(rows).T
+
+
 def alone(path, height, gravity, mass, end, h):
     """The dropped ball with the FMU alone, in steps of `h` [s]: times [s], heights [m] and speeds
     upwards [m/s]."""
