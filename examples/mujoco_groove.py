@@ -45,7 +45,7 @@ def throw(path, step, end):
             ball.step()
             balance.step()
     if step == STEP:
-        balance.told("kinetic energy of the throw", 0.5 * MASS * (THROW**2 + 0.2**2), 1e-7)
+        balance.told("kinetic energy of the throw", 0.5 * MASS * (THROW**2 + 0.2**2), 3e-8)
     normals = [data.geom(side).xmat.reshape(3, 3)[:, 2] for side in ("left", "right")]
     return np.array(rows).T, ball.forces[:, None] * normals + ball.tangential_forces
 
@@ -63,12 +63,12 @@ if __name__ == "__main__":
     until, every = round(COMPARED / STEP), round(STEP / FINE)
     same = small[:, ::every]
     judge.agree("place against steps of 50 us, 50 ms [m]", rows[1:4, :until], same[1:4], 1e-6)
-    judge.agree("both sides against the weight [N]", forces.sum(axis=0), [0, 0, WEIGHT], 1e-8)
+    judge.agree("both sides against the weight [N]", forces.sum(axis=0), [0, 0, WEIGHT], 1e-13)
     judge.agree("vertical force of each against half of it [N]", forces[:, 2], WEIGHT / 2.0, 1e-6)
     rolling = 0.5 * rows[3] * rows[6]  # the contacts are this far below the axis: half its height
-    judge.agree("speed against rolling, 0.1 s [m/s]", rows[4, -100:], rolling[-100:], 1e-8)
+    judge.agree("speed against rolling, 0.1 s [m/s]", rows[4, -100:], rolling[-100:], 3e-9)
     judge.agree("speed against that of rigid bodies [m/s]", rows[4, -1], THROW / 1.8, 5e-4)
-    judge.agree("speed over 0.1 s [m/s]", rows[4, -100:], rows[4, -1], 1e-8)
+    judge.agree("speed over 0.1 s [m/s]", rows[4, -100:], rows[4, -1], 1e-13)
     own = soft()
     judge.picture(
         "MuJoCo: a ball is thrown into a groove, 1 ms steps",

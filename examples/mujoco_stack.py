@@ -44,7 +44,7 @@ def fall(path, step):
             stack.step()
             balance.step()
     if step == STEP:
-        balance.told("energy of the fall", 3.0 * MASS * GRAVITY * HEIGHT)
+        balance.told("energy of the fall", 3.0 * MASS * GRAVITY * HEIGHT, 1e-12)
     return np.array(rows).T, stack.forces
 
 
@@ -59,11 +59,11 @@ if __name__ == "__main__":
     rows, forces = fall(path, STEP)
     small, _ = fall(path, FINE)
     same = small[:, :: round(STEP / FINE)]
-    judge.agree("heights against steps of 0.1 ms [m]", rows[1:4], same[1:4], 2e-9)
-    judge.agree("speeds against steps of 0.1 ms [m/s]", rows[4:], same[4:], 2e-5)
+    judge.agree("heights against steps of 0.1 ms [m]", rows[1:4], same[1:4], 1e-9)
+    judge.agree("speeds against steps of 0.1 ms [m/s]", rows[4:], same[4:], 1e-5)
     weights = MASS * GRAVITY * np.array([3, 2, 1])
-    judge.agree("forces at rest against the weights above [N]", forces, weights, 1e-6)
-    judge.agree("speeds at rest [m/s]", rows[4:, -1], 0.0, 1e-7)
+    judge.agree("forces at rest against the weights above [N]", forces, weights, 1e-13)
+    judge.agree("speeds at rest [m/s]", rows[4:, -1], 0.0, 1e-14)
     own = soft()
     judge.picture(
         "MuJoCo: three balls on top of each other fall on a plate, 1 ms steps",
