@@ -21,6 +21,7 @@ fn scenes() -> Vec<PathBuf> {
     vec![
         scene("steel_ball"),
         scene("coupled"),
+        scene("stack"),
         scene("mass_known"),
         scene("oblique"),
         scene("rough_contacts"),

@@ -1,5 +1,7 @@
 """FMUs with several contacts: sequences in, arrays out."""
 
+import warnings
+
 import numpy as np
 import pytest
 from brinell import ContactError, UnknownName
@@ -24,6 +26,20 @@ def test_each_contact_is_as_it_would_be_alone(kind):
             with contact("mass_known", initial_gap=gaps[index]) as alone:
                 own = [alone.step(H, float(rates[index]), [9.81, 0.0][index]) for _ in range(4)]
             assert own == pytest.approx([force[index] for force in forces], rel=1e-9)
+
+
+def test_bodies_at_rest_raise_no_false_alarm():
+    mass, gravity, h = 0.033, 9.81, 1e-3
+    speeds = np.zeros(2)
+    with contact("stack") as stack, warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for _ in range(1000):
+            forces = stack.step(h, -np.diff(speeds, prepend=0.0), [gravity, 0.0])
+            speeds = speeds - h * np.diff(forces, append=0.0) / mass
+            # an engine adds the parts of a Runge-Kutta step, and rounds each
+            speeds = speeds - h * gravity / 6 - h * gravity / 3 - h * gravity / 3 - h * gravity / 6
+    assert np.abs(speeds).max() < 1e-15
+    assert forces == pytest.approx([2 * mass * gravity, mass * gravity], rel=1e-12)
 
 
 def test_values_of_one_and_of_all():

@@ -84,7 +84,7 @@ impl Account {
     }
 }
 
-/// A change of speed below this fraction of the speeds does not reveal the order of execution.
+/// A change below this fraction of the speeds, or of the force, does not reveal the order of execution.
 const TELLING: f64 = 1e-6;
 
 /// Two forces that differ by this part are not the same one.
@@ -154,9 +154,10 @@ impl<S: Scene> Instance<S> {
             Some(account) => account.book(mean_force * step, ending.force, step),
             None => mean_force,
         };
-        let change = (force - ending.force) * step;
+        let change = force - ending.force;
         *ending = Ending { speed, force, jump: 0.0 };
-        change
+        // of bodies at rest, it is as large as the rounding of the importer
+        if change.abs() > TELLING * force.abs() { change * step } else { 0.0 }
     }
 
     /// Checks whether the rate of `contact` for the next step comes from an importer with the other order of execution.
