@@ -87,7 +87,7 @@ def test_a_unit_whose_force_belongs_to_the_next_step_is_used_knowingly_or_not_at
 
 def test_which_units_know_the_mass():
     known = {name for name in UNITS if contact(name, force="end").knows_mass}
-    assert known == {"mass_known", "two", "each", "nothing_settable", "feet"}
+    assert known == {"mass_known", "two", "each", "nothing_settable", "feet", "stack"}
 
 
 def test_derivatives_of_the_rate_reach_the_unit():
