@@ -16,7 +16,7 @@
 //! Of fourth order in the length of a chord, but where springs begin to slip or to stick, and for what a list of segments
 //! remembers of a curved way. The rates after an impact are off by some 1e-6 of the largest rate that the energy allows for
 //! contacts that don't yield, and by what the springs of growing dents and of two directions are off. Work and momentum
-//! are exact to rounding, whatever the chords; Coulomb's bound to the accuracy of the iteration.
+//! are exact to rounding, whatever the chords, and so is Coulomb's bound.
 //!
 //! Reference: the mean force on a straight way is the average vector field, and its correction that of fourth order, of
 //! G. R. W. Quispel, D. I. McLaren, *J. Phys. A* 41 (2008) 045206.
@@ -278,10 +278,10 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             self.respond(|row| row.found, |row| &mut row.curved);
             let mut change = 0.0;
             for (place, member) in self.members_mut() {
-                let [normal, ..] = member.rows;
+                let ([normal, ..], tangent) = (member.rows, member.stiffest_tangent(time));
                 let after = member.moved.stiffnesses(model(place).borrow());
                 for (index, (row, after)) in member.rows_mut().iter_mut().zip(after).enumerate() {
-                    let most = if index == 0 { row.stiffest(time) } else { f64::INFINITY };
+                    let most = if index == 0 { row.stiffest(time) } else { tangent };
                     let ([own, beside], [start, start_beside]) = (row.stiffness, row.stiffness_before);
                     let [end, end_beside] = after;
                     let force = row.found - bent * own * row.curved;
@@ -289,7 +289,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                     change = if off > change || off.is_nan() { off } else { change };
                     // for the next turn
                     (row.found, row.beside) = (force, bent * beside * normal.curved);
-                    // a contact that slides at last is taken as sliding, for Coulomb's bound
+                    // a contact that slides at last is taken as sliding
                     let mean = if end > 0.0 { 0.5 * (start + end) } else { 0.0 };
                     row.stiffness = [smallest(mean, most), 0.5 * (start_beside + end_beside)];
                 }

@@ -5,7 +5,7 @@ use super::dop853::{Numbers, Slopes};
 use super::gradients::Unknown;
 use super::loss::Loss;
 use super::scales::Scales;
-use crate::numbers::{largest, quotient, smallest};
+use crate::numbers::{largest, quotient, root, smallest};
 use libm::{fabs, sqrt};
 
 /// Working memory of one contact for a step, and its results. The caller keeps one for each contact, or makes them anew: a
@@ -71,6 +71,8 @@ pub struct Row {
     pub(crate) way: f64,
     /// Mean force on this way \[N\].
     pub(crate) found: f64,
+    /// Of a tangential direction: the largest mean force of all of them together that Coulomb's law allows \[N\].
+    pub(crate) most: f64,
     /// The stiffness at the start of the chord, and how the force grows with the indentation beside \[N/m\].
     pub(super) stiffness_before: [f64; 2],
     /// The same as means over the chord.
@@ -220,6 +222,20 @@ impl<C> Work<C> {
     /// Sets the ways of a chord of this `time` \[s\].
     pub(super) fn set_ways(&mut self, time: f64) {
         self.rows_mut().iter_mut().for_each(|row| row.way = time * (row.rate + 0.5 * time * row.net));
+    }
+
+    /// The largest tangential stiffness \[N/m\] for the bend of a chord of this `time` \[s\] that keeps Coulomb's bound: the positive
+    /// solution `k` of `|found - k h^2/12 curved| = most`.
+    pub(super) fn stiffest_tangent(&self, time: f64) -> f64 {
+        let bent = time * time / 12.0;
+        let (mut along, mut square, mut size) = (0.0, 0.0, 0.0);
+        for row in self.rows().iter().skip(1) {
+            let pull = bent * row.curved;
+            (along, square, size) = (along + row.found * pull, square + pull * pull, size + row.found * row.found);
+        }
+        let most = self.rows().get(1).map_or(0.0, |row| row.most);
+        let sum = along + root(along * along + square * largest(most * most - size, 0.0));
+        quotient(sum, square, square > 0.0, f64::INFINITY)
     }
 
     /// Impulse of the contact force over the step \[N.s\].

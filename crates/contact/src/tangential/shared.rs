@@ -80,9 +80,10 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
         normal.found = mean;
         tangential.iter_mut().zip(&*tangents).for_each(|(mean, row)| *mean -= row.beside);
         // on the curved way the normal force differs as much
-        within(&mut tangential, model.friction.coefficient * (elastic + (normal.force() - mean)));
+        let most = largest(model.friction.coefficient * (elastic + (normal.force() - mean)), 0.0);
+        within(&mut tangential, most);
         for ((row, mean), slip) in tangents.iter_mut().zip(tangential).zip(slip) {
-            row.found = mean;
+            (row.found, row.most) = (mean, most);
             self.work = self.work.plus(mean * slip);
         }
         Ok(())
