@@ -179,10 +179,7 @@ pub struct PrebuildArguments {
     /// Folder for the libraries
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// Laws: LOADING, LOADING/UNLOADING or RATE-DEPENDENT/DAMPING [default: all]
-    #[arg(long, value_delimiter = ',')]
-    pub laws: Vec<String>,
-    /// Kinds: force, state, everything, serial, parallel [default: all]
+    /// Kinds, such as state, momentum, moved [default: all]
     #[arg(long, value_delimiter = ',')]
     pub kinds: Vec<String>,
     #[command(flatten)]

@@ -147,8 +147,8 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             print!("{}", constants::write(&Plan::of(&scene), "unpacked"));
         }
         Some(Command::Kind { scene }) => {
-            let library = Library::of(&scene_file::read(scene)?)?;
-            print!("{}", constants::kind::write(&library.scene, "unpacked"));
+            let library = Library::of(&scene_file::read(scene)?);
+            print!("{}", library.source_with("unpacked"));
         }
     }
     Ok(true)

@@ -10,7 +10,7 @@ use crate::sources;
 use brinell_exporter::layout::json_line;
 use brinell_exporter::package::PackError;
 use brinell_exporter::platform::{self, Target};
-use brinell_exporter::prebuilt::{KINDS, Library, LibraryLaws};
+use brinell_exporter::prebuilt::{LIBRARIES, Library};
 use brinell_exporter::symbols;
 use serde_json::json;
 use std::error::Error;
@@ -19,7 +19,7 @@ use std::fs;
 /// The command: builds the requested libraries for each target and writes them to a folder.
 ///
 /// # Errors
-/// Unknown laws and kinds; the first library that can't be built or written.
+/// Unknown kinds; the first library that can't be built or written.
 pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let libraries = chosen(arguments)?;
     let targets = platform::targets(&arguments.platforms.chosen(LibraryWay::Compiled)?);
@@ -43,26 +43,12 @@ pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn E
 
 /// The requested libraries.
 fn chosen(arguments: &PrebuildArguments) -> Result<Vec<Library>, String> {
-    let known: Vec<_> = LibraryLaws::all().iter().flat_map(|laws| [laws.loading.to_string(), laws.name()]).collect();
-    refuse_unknown("law", &arguments.laws, &known)?;
-    let kinds: Vec<_> = KINDS.iter().map(|kind| kind.name.to_string()).collect();
-    refuse_unknown("kind", &arguments.kinds, &kinds)?;
-    let is_asked_for = |asked: &[String], names: &[&str]| {
-        asked.is_empty() || asked.iter().any(|asked| names.contains(&asked.as_str()))
-    };
-    let mut libraries = Library::all();
-    libraries.retain(|library| {
-        is_asked_for(&arguments.laws, &[library.laws.loading, &library.laws.name()])
-            && is_asked_for(&arguments.kinds, &[library.kind.name])
-    });
-    Ok(libraries)
-}
-
-fn refuse_unknown(what: &str, asked: &[String], known: &[String]) -> Result<(), String> {
-    let Some(unknown) = asked.iter().find(|asked| !known.contains(asked)) else { return Ok(()) };
-    let mut known = known.to_vec();
-    known.dedup();
-    Err(format!("there is no {what} `{unknown}`, but `{}`", known.join("`, `")))
+    let known = LIBRARIES.map(|library| library.name);
+    if let Some(unknown) = arguments.kinds.iter().find(|asked| !known.contains(&asked.as_str())) {
+        return Err(format!("there is no kind `{unknown}`, but `{}`", known.join("`, `")));
+    }
+    let is_asked_for = |library: &Library| arguments.kinds.iter().any(|asked| asked == library.name);
+    Ok(LIBRARIES.into_iter().filter(|library| arguments.kinds.is_empty() || is_asked_for(library)).collect())
 }
 
 /// The libraries for `target`.

@@ -152,7 +152,7 @@ impl Loops {
 struct Pressed<'a> {
     model: &'a RoughModel<AnyLoading, AnyUnloading>,
     contact: History,
-    springs: Springs<12>,
+    springs: Springs<16>,
     displacement: f64,
     work: f64,
 }

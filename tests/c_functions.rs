@@ -164,7 +164,7 @@ fn deserializing_does_not_read_the_pointer_that_it_writes() {
 #[test]
 fn directional_derivatives_answer_for_every_pair_in_every_phase_of_the_standard() {
     fn check<S: Scene>() {
-        let contacts = S::CONTACTS as u32;
+        let contacts = S::contacts() as u32;
         let outputs = (OUTPUTS.len() as u32 + 1) * contacts;
         let ask = |made: &Made<S>, allowed: bool| {
             for unknown in contacts..outputs + contacts {

@@ -59,9 +59,9 @@ fn friction(criterion: &mut Criterion) {
     let curve = curve();
     let mut group = criterion.benchmark_group("step of an impact");
     group.throughput(Throughput::Elements(u64::from(STEPS)));
-    group.bench_function("normal", |bencher| bencher.iter(|| impact::<12>(black_box(&curve), None)));
+    group.bench_function("normal", |bencher| bencher.iter(|| impact::<16>(black_box(&curve), None)));
     for (name, slip) in [("sliding", 3.0), ("partial slip", 0.4), ("stick and merges", 0.02)] {
-        group.bench_function(name, |bencher| bencher.iter(|| impact::<12>(black_box(&curve), Some(black_box(slip)))));
+        group.bench_function(name, |bencher| bencher.iter(|| impact::<16>(black_box(&curve), Some(black_box(slip)))));
     }
     group.bench_function("stick without merges", |bencher| {
         bencher.iter(|| impact::<512>(black_box(&curve), Some(black_box(0.02))));

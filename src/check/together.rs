@@ -6,7 +6,7 @@ use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::shared::{InverseMasses, Refused, SharedContact, Work, follow};
 use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
 use brinell_contact::{Contact, History};
-use brinell_exporter::constants::SHARED_MEMORY;
+use brinell_exporter::constants::MEMORY;
 use brinell_exporter::interface::{INVERSE_MASS, inverse_mass_inputs};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::scene::{self, Scene, place};
@@ -149,10 +149,10 @@ fn predicted(start: &Start, step: f64) -> (Vec<Vec<f64>>, f64) {
     match (scene.directions, lossy.is_empty()) {
         (0, true) => start.predicted::<_, History>(&plastic, step),
         (0, false) => start.predicted::<_, Lossy>(&lossy, step),
-        (1, true) => start.predicted::<_, RoughContact<SHARED_MEMORY>>(&rough(), step),
-        (1, false) => start.predicted::<_, RoughContact<SHARED_MEMORY, true, Lossy>>(&rough_and_lossy(), step),
-        (_, true) => start.predicted::<_, PlaneContact<SHARED_MEMORY>>(&rough(), step),
-        (_, false) => start.predicted::<_, PlaneContact<SHARED_MEMORY, true, Lossy>>(&rough_and_lossy(), step),
+        (1, true) => start.predicted::<_, RoughContact<MEMORY>>(&rough(), step),
+        (1, false) => start.predicted::<_, RoughContact<MEMORY, true, Lossy>>(&rough_and_lossy(), step),
+        (_, true) => start.predicted::<_, PlaneContact<MEMORY>>(&rough(), step),
+        (_, false) => start.predicted::<_, PlaneContact<MEMORY, true, Lossy>>(&rough_and_lossy(), step),
     }
 }
 

@@ -47,7 +47,7 @@ impl StoredUnit {
 
     /// Its GUID, and the name of its library.
     pub fn named(&self) -> (String, String) {
-        (self.unit.guid.clone(), self.unit.library.name())
+        (self.unit.guid.clone(), self.unit.library.name.into())
     }
 
     /// The library of the FMU for `platform`.
@@ -61,8 +61,8 @@ impl StoredUnit {
 
     fn slice(&self, target: &Target) -> Result<Vec<u8>, PrebuiltError> {
         let mut library = self.store.library(&self.unit.library, target)?;
-        let name = || self.unit.library.name();
-        let unfilled = |reason| PrebuiltError::Fill { name: name(), target: target.triple, reason };
+        let unfilled =
+            |reason| PrebuiltError::Fill { name: self.unit.library.name.into(), target: target.triple, reason };
         self.unit.fill(&mut library).map_err(unfilled)?;
         Ok(library)
     }

@@ -1,7 +1,6 @@
 //! A folder of prebuilt libraries: for each target an archive, and a list of its contents with hashes.
 //!
-//! The libraries of a kind are compressed as one stream, because most of their code is the same. Reading one library
-//! takes unpacking a fraction of the archive.
+//! All libraries are compressed as one stream, because most of their code is the same.
 
 use super::folder::{self, LIST, PrebuiltFolder};
 use crate::files::{FileError, write_whole};
@@ -45,7 +44,7 @@ struct LibraryList {
     sources: String,
     /// The archive: its name, size and hash.
     archive: Listed,
-    streams: Vec<Stream>,
+    libraries: Vec<Listed>,
 }
 
 /// Data with their hash.
@@ -65,16 +64,6 @@ impl Listed {
     fn is(&self, bytes: &[u8]) -> bool {
         self.size == bytes.len() && self.sha256 == sha256(bytes)
     }
-}
-
-/// Libraries that are compressed together, one after the other.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Stream {
-    kind: String,
-    /// Compressed size [bytes].
-    size: usize,
-    libraries: Vec<Listed>,
 }
 
 fn sha256(bytes: &[u8]) -> String {
@@ -142,27 +131,19 @@ impl Store {
         if !list.archive.is(&archive) {
             return Err(damaged("it has another hash than its list says"));
         }
-        let (mut at, name) = (0, library.name());
-        for stream in &list.streams {
-            let end = at + stream.size;
-            if stream.kind == library.kind.name {
-                let packed = archive.get(at..end).ok_or_else(|| damaged("it is cut off"))?;
-                let mut begin = 0;
-                let listed = stream.libraries.iter().find(|listed| {
-                    let found = listed.name == name;
-                    begin += if found { 0 } else { listed.size };
-                    found
-                });
-                let Some(listed) = listed else { break };
-                let total = stream.libraries.iter().map(|listed| listed.size).sum();
-                let unpacked = unpack(packed, total).ok_or_else(|| damaged("it can't be unpacked"))?;
-                let bytes = &unpacked[begin..begin + listed.size];
+        let total = list.libraries.iter().map(|listed| listed.size).sum();
+        let all = unpack(&archive, total).ok_or_else(|| damaged("it can't be unpacked"))?;
+        let mut begin = 0;
+        for listed in &list.libraries {
+            let end = begin + listed.size;
+            if listed.name == library.name {
+                let (bytes, name) = (&all[begin..end], library.name);
                 let intact = listed.is(bytes);
                 return if intact { Ok(bytes.into()) } else { Err(damaged(&format!("`{name}` has another hash"))) };
             }
-            at = end;
+            begin = end;
         }
-        Err(StoreError::NoLibrary { folder: self.folder(), name })
+        Err(StoreError::NoLibrary { folder: self.folder(), name: library.name.into() })
     }
 }
 
@@ -175,39 +156,30 @@ pub struct Written {
     pub packed: usize,
 }
 
-/// Writes the `libraries` for `target` to the folder at `path`, one stream for each kind.
+/// Writes the `libraries` for `target` to the folder at `path`.
 ///
 /// # Errors
 /// [`FileError`]
 pub fn write(path: &Path, target: &Target, libraries: &[(&Library, Vec<u8>)]) -> Result<Written, FileError> {
-    let (mut archive, mut streams, mut unpacked) = (Vec::new(), Vec::new(), 0);
-    for kind in libraries.chunk_by(|(one, _), (other, _)| one.kind.name == other.kind.name) {
-        let bytes: Vec<u8> = kind.iter().flat_map(|(_, bytes)| bytes).copied().collect();
-        let packed = pack(&bytes);
-        unpacked += bytes.len();
-        streams.push(Stream {
-            kind: kind[0].0.kind.name.into(),
-            size: packed.len(),
-            libraries: kind.iter().map(|(library, bytes)| Listed::new(library.name(), bytes)).collect(),
-        });
-        archive.extend(packed);
-    }
+    let all: Vec<u8> = libraries.iter().flat_map(|(_, bytes)| bytes).copied().collect();
+    let listed = libraries.iter().map(|(library, bytes)| Listed::new(library.name.into(), bytes));
+    let (archive, listed) = (pack(&all), listed.collect());
     let folder = PrebuiltFolder { path: path.into() };
     let name = format!("{}.{ARCHIVE}", target.triple);
     let list = LibraryList {
         brinell: env!("CARGO_PKG_VERSION").into(),
         sources: sources::hash().into(),
         archive: Listed::new(name, &archive),
-        streams,
+        libraries: listed,
     };
     let mut text = serde_json::to_string_pretty(&list).expect("a list is plain data");
     text.push('\n');
     write_whole(&folder.file(target, ARCHIVE), &archive)?;
     write_whole(&folder.file(target, LIST), text.as_bytes())?;
-    Ok(Written { libraries: libraries.len(), unpacked, packed: archive.len() })
+    Ok(Written { libraries: libraries.len(), unpacked: all.len(), packed: archive.len() })
 }
 
-/// Window for the libraries of a kind [log2 of bytes].
+/// Window of the compression [log2 of bytes].
 const WINDOW: i32 = 24;
 
 /// `bytes` at the highest compression.

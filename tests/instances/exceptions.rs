@@ -58,7 +58,7 @@ fn quiet<T, E>(what: impl Fn() -> String, call: impl FnOnce() -> Result<T, E>) {
 /// Reads every output and its derivatives.
 fn read<S: Scene>(instance: &Instance<S>, what: impl Fn(&str) -> String) {
     for output in OUTPUTS.into_iter().chain(frictions::<S>()) {
-        for contact in 0..S::CONTACTS {
+        for contact in 0..S::contacts() {
             let (_, flags) = raised(|| instance.real((output, contact)));
             assert_eq!(flags, 0, "{}", what(&format!("{output:?}")));
             for order in [1, 2] {
@@ -137,7 +137,7 @@ fn live<S: Scene>(name: &str) {
         let rate = if step < special.len() { special[step] } else { 6.0 * random.next() - 3.0 };
         let length = [1e-6, 1e-7, 3e-6, 1e-9][step % 4];
         let what = |call: &str| format!("{name}: {call} in step {step} at {rate} m/s");
-        for contact in 0..S::CONTACTS {
+        for contact in 0..S::contacts() {
             let variable = (Real::IndentationRate, contact);
             quiet(|| what("set"), || instance.check_real(variable, rate));
             instance.set_real(variable, rate);

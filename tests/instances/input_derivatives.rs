@@ -16,7 +16,7 @@ fn a_prediction_after_a_step_without_derivatives_is_the_force_of_the_next_step_w
         let mut pressed = 0;
         for step in 0..120 {
             let curved = random.next() < 0.5;
-            for contact in 0..S::CONTACTS {
+            for contact in 0..S::contacts() {
                 set_rate(&mut instance, contact, 4.0 * random.next() - 1.9);
                 set_tangential_rate(&mut instance, contact, 2.0 * random.next() - 0.9);
                 let inputs = [Real::IndentationRate, Real::TangentialRate, Real::SecondTangentialRate];
@@ -31,14 +31,14 @@ fn a_prediction_after_a_step_without_derivatives_is_the_force_of_the_next_step_w
             }
             let mut next = ready::<S>();
             next.copy(&instance);
-            for contact in 0..S::CONTACTS {
+            for contact in 0..S::contacts() {
                 let rate = 4.0 * random.next() - 1.9;
                 set_rate(&mut instance, contact, rate);
                 set_rate(&mut next, contact, rate);
             }
             let time = next.time();
             next.do_step(time, STEP).unwrap();
-            for contact in 0..S::CONTACTS {
+            for contact in 0..S::contacts() {
                 let predictions = [(Real::PredictedForce, Real::Force)].into_iter();
                 let of_friction = [
                     (Real::PredictedTangentialForce, Real::TangentialForce),

@@ -38,7 +38,7 @@ fn tells<S: Scene>(name: &str, seed: u64) -> u32 {
     let (mut random, mut instance, mut is_told, mut count) = (Random(seed), ready::<S>(), false, 0);
     for turn in 0..120 {
         // about the depth of yield, which is 7.6e-8 m
-        (0..S::CONTACTS).for_each(|contact| set_rate(&mut instance, contact, 0.1 * random.next() - 0.048));
+        (0..S::contacts()).for_each(|contact| set_rate(&mut instance, contact, 0.1 * random.next() - 0.048));
         let told = step(&mut instance, 1e-6);
         assert_eq!(told, !is_told && acts(&instance), "{name} in step {turn}");
         is_told |= told;

@@ -23,7 +23,7 @@ fn coupled<S: Scene>(model: &AnyModel, step: f64, count: usize) -> (Option<Warni
     // a touch leaves the branch of a flight
     choose(choice(model, Surface::Dented, 0.3 * step));
     let mut instance = ready::<S>();
-    let contact = S::CONTACTS - 1;
+    let contact = S::contacts() - 1;
     let (mut speed, mut told, mut fastest) = (1.0, None, 0.0f64);
     for _ in 0..count {
         set_rate(&mut instance, contact, speed);

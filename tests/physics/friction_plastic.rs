@@ -162,17 +162,17 @@ fn restitution_on_steel<const N: usize>(laws: (&str, &str), degrees: f64, steps:
 #[test]
 fn a_list_of_twelve_changes_rebounds_by_as_much_as_the_guide_says() {
     let allowed = [
-        (("hertz", "contact-radius"), 4e-5),
-        (("big-alabo", "thornton"), 8e-5),
-        (("big-alabo", "contact-radius"), 4e-4),
-        (("brinell", "brinell"), 1e-3),
+        (("hertz", "contact-radius"), 5e-6),
+        (("big-alabo", "thornton"), 2e-5),
+        (("big-alabo", "contact-radius"), 6e-5),
+        (("brinell", "brinell"), 8e-4),
     ];
     for (laws, allowed) in allowed {
         let mut worst = 0.0_f64;
         for steps in [300.0, 1000.0, 4096.0] {
             for degrees in [1.0, 3.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0] {
                 let [bounded, unbounded] = [
-                    restitution_on_steel::<12>(laws, degrees, steps),
+                    restitution_on_steel::<16>(laws, degrees, steps),
                     restitution_on_steel::<512>(laws, degrees, steps),
                 ];
                 worst = worst.max((bounded - unbounded).abs());

@@ -93,7 +93,12 @@ impl<L: Loading> Loading for Rounded<L> {
 
 impl<U: Unloading> Unloading for Rounded<U> {
     const SEGMENTED: bool = U::SEGMENTED;
+    const MIXED: bool = U::MIXED;
     const SQUARES: bool = U::SQUARES;
+
+    fn is_segmented(&self) -> bool {
+        self.0.is_segmented()
+    }
 
     fn needs_work(&self) -> bool {
         self.0.needs_work()

@@ -23,7 +23,7 @@ fn named(variable: &str) -> Option<PathBuf> {
     env::var_os(variable).filter(|value| !value.is_empty()).map(Into::into)
 }
 
-/// The prebuilt libraries of one law for all platforms; `None` without a toolchain to make them.
+/// The prebuilt libraries for all platforms; `None` without a toolchain to make them.
 fn store(folder: &Path) -> Option<PathBuf> {
     if let Some(store) = named("BRINELL_PREBUILT") {
         return Some(store);
@@ -31,7 +31,7 @@ fn store(folder: &Path) -> Option<PathBuf> {
     let toolchain = toolchain::toolchain()?;
     let store = folder.join("store");
     let mut prebuild = brinell(folder);
-    prebuild.env("BRINELL_TOOLCHAIN", toolchain).args(["prebuild", "--laws", "big-alabo", "--platforms", "all", "-o"]);
+    prebuild.env("BRINELL_TOOLCHAIN", toolchain).args(["prebuild", "--platforms", "all", "-o"]);
     output(prebuild.arg(&store)).with_status(0);
     Some(store)
 }

@@ -15,7 +15,6 @@ use crate::prebuilt;
 use crate::skips::skipped;
 use crate::systems::{self, System};
 use crate::toolchain;
-use std::collections::BTreeSet;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -77,17 +76,13 @@ fn library(folder: &Path, platform: &str) -> PathBuf {
     files.next().expect("a library").expect("a readable folder").path()
 }
 
-/// FMUs of every law in `store`, for these kinds.
-fn fmus(store: &Path, kinds: &[&str]) -> Vec<Fmu> {
+/// FMUs of these scenes with the libraries in `store`.
+fn fmus(store: &Path, scenes: &[(&str, String)]) -> Vec<Fmu> {
     let host = compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}"));
     let host = Host::program(host);
-    let mut fmus = Vec::new();
-    for (law, kind) in prebuilt::libraries(store).iter().filter(|(_, kind)| kinds.contains(&kind.as_str())) {
-        let scenes = kinds::one_of_each_kind(law);
-        let (_, text) = scenes.iter().find(|(name, _)| name == kind).expect("a scene of each kind");
-        fmus.push(Fmu::of(&format!("{law} {kind}"), text, store, &host));
-    }
-    fmus
+    let fmu =
+        |(number, (name, text)): (usize, &(&str, String))| Fmu::of(&format!("{number} {name}"), text, store, &host);
+    scenes.iter().enumerate().map(fmu).collect()
 }
 
 /// Runs the FMUs on `system`; returns the differences.
@@ -104,12 +99,10 @@ fn run(system: &System, fmus: &[Fmu]) -> Vec<String> {
     fmus.iter().filter_map(wrong).collect()
 }
 
-/// Runs FMUs of every law and of these kinds on each available system.
-fn assert_same_bits(kinds: &[&str], systems: Vec<(&str, Result<System, String>)>) {
+/// Runs FMUs of these scenes on each available system.
+fn assert_same_bits(scenes: &[(&str, String)], systems: Vec<(&str, Result<System, String>)>) {
     let Some(store) = &*STORE else { return };
-    let fmus = fmus(store, kinds);
-    let laws: BTreeSet<_> = fmus.iter().filter_map(|fmu| fmu.name.split(' ').next()).collect();
-    assert!(laws.len() >= 35 || env::var_os("BRINELL_PREBUILT").is_some(), "{laws:?}");
+    let fmus = fmus(store, scenes);
     let mut wrong = Vec::new();
     for (name, system) in systems {
         match system {
@@ -117,21 +110,18 @@ fn assert_same_bits(kinds: &[&str], systems: Vec<(&str, Result<System, String>)>
             Ok(system) => {
                 wrong.extend(run(&system, &fmus));
                 let (count, steps) = (fmus.len(), fmus[0].expected.bits.lines().count());
-                let _ =
-                    writeln!(stderr(), "{name} ({}): {count} FMUs of {} laws, {steps} steps", system.name, laws.len());
+                let _ = writeln!(stderr(), "{name} ({}): {count} FMUs, {steps} steps", system.name);
             }
         }
     }
     assert!(wrong.is_empty(), "{} wrong: {wrong:#?}", wrong.len());
 }
 
-const ALL_KINDS: [&str; 5] = ["force", "state", "everything", "serial", "parallel"];
-
 #[test]
 #[ignore = "350 MB to download: cargo test --release --test platforms other_systems -- --ignored --nocapture"]
-fn every_law_gives_the_same_bits_on_windows_and_on_arm64() {
+fn every_kind_and_law_gives_the_same_bits_on_windows_and_on_arm64() {
     let systems = vec![("Linux on arm64", systems::arm64_linux()), ("Windows", systems::windows())];
-    assert_same_bits(&ALL_KINDS, systems);
+    assert_same_bits(&[kinds::of_each_kind(), kinds::of_every_law()].concat(), systems);
 }
 
 /// The emulation is a thousand times slower than the processor: for each law, it runs the library with all outputs.
@@ -139,7 +129,7 @@ fn every_law_gives_the_same_bits_on_windows_and_on_arm64() {
 #[ignore = "350 MB to download: cargo test --release --test platforms other_systems -- --ignored --nocapture"]
 fn every_law_gives_the_same_bits_in_the_code_for_macos() {
     let systems = vec![("macOS, x86-64", systems::macos("x86_64")), ("macOS, arm64", systems::macos("arm64"))];
-    assert_same_bits(&["everything"], systems);
+    assert_same_bits(&kinds::of_every_law(), systems);
 }
 
 /// fmpy on Linux starts the library through a Windows program, which runs in wine.
@@ -151,7 +141,7 @@ fn fmpy_gets_the_same_bits_from_windows() {
         Ok(system) => system,
         Err(why) => return skipped("fmpy through wine", &why),
     };
-    let (scene, history) = (&kinds::one_of_each_kind("big-alabo")[2].1, courses::history());
+    let (scene, history) = (&kinds::of_each_kind()[3].1, courses::history());
     let ordinary = compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).expect("a C compiler");
     let fmu = Fmu::of("by-fmpy", scene, store, &Host::program(ordinary));
     let expected = systems::by_fmpy(&fmu.file, &history, None).unwrap_or_else(|why| panic!("{why}"));

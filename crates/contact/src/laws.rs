@@ -2,19 +2,29 @@
 
 /// Makes the laws of a kind public, and an enum of them for programs that choose a law while they run.
 ///
-/// An entry has the module and the type of a law, its name in scenes, and its reference constants; one type can be several laws.
+/// An entry has the module and the type of a law, its constants, its name in scenes, and their reference values; one type can be
+/// several laws. Constants that no scene changes are those of `or`.
 /// After the entries come the laws with the passivity guard, and those with a form for two bodies, each with the variant
 /// of that form.
 macro_rules! laws {
     (
         $(#[$says:meta])*
         pub enum $any:ident: $interface:ty {
-            $($module:ident::$law:ident { $($name:literal = $reference:expr),+ $(,)? })+
+            $($module:ident::$law:ident [$($constant:ident),*] $(or $others:ident::$of_others:ident)? {
+                $($name:literal = $reference:expr),+ $(,)?
+            })+
         }
         $(guarded { $($bare:ident as $guarded:ident),+ $(,)? })?
         $(paired { $($plain:ident as $paired:ident),+ $(,)? })?
     ) => {
         $(pub use $module::$law;)+
+
+        /// Numbers of the laws.
+        #[derive(Clone, Copy)]
+        enum Code {
+            $($law,)+
+            $($($guarded,)+)?
+        }
 
         $(#[$says])*
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +38,36 @@ macro_rules! laws {
         impl $any {
             /// All laws with their names in a scene and their reference constants.
             pub const ALL: [(&'static str, $any); [$($($name),+),+].len()] = [$($(($name, $any::$law($reference)),)+)+];
+
+            /// The law as numbers. The form for two bodies has those of the law itself.
+            pub fn numbers(&self) -> LawNumbers {
+                match self {
+                    $($any::$law(law) => {
+                        let _ = law;
+                        LawNumbers::new(Code::$law as u64, &[$(Constant::to_number(law.$constant)),*])
+                    })+
+                    $($($any::$guarded(Guarded(law)) => {
+                        let plain = $any::$bare(*law).numbers();
+                        LawNumbers { law: Code::$guarded as u64, ..plain }
+                    })+)?
+                    $($($any::$paired(form) => $any::$plain(form.law).numbers(),)+)?
+                }
+            }
+
+            /// The law with these [numbers](Self::numbers); `None` if they are those of no law.
+            pub fn from_numbers(numbers: &LawNumbers) -> Option<$any> {
+                let mut constants = numbers.constants.iter().copied();
+                let mut next = || constants.next().unwrap_or(f64::NAN);
+                $(if numbers.law == Code::$law as u64 {
+                    return Some($any::$law($law { $($constant: Constant::of_number(next())?,)* $(..$others::$of_others)? }));
+                })+
+                $($(if numbers.law == Code::$guarded as u64 {
+                    let plain = $any::from_numbers(&LawNumbers { law: Code::$bare as u64, ..*numbers })?;
+                    return plain.guarded();
+                })+)?
+                let _ = next();
+                None
+            }
 
             fn law(&self) -> &$interface {
                 match self {
@@ -81,3 +121,47 @@ macro_rules! laws {
 }
 
 pub(super) use laws;
+
+/// More constants than a law has.
+const MOST_CONSTANTS: usize = 14;
+
+/// A law as numbers, for data that a program reads while it runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct LawNumbers {
+    /// The number of the law.
+    pub law: u64,
+    /// Its constants, and zeros.
+    pub constants: [f64; MOST_CONSTANTS],
+}
+
+impl LawNumbers {
+    /// The numbers of no law.
+    pub const NONE: LawNumbers = LawNumbers { law: u64::MAX, constants: [0.0; MOST_CONSTANTS] };
+
+    /// The law of this number with these constants.
+    pub(super) fn new(law: u64, constants: &[f64]) -> LawNumbers {
+        let mut numbers = LawNumbers { law, ..LawNumbers::NONE };
+        numbers.constants.iter_mut().zip(constants).for_each(|(slot, constant)| *slot = *constant);
+        numbers
+    }
+}
+
+/// A constant of a law as a number.
+pub(super) trait Constant: Sized {
+    /// The number.
+    fn to_number(self) -> f64;
+
+    /// The constant with this number; `None` if there is none.
+    fn of_number(number: f64) -> Option<Self>;
+}
+
+impl Constant for f64 {
+    fn to_number(self) -> f64 {
+        self
+    }
+
+    fn of_number(number: f64) -> Option<f64> {
+        Some(number)
+    }
+}

@@ -111,6 +111,7 @@ pub mod words;
 
 pub use behaviour::Contact;
 pub use history::History;
+pub use laws::LawNumbers;
 pub use loading::Loading;
 pub use material::{Body, Pair, YieldPoint};
 pub use regime::{Regime, TooDeep};
@@ -157,7 +158,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
     /// Whether every branch is a segment, and none a tangent.
     #[inline(always)]
     pub fn is_segmented(&self) -> bool {
-        U::SEGMENTED && self.loading.is_segmented()
+        self.unloading.is_segmented() && self.loading.is_segmented()
     }
 
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
@@ -223,7 +224,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
     /// The segment of the unloading path at `indentation` \[m\].
     pub fn unloading_segment(&self, max_indentation: f64, indentation: f64) -> Segment {
         let path = self.unloading_path(max_indentation);
-        if U::SEGMENTED || self.is_elastic_at(max_indentation) {
+        if self.unloading.is_segmented() || self.is_elastic_at(max_indentation) {
             return path;
         }
         self.unloading.tangent(&self.pair, &self.peak(max_indentation), &path, indentation)
@@ -232,7 +233,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
     /// Work returned on the unloading path from `indentation` \[m\] down to the residual indentation \[J\].
     pub fn recovered_work(&self, max_indentation: f64, indentation: f64) -> f64 {
         let path = self.unloading_path(max_indentation);
-        if U::SEGMENTED || self.is_elastic_at(max_indentation) {
+        if self.unloading.is_segmented() || self.is_elastic_at(max_indentation) {
             return path.work(indentation);
         }
         self.unloading.work(&self.pair, &self.peak(max_indentation), &path, indentation)

@@ -124,9 +124,10 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         let peak = model.peak(largest);
         let path = model.path_from(&peak);
         let middle = 0.5 * (path.lower + largest);
-        let segment = if U::SEGMENTED { path } else { model.unloading.tangent(&model.pair, &peak, &path, middle) };
+        let is_segmented = model.unloading.is_segmented();
+        let segment = if is_segmented { path } else { model.unloading.tangent(&model.pair, &peak, &path, middle) };
         // a path that is not a segment has a different tangent at every point
-        let is_whole = U::SEGMENTED || segment.upper >= largest;
+        let is_whole = is_segmented || segment.upper >= largest;
         let unloading = (!is_whole).then_some((peak, path));
         Piece { model, kind: Kind::Unloading, lower: path.lower, upper: largest, segment, is_whole, unloading }
     }

@@ -45,8 +45,8 @@ const THEORY: &str = "Coulomb friction with partial slip according to Cattaneo, 
 /// The accuracy on a dent that doesn't grow, in one direction.
 const IN_ONE: [&str; 2] = [
     "With both rates held over each step, on a dent that doesn't grow: exact for any history and any step size, as long as the \
-     past fits into twelve segments. Beyond that, the largest measured error of the tangential force is 5e-3 of Coulomb's limit; \
-     in an impact, 3e-5 of the tangential restitution.",
+     past fits into sixteen segments. Beyond that, the largest measured error of the tangential force is 5e-3 of Coulomb's limit; \
+     in an impact, 5e-6 of the tangential restitution.",
     "With input derivatives: slip is exact at the end of each step, stick has an error of second order in the step.",
 ];
 

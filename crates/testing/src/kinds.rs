@@ -1,4 +1,9 @@
-//! Scenes of one law that fit prebuilt libraries of every kind.
+//! Scenes for prebuilt libraries of every kind: chosen ones, and random ones of all features.
+
+use super::physics::Random;
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
 
 /// Every output of a scene without a known mass, and the additional ones with a known mass.
 const STATE: [&str; 11] = [
@@ -23,9 +28,16 @@ const BODIES: &str = "[impactor]\nradius = 10e-3\nyoungs_modulus = 210e9\npoisso
 /// Two strengths: that of the impactor is the lower one.
 const SOFT_IMPACTOR: &str = "[impactor]\nradius = 5e-3\nmaterial = \"aluminium 6061-T6\"\nhardening_modulus = 0.0\n\
                              [target]\nmaterial = \"mild steel\"\n";
-const NAMED: &str =
-    "[[contact]]\nname = \"left\"\ntarget = { yield_strength = 9e8, density = 5e3 }\ninitial_gap = 1e-6\n";
-const COUNTED: &str = "[[contact]]\nname = \"bead\"\ncount = 1\n";
+/// Two balls on top of each other.
+const STACK: &str = "[[body]]\nname = \"lower\"\nmass = 0.033\n[[body]]\nname = \"upper\"\nmass = 0.02\n\
+                     [[contact]]\nname = \"floor\"\nbetween = [\"lower\", \"ground\"]\n\
+                     [[contact]]\nname = \"pair\"\nbetween = [\"upper\", \"lower\"]\ntarget = { radius = 10e-3 }\n";
+/// A crate on two feet.
+const CRATE: &str = "[[body]]\nname = \"crate\"\nmass = 0.3\ninertia = [2e-4, 3e-4, 4e-4]\n\
+                     [[contact]]\nname = \"left\"\nbetween = [\"crate\", \"ground\"]\nnormal = [0, 0, -1]\ntangent = [1, 0, 0]\n\
+                     arms = [[0.03, 0.02, -0.015], []]\n\
+                     [[contact]]\nname = \"right\"\nbetween = [\"crate\", \"ground\"]\nnormal = [0, 0, -1]\ntangent = [1, 0, 0]\n\
+                     arms = [[0.03, -0.02, -0.015], []]\n";
 pub const IMPACT: &str = "[impact]\nmass = 4e-3\nspeed = 1.0\n";
 
 /// Whether a law, given by its name or both its names, is rate-dependent.
@@ -59,39 +71,169 @@ fn coupled(law: &str, outputs: &[&str], more: &str) -> String {
     scene(law, outputs, &format!("[coupling]\neffective_mass = 4e-3\n{more}"))
 }
 
-/// The lines of a softer impactor; only some laws harden.
-fn soft_impactor(law: &str) -> String {
-    if law.starts_with("brinell") {
-        SOFT_IMPACTOR.into()
-    } else {
-        SOFT_IMPACTOR.replace("hardening_modulus = 0.0\n", "")
-    }
-}
-
-/// A scene for each kind of library that supports `law`, with the name of the kind.
-pub fn one_of_each_kind(law: &str) -> Vec<(&'static str, String)> {
+/// Scenes for each kind of library, with the name of the kind.
+pub fn of_each_kind() -> Vec<(&'static str, String)> {
+    let law = "big-alabo";
     let momentum: Vec<_> = STATE.into_iter().chain(["impulse", "mean_force"]).collect();
     let known: Vec<_> = momentum.iter().copied().chain(["closing_speed"]).collect();
-    let mut scenes = vec![
-        ("force", scene(law, &["indentation"], "")),
+    let inputs = "master = \"parallel\"\ninputs = [\"external_acceleration\", \"effective_mass\"]\n";
+    let rate = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n\
+                rate = { model = \"cowper-symonds\", d = 40.4, q = 5 }\n";
+    let with = |text: String, line: &str| text.replacen("[law]\n", &format!("[law]\n{line}\n"), 1);
+    let friction = |more: &str| format!("[friction]\ncoefficient = 0.3\n{more}");
+    let slides =
+        ["tangential_energy", "friction_work", "mean_tangential_force", "predicted_tangential_force", "sliding"];
+    let bodies = |tables: &str, more: &str| format!("[coupling]\ninputs = [\"external_acceleration\"]\n{tables}{more}");
+    vec![
+        ("state", scene(law, &["indentation"], "")),
         ("state", scene(law, &STATE, IMPACT)),
-        ("everything", scene(law, &momentum, &format!("{BODIES}[fmu]\ninitial_gap = 1e-6\n{IMPACT}watch = false\n"))),
-    ];
-    if !is_rate_dependent(law) {
-        let inputs = "master = \"parallel\"\ninputs = [\"external_acceleration\", \"effective_mass\"]\n";
-        scenes.push(("serial", coupled(law, &known, &soft_impactor(law))));
-        scenes.push(("parallel", coupled(law, &known, inputs)));
-    }
-    scenes
+        ("state", scene("brinell", &STATE, SOFT_IMPACTOR)),
+        ("momentum", scene(law, &momentum, &format!("{BODIES}[fmu]\ninitial_gap = 1e-6\n{IMPACT}watch = false\n"))),
+        ("moved", coupled(law, &known, SOFT_IMPACTOR.replace("hardening_modulus = 0.0\n", "").as_str())),
+        ("moved", coupled(law, &known, inputs)),
+        ("moved", scene(law, &["indentation", "closing_speed", "impulse_moment"], &bodies(STACK, ""))),
+        ("lossy", with(coupled(law, &["work", "closing_speed"], ""), "elastic_restitution = 0.9")),
+        ("lossy", with(scene(law, &momentum[..], ""), "elastic_restitution = \"waves\"")),
+        ("rate", scene(law, &["indentation", "closing_speed"], &format!("{rate}[coupling]\neffective_mass = 4e-3\n"))),
+        ("damped", scene("hunt-crossley/flores", &momentum, IMPACT)),
+        ("damped", coupled("tsuji/original", &["closing_speed"], "")),
+        ("friction", scene(law, &slides, &friction(""))),
+        ("friction-2", scene(law, &slides, &friction("directions = 2\n"))),
+        (
+            "lossy-friction",
+            with(
+                scene(law, &["mean_force", "tangential_speed"], &bodies(CRATE, &friction(""))),
+                "elastic_restitution = 0.9",
+            ),
+        ),
+        (
+            "lossy-friction-2",
+            with(
+                scene(law, &["friction_work"], &bodies(CRATE, &friction("directions = 2\n"))),
+                "elastic_restitution = \"waves\"",
+            ),
+        ),
+    ]
 }
 
-/// Additional scenes of `law`, if it isn't rate-dependent: names, one contact of a group, and the other ways to couple.
-pub fn further(law: &str) -> Vec<(&'static str, String)> {
-    vec![
-        ("state", scene(law, &["indentation", "regime"], NAMED)),
-        ("state", scene(law, &["work"], &format!("[fmu]\nparameters = [\"target.yield_strength\"]\n{COUNTED}"))),
-        ("parallel", coupled(law, &["closing_speed"], "master = \"parallel\"\n")),
-        ("serial", coupled(law, &["work"], "inputs = [\"effective_mass\"]\n")),
-        ("serial", coupled(law, &["work"], "inputs = [\"external_acceleration\"]\n")),
-    ]
+/// A scene with every output of every law, with its name.
+pub fn of_every_law() -> Vec<(&'static str, String)> {
+    let outputs: Vec<_> = STATE.into_iter().chain(["impulse", "mean_force"]).collect();
+    let laws = AnyLoading::ALL.map(|(name, _)| name).into_iter().chain(AnyDamped::ALL.map(|(name, _)| name));
+    laws.map(|law| (law, scene(law, &outputs, IMPACT))).collect()
+}
+
+/// One of some texts.
+fn one<'a>(random: &mut Random, texts: &[&'a str]) -> &'a str {
+    texts[(random.next() * texts.len() as f64) as usize]
+}
+
+/// A scene of random features. Not every one is valid: some features exclude others.
+pub fn any_scene(random: &mut Random) -> String {
+    let mut is = |probability: f64| random.next() < probability;
+    let (damped, moved, rough, lossy, shared) = (is(0.12), is(0.5), is(0.3), is(0.3), is(0.3));
+    let (elastic, socket, fresh, guard, rated, hardens) = (is(0.5), is(0.2), is(0.3), is(0.3), is(0.3), is(0.5));
+    let (several, counted, own, constants, held, yields) = (is(0.3), is(0.3), is(0.3), is(0.3), is(0.2), is(0.3));
+    let mut text = String::from("name = \"any\"\n[impactor]\n");
+    text += &format!("radius = {:e}\n", random.log_uniform(1e-3, 2e-2));
+    if elastic || yields {
+        text += "youngs_modulus = 210e9\npoissons_ratio = 0.29\n";
+    }
+    if yields {
+        text += &format!("yield_strength = {:e}\n", random.log_uniform(1e8, 1e9));
+    }
+    text += &format!("[target]\nmaterial = \"mild steel\"\nyield_strength = {:e}\n", random.log_uniform(1e8, 1e9));
+    if socket {
+        text += "radius = -0.05\n";
+    }
+    if fresh {
+        text += "surface = \"fresh\"\n";
+    }
+    if rated {
+        text += one(
+            random,
+            &[
+                "rate = { model = \"cowper-symonds\", d = 40.4, q = 5 }\n",
+                "rate = { model = \"johnson-cook\", c = 0.014, reference_rate = 1.0 }\n",
+            ],
+        );
+    }
+    let (plate, pick) = (lossy && random.next() < 0.3, random.next());
+    if plate {
+        text += "plate_thickness = 0.01\n";
+    }
+    let name = |all: &[&'static str]| all[(pick * all.len() as f64) as usize];
+    let loading = if damped { name(&AnyDamped::ALL.map(|law| law.0)) } else { name(&AnyLoading::ALL.map(|law| law.0)) };
+    if hardens && loading == "brinell" {
+        text += &format!("hardening_modulus = {:e}\n", random.log_uniform(1e8, 1e10));
+    }
+    text += &format!("[law]\nloading = {loading:?}\n");
+    if ["hunt-crossley", "kelvin-voigt", "tsuji"].contains(&loading) {
+        text += &format!("restitution = {:.3}\n", 0.3 + 0.6 * random.next());
+    } else if !damped && loading != "hertz" && random.next() < 0.7 {
+        text += &format!("unloading = {:?}\n", one(random, &AnyUnloading::ALL.map(|law| law.0)));
+    }
+    if guard && !damped {
+        text += "passivity_guard = true\n";
+    }
+    if constants && !damped && ["big-alabo", "brinell", "power", "johnson"].contains(&loading) {
+        text += "loading_parameters = { yield_pressure_factor = 1.07 }\n";
+    }
+    if lossy && !plate && !damped {
+        text += one(random, &["elastic_restitution = \"waves\"\n", "elastic_restitution = 0.87\n"]);
+    }
+    let mut outputs: Vec<&str> = STATE.into_iter().chain(["impulse", "mean_force"]).collect();
+    outputs.retain(|_| random.next() < 0.5);
+    if moved || shared {
+        outputs.push("closing_speed");
+    }
+    if rough {
+        outputs.extend(["friction_work", "tangential_energy", "sliding", "mean_tangential_force"]);
+    }
+    text += &format!("[fmu]\noutputs = {outputs:?}\n");
+    if held {
+        text += "input_derivatives = false\n";
+    }
+    if own {
+        text += "parameters_per_contact = [\"initial_gap\"]\n";
+    } else if random.next() < 0.5 {
+        text += "parameters = [\"initial_gap\", \"impactor.radius\"]\n";
+    }
+    text += &format!("[impact]\nmass = 4e-3\nspeed = {:.3}\n", 0.2 + random.next());
+    if random.next() < 0.5 {
+        text += "watch = false\n";
+    }
+    if rough {
+        text += &format!("[friction]\ncoefficient = {:.3}\n", random.next());
+        text += one(random, &["", "directions = 2\n"]);
+    }
+    let master = one(random, &["", "master = \"parallel\"\n"]);
+    if shared {
+        let by_inputs = random.next() < 0.4;
+        let inverse = if by_inputs { "inverse_masses = \"input\"\n" } else { "" };
+        text += &format!("[coupling]\n{inverse}{master}inputs = [\"external_acceleration\"]\n");
+        if by_inputs {
+            return text + "[[contact]]\nname = \"foot\"\ncount = 3\n";
+        }
+        return text + if rough { CRATE } else { STACK };
+    }
+    if moved {
+        let inputs = one(
+            random,
+            &[
+                "",
+                "inputs = [\"external_acceleration\"]\n",
+                "inputs = [\"external_acceleration\", \"effective_mass\"]\n",
+            ],
+        );
+        text += &format!("[coupling]\neffective_mass = 4e-3\n{master}{inputs}");
+    }
+    if several || own {
+        text += "[[contact]]\nname = \"left\"\ninitial_gap = 1e-7\n";
+        if counted || own {
+            text += "count = 3\n";
+        }
+        text += "[[contact]]\nname = \"right\"\ntarget = { yield_strength = 4e8, density = 5e3 }\n";
+    }
+    text
 }

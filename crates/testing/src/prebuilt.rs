@@ -17,13 +17,10 @@ pub fn folder() -> PathBuf {
     folder
 }
 
-/// The laws in every test run, with libraries of all kinds.
-pub const LAWS: [&str; 3] = ["brinell", "big-alabo", "hunt-crossley/flores"];
-
-/// A folder with the libraries of [`LAWS`] for this machine, shared by the test programs.
+/// A folder with all libraries for this machine, shared by the test programs.
 pub fn store() -> &'static Path {
     static STORE: OnceLock<PathBuf> = OnceLock::new();
-    STORE.get_or_init(|| made_once("some", &["--laws", &LAWS.join(",")]))
+    STORE.get_or_init(|| made_once("all-kinds", &[]))
 }
 
 /// The folder of libraries made by `brinell prebuild` with these arguments. The first test program that needs it
@@ -65,9 +62,8 @@ pub fn export(text: &str, store: Option<&Path>) -> PathBuf {
 /// The FMU of the scene `text` with the libraries in `store`, and the kind of the library.
 pub fn export_by_kind(text: &str, store: &Path) -> (PathBuf, String) {
     let (fmu, summary) = exported(text, Some(store));
-    let library = summary["made"]["prebuilt"].as_str().expect("it was made from a prebuilt library");
-    let kind = library.split(' ').next_back().expect("LAWS KIND").into();
-    (fmu, kind)
+    let library = summary["made"]["prebuilt"].as_str().expect("it was made from a prebuilt library").into();
+    (fmu, library)
 }
 
 /// The output of the program for each FMU made in this process, by scene and folder of libraries.
@@ -112,16 +108,13 @@ pub fn list(store: &Path) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// The names of the libraries in `store`, each with law and kind.
-pub fn libraries(store: &Path) -> BTreeSet<(String, String)> {
-    let list = list(store);
-    let streams = list["streams"].as_array().expect("a list").iter();
-    let libraries = streams.flat_map(|stream| stream["libraries"].as_array().expect("a list"));
-    let names = libraries.map(|library| library["name"].as_str().expect("LAWS KIND"));
-    names.map(|name| name.split_once(' ').expect("LAWS KIND")).map(|(law, kind)| (law.into(), kind.into())).collect()
+/// The libraries in `store`, as they are listed.
+pub fn libraries(store: &Path) -> Vec<Value> {
+    list(store)["libraries"].as_array().expect("a list").clone()
 }
 
-/// The names of the laws in `store`.
-pub fn laws(store: &Path) -> BTreeSet<String> {
-    libraries(store).into_iter().map(|(law, _)| law).collect()
+/// Their names.
+pub fn names(store: &Path) -> BTreeSet<String> {
+    let name = |listed: &Value| listed["name"].as_str().expect("a name").into();
+    libraries(store).iter().map(name).collect()
 }

@@ -138,11 +138,14 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Watch = K::Watch;
     type Shared = Absent;
     type InverseMasses = [f64; 0];
-    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
-    const GUARD: Option<Guard<Self>> = match K::GUARD {
-        Some(acts) => Some(Guard { words: "", acts }),
-        None => None,
-    };
+
+    fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
+        K::FOLLOW
+    }
+
+    fn guard() -> Option<Guard<Self>> {
+        K::GUARD.map(|acts| Guard { words: b"", acts })
+    }
 
     fn guid() -> &'static [u8] {
         b"a scene of the tests"
@@ -160,8 +163,8 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
         group + 1
     }
 
-    fn contact_name(contact: usize) -> (&'static str, usize) {
-        ("contact", contact + 1)
+    fn contact_name(contact: usize) -> (&'static [u8], usize) {
+        (b"contact", contact + 1)
     }
 
     fn settable(index: usize) -> Option<(Settable, Option<usize>)> {
@@ -172,9 +175,9 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
         chosen().effective_mass
     }
 
-    fn start_values() -> [f64; 3] {
+    fn set_start_values(values: &mut [f64; 3]) {
         let choice = chosen();
-        [choice.radius, choice.yield_strength, choice.initial_gap]
+        *values = [choice.radius, choice.yield_strength, choice.initial_gap];
     }
 
     fn parameter(parameter: Parameter, group: usize, values: &[f64; 3]) -> f64 {
@@ -266,7 +269,7 @@ pub fn frictions<S: Scene>() -> impl Iterator<Item = Real> {
 
 /// Every Real output of every contact, and the regimes.
 pub fn outputs<S: Scene>(instance: &Instance<S>) -> Vec<f64> {
-    let contacts = 0..S::CONTACTS;
+    let contacts = 0..S::contacts();
     let reals = contacts.clone().flat_map(|contact| OUTPUTS.map(|output| (output, contact)));
     let shown = |output: Real| {
         let momentum = matches!(output, Real::Impulse | Real::MeanForce | Real::PredictedForce)
@@ -288,7 +291,7 @@ pub fn outputs<S: Scene>(instance: &Instance<S>) -> Vec<f64> {
 pub fn words<S: Scene>(instance: &Instance<S>) -> Vec<u64> {
     let mut words = Vec::new();
     instance.save(|word| words.push(word));
-    assert_eq!(words.len(), Instance::<S>::WORDS);
+    assert_eq!(words.len(), Instance::<S>::words());
     words
 }
 

@@ -1,8 +1,9 @@
 //! The block of a prebuilt library: a section of its own, which the exporter overwrites in the finished file.
 
-use crate::kind::Library;
+use crate::kind::{Library, MADE_FROM};
+use brinell_fmu::scene::identity_of;
 use brinell_fmu::scene::prebuilt::block::Block;
-use brinell_fmu::scene::prebuilt::{Kind, Prebuilt, Source};
+use brinell_fmu::scene::prebuilt::{Memory, Prebuilt};
 
 /// The scene of this library.
 pub type Exported = Prebuilt<Library, Section>;
@@ -13,12 +14,14 @@ pub struct Section;
 #[used]
 #[cfg_attr(target_vendor = "apple", unsafe(link_section = "__TEXT,__brinell"))]
 #[cfg_attr(not(target_vendor = "apple"), unsafe(link_section = ".brinell"))]
-static BLOCK: Block = Block::unfilled(Library::LIBRARY);
+static BLOCK: Block = Block::unfilled(Section::LIBRARY);
 
 // the numbers in the block have the byte order in which the exporter writes them
 const _: () = assert!(cfg!(target_endian = "little"));
 
-impl Source for Section {
+impl Memory for Section {
+    const LIBRARY: u64 = identity_of(MADE_FROM);
+
     #[inline(always)]
     #[expect(clippy::pointers_in_nomem_asm_block, reason = "there is nothing that could read what it points to")]
     fn block() -> &'static Block {

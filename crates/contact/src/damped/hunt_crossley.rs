@@ -1,6 +1,7 @@
 //! Hunt and Crossley, with the damping factors of later authors.
 
 use super::{Damped, Factors, Shape, power_three_halves};
+use crate::laws::Constant;
 use crate::material::Pair;
 use libm::{exp, log, log1p};
 
@@ -27,6 +28,17 @@ pub enum DampingFactor {
     Flores,
     /// `3 (1 - e)/(2 e)`. S. Hu, X. Guo, *Multibody Syst. Dyn.* 35 (2015) 447-464.
     HuGuo,
+}
+
+impl Constant for DampingFactor {
+    fn to_number(self) -> f64 {
+        f64::from(self as u8)
+    }
+
+    fn of_number(number: f64) -> Option<DampingFactor> {
+        let same = |(_, found): &(&str, DampingFactor)| found.to_number() == number;
+        DampingFactor::ALL.into_iter().find(same).map(|(_, found)| found)
+    }
 }
 
 impl DampingFactor {

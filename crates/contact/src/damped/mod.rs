@@ -16,7 +16,7 @@ pub mod tsuji;
 
 pub use history::{History, follow};
 
-use super::laws::laws;
+use super::laws::{Constant, LawNumbers, laws};
 use super::material::Pair;
 use super::validity::LARGEST_RADIUS_RATIO;
 use libm::sqrt;
@@ -24,11 +24,11 @@ use libm::sqrt;
 laws! {
     /// A rate-dependent law chosen while a program runs. In an FMU the scene names the law.
     pub enum AnyDamped: dyn Damped {
-        hunt_crossley::HuntCrossley { "hunt-crossley" = HuntCrossley::REFERENCE }
-        kelvin_voigt::KelvinVoigt { "kelvin-voigt" = KelvinVoigt::REFERENCE }
-        tsuji::Tsuji { "tsuji" = Tsuji::REFERENCE }
-        kuwabara_kono::KuwabaraKono { "kuwabara-kono" = KuwabaraKono::REFERENCE }
-        adams::Adams { "adams-impact" = Adams::REFERENCE }
+        hunt_crossley::HuntCrossley [damping_factor] { "hunt-crossley" = HuntCrossley::REFERENCE }
+        kelvin_voigt::KelvinVoigt [characteristic_speed] { "kelvin-voigt" = KelvinVoigt::REFERENCE }
+        tsuji::Tsuji [damping_factor] { "tsuji" = Tsuji::REFERENCE }
+        kuwabara_kono::KuwabaraKono [relaxation_time] { "kuwabara-kono" = KuwabaraKono::REFERENCE }
+        adams::Adams [stiffness_factor, exponent, full_damping, damping_depth] { "adams-impact" = Adams::REFERENCE }
     }
 }
 

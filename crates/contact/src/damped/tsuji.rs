@@ -1,6 +1,7 @@
 //! Tsuji, Tanaka and Ishida: the Hertzian spring-dashpot of discrete-element codes.
 
 use super::{Damped, Factors, Shape};
+use crate::laws::Constant;
 use crate::material::Pair;
 use core::f64::consts::PI;
 use libm::{exp, log, sqrt};
@@ -19,6 +20,17 @@ pub enum TsujiDamping {
     /// For a surface that does not pull: with `e = 0.5`, the law gives 0.50001. A fit for `e` from 0.2 to 0.98. C. Thornton, S.
     /// J. Cummins, P. W. Cleary, *Powder Technology* 233 (2013) 30-46.
     NoTension,
+}
+
+impl Constant for TsujiDamping {
+    fn to_number(self) -> f64 {
+        f64::from(self as u8)
+    }
+
+    fn of_number(number: f64) -> Option<TsujiDamping> {
+        let same = |(_, found): &(&str, TsujiDamping)| found.to_number() == number;
+        TsujiDamping::ALL.into_iter().find(same).map(|(_, found)| found)
+    }
 }
 
 impl TsujiDamping {

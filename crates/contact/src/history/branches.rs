@@ -212,7 +212,7 @@ impl History {
         rising: bool,
     ) {
         if indentation > path.lower || (rising && indentation == path.lower) {
-            let segment = match U::SEGMENTED {
+            let segment = match model.unloading.is_segmented() {
                 true => path,
                 false => model.unloading.tangent(&model.pair, peak, &path, indentation),
             };
@@ -267,7 +267,9 @@ impl History {
         let residual = self.segment.origin;
         // a fresh surface may forget its dent
         let stays = surface == Surface::Dented || indentation > 0.0;
-        let begins = U::SEGMENTED && self.segment.lower == next_above(residual);
+        // a tangent may begin there too, but is not the whole path
+        let is_path = U::SEGMENTED && (!U::MIXED || self.segment.upper == self.max_indentation);
+        let begins = is_path && self.segment.lower == next_above(residual);
         if self.regime == Regime::Unloaded && begins && self.segment.constant == 0.0 && stays {
             (self.segment.lower, self.segment.upper) = (farthest(surface, indentation), residual);
             self.regime = Regime::Apart;
@@ -294,7 +296,7 @@ impl History {
     fn part<L, U: Unloading>(&mut self, path: &Segment, model: &Model<L, U>, indentation: f64) {
         self.regime = Regime::Apart;
         let lower = farthest(model.surface, indentation);
-        self.segment = match U::SEGMENTED && path.begins_at_origin() {
+        self.segment = match model.unloading.is_segmented() && path.begins_at_origin() {
             true => Segment { lower, upper: path.origin, ..*path },
             false => Segment::apart(lower, path.lower),
         };

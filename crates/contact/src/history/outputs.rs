@@ -109,7 +109,7 @@ impl History {
         let segmented = match self.regime {
             Regime::Apart => return 0.0,
             Regime::Elastic => true,
-            Regime::Unloaded => U::SEGMENTED,
+            Regime::Unloaded => model.unloading.is_segmented(),
             _ => model.loading.is_segmented(),
         };
         match segmented {

@@ -43,6 +43,14 @@ impl Loading for AnyLoading {
         self.law().regime(pair, indentation)
     }
 
+    fn branch(&self, pair: &Pair, point: &YieldPoint, indentation: f64) -> (Segment, Regime) {
+        self.law().branch(pair, point, indentation)
+    }
+
+    fn radius_at(&self, pair: &Pair, point: &YieldPoint, indentation: f64, force: f64) -> f64 {
+        self.law().radius_at(pair, point, indentation, force)
+    }
+
     fn share(&self, pair: &Pair, indentation: f64) -> f64 {
         self.law().share(pair, indentation)
     }

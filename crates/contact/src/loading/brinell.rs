@@ -32,15 +32,36 @@ pub struct Brinell {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,
     /// Start of each piece \[d_y\]; the first knot is the yield point.
-    pub knots: [f64; PIECES],
+    #[cfg_attr(feature = "serde", serde(with = "fixed"))]
+    pub knots: &'static [f64; PIECES],
     /// Slope of the force at each knot \[F_y/d_y\].
-    pub force_slopes: [f64; PIECES],
+    #[cfg_attr(feature = "serde", serde(with = "fixed"))]
+    pub force_slopes: &'static [f64; PIECES],
     /// Slope of `a^2` at each knot `[R]`.
-    pub area_slopes: [f64; PIECES],
+    #[cfg_attr(feature = "serde", serde(with = "fixed"))]
+    pub area_slopes: &'static [f64; PIECES],
     /// Start of the second elastoplastic region \[d_y\]: mean pressure 2.19 S.
     pub second_region: f64,
     /// Start of the fully plastic regime \[d_y\]: mean pressure 2.92 S, within 5 % of its limit.
     pub fully_plastic: f64,
+}
+
+/// Lists of the fit as a whole, which only its reference has.
+#[cfg(feature = "serde")]
+mod fixed {
+    use super::{Brinell, PIECES};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    pub fn serialize<S: Serializer>(list: &[f64; PIECES], serializer: S) -> Result<S::Ok, S::Error> {
+        list.serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static [f64; PIECES], D::Error> {
+        let Brinell { knots, force_slopes, area_slopes, .. } = Brinell::REFERENCE;
+        let list = <[f64; PIECES]>::deserialize(deserializer)?;
+        let known = [knots, force_slopes, area_slopes].into_iter().find(|known| **known == list);
+        known.ok_or_else(|| D::Error::custom("another list than that of the fit"))
+    }
 }
 
 /// A piece `c0 + c1 x + c2 x^1.5` from one knot to the next.
@@ -72,9 +93,9 @@ impl Brinell {
     /// below that.
     pub const REFERENCE: Brinell = Brinell {
         yield_pressure_factor: 1.1,
-        knots: [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 700.0, 2000.0],
-        force_slopes: [1.5, 2.0032, 2.7348, 3.5094, 4.3243, 5.1693, 6.1383, 6.8128, 7.2932],
-        area_slopes: [1.0, 1.1219, 1.3539, 1.5692, 1.7436, 1.9257, 2.2391, 2.4721, 2.6205],
+        knots: &[1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 700.0, 2000.0],
+        force_slopes: &[1.5, 2.0032, 2.7348, 3.5094, 4.3243, 5.1693, 6.1383, 6.8128, 7.2932],
+        area_slopes: &[1.0, 1.1219, 1.3539, 1.5692, 1.7436, 1.9257, 2.2391, 2.4721, 2.6205],
         second_region: 12.0,
         fully_plastic: 250.0,
     };
@@ -108,13 +129,13 @@ impl Brinell {
 
     /// Force and slope at `x >= 1` \[F_y, F_y/d_y\].
     pub(crate) fn force_and_slope(&self, x: f64) -> (f64, f64) {
-        let piece = self.piece(&self.force_slopes, x);
+        let piece = self.piece(self.force_slopes, x);
         (piece.value(x), piece.slope(x))
     }
 
     /// Contact area at `x >= 1`, `a^2/(R d_y)`, and its slope.
     pub(crate) fn area_and_slope(&self, x: f64) -> (f64, f64) {
-        let piece = self.piece(&self.area_slopes, x);
+        let piece = self.piece(self.area_slopes, x);
         (piece.value(x), piece.slope(x))
     }
 
@@ -144,7 +165,7 @@ impl Loading for Brinell {
         }
         // the comparison uses the knots in metres: a segment then begins exactly at the end of the one before it
         let knot_below = self.knots.iter().copied().filter(|knot| knot * d_y <= indentation).fold(1.0, f64::max);
-        let Piece { from, to, c0, c1, c2 } = self.piece(&self.force_slopes, knot_below);
+        let Piece { from, to, c0, c1, c2 } = self.piece(self.force_slopes, knot_below);
         let upper = if to < f64::INFINITY { to * d_y } else { LARGEST_INDENTATION };
         let slope_unit = f_y / d_y;
         Segment {
@@ -164,7 +185,7 @@ impl Loading for Brinell {
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
         let x = indentation / d_y;
-        let area = if x < 1.0 { x } else { self.piece(&self.area_slopes, x).value(x) };
+        let area = if x < 1.0 { x } else { self.piece(self.area_slopes, x).value(x) };
         sqrt(pair.radius * d_y * area)
     }
 

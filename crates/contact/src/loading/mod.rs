@@ -24,7 +24,7 @@ pub mod zhao_maietta_chang;
 
 pub use paired::Paired;
 
-use super::laws::laws;
+use super::laws::{Constant, LawNumbers, laws};
 use super::material::{Pair, YieldPoint};
 use super::regime::{LARGEST_INDENTATION, Regime};
 use super::segment::Segment;
@@ -33,28 +33,28 @@ use super::two_bodies::TwoBodies;
 laws! {
     /// A loading law chosen while a program runs. In an FMU the scene names the law.
     pub enum AnyLoading: dyn Loading {
-        hertz::Hertz { "hertz" = Hertz }
-        big_alabo::BigAlabo { "big-alabo" = BigAlabo::REFERENCE }
-        brinell::Brinell { "brinell" = Brinell::REFERENCE }
-        stronge::Stronge { "stronge" = Stronge::REFERENCE }
-        thornton::Thornton { "thornton" = Thornton::REFERENCE }
-        yigit_christoforou::YigitChristoforou { "yigit-christoforou" = YigitChristoforou::REFERENCE }
-        zhao_maietta_chang::ZhaoMaiettaChang { "zhao-maietta-chang" = ZhaoMaiettaChang::REFERENCE }
-        ma_liu::MaLiu { "ma-liu" = MaLiu::REFERENCE }
-        power::Power { "power" = Power::REFERENCE }
-        walton_braun::WaltonBraun { "walton-braun" = WaltonBraun::REFERENCE }
-        brake_2012::Brake2012 {
+        hertz::Hertz [] { "hertz" = Hertz }
+        big_alabo::BigAlabo [yield_pressure_factor, plastic_pressure_factor, second_region, fully_plastic, plastic_slope] { "big-alabo" = BigAlabo::REFERENCE }
+        brinell::Brinell [yield_pressure_factor] or Brinell::REFERENCE { "brinell" = Brinell::REFERENCE }
+        stronge::Stronge [yield_pressure_factor, plastic_pressure_factor] { "stronge" = Stronge::REFERENCE }
+        thornton::Thornton [peak_pressure_factor] { "thornton" = Thornton::REFERENCE }
+        yigit_christoforou::YigitChristoforou [yield_pressure_factor] { "yigit-christoforou" = YigitChristoforou::REFERENCE }
+        zhao_maietta_chang::ZhaoMaiettaChang [yield_pressure_factor, plastic_pressure_factor, fully_plastic] { "zhao-maietta-chang" = ZhaoMaiettaChang::REFERENCE }
+        ma_liu::MaLiu [peak_pressure_factor, plastic_pressure_factor, fully_plastic] { "ma-liu" = MaLiu::REFERENCE }
+        power::Power [yield_pressure_factor, coefficient, exponent] { "power" = Power::REFERENCE }
+        walton_braun::WaltonBraun [yield_pressure_factor, stiffness_factor] { "walton-braun" = WaltonBraun::REFERENCE }
+        brake_2012::Brake2012 [hardness_factor, plastic_start] {
             "brake-2012-tangent" = Brake2012::TANGENT,
             "brake-2012-line" = Brake2012::LINE,
         }
-        brake_2015::Brake2015 { "brake-2015" = Brake2015::REFERENCE }
-        ghaednia::Ghaednia { "ghaednia" = Ghaednia::REFERENCE }
-        jackson_green::JacksonGreen { "jackson-green" = JacksonGreen::REFERENCE }
-        kogut_etsion::KogutEtsion { "kogut-etsion" = KogutEtsion::REFERENCE }
-        brizmer::Brizmer { "brizmer" = Brizmer::REFERENCE }
-        vu_quoc_zhang::VuQuocZhang { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
-        johnson::Johnson { "johnson" = Johnson::REFERENCE }
-        luding::Luding { "luding" = Luding::REFERENCE }
+        brake_2015::Brake2015 [hardness_factor] { "brake-2015" = Brake2015::REFERENCE }
+        ghaednia::Ghaednia [hardening, hardness_factor, hardness_loss, hardening_rate] { "ghaednia" = Ghaednia::REFERENCE }
+        jackson_green::JacksonGreen [yield_constant, yield_growth, transition, area_exponent, area_growth, hardness_factor] { "jackson-green" = JacksonGreen::REFERENCE }
+        kogut_etsion::KogutEtsion [hardness_factor, yield_constant, yield_slope, second_region, fully_plastic, first_factor, first_exponent, second_factor, second_exponent, first_area_factor, first_area_exponent, second_area_factor, second_area_exponent] { "kogut-etsion" = KogutEtsion::REFERENCE }
+        brizmer::Brizmer [yield_constant, yield_slope, force_exponent, force_slope, area_exponent, area_slope] { "brizmer" = Brizmer::REFERENCE }
+        vu_quoc_zhang::VuQuocZhang [peak_pressure_factor, plastic_radius, curvature] { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
+        johnson::Johnson [yield_pressure_factor, plastic_pressure_factor] { "johnson" = Johnson::REFERENCE }
+        luding::Luding [yield_pressure_factor, stiffness_factor, stiffness_ratio, limit_depth] { "luding" = Luding::REFERENCE }
     }
     paired { Brinell as PairedBrinell }
 }

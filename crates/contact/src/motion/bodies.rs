@@ -83,7 +83,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         if let Some(&number) = [speed, step, drive.acceleration].iter().find(|number| !number.is_finite()) {
             return Err(TooDeep { indentation: number });
         }
-        let path = if U::SEGMENTED { history.path_of_dent() } else { None };
+        let path = if model.unloading.is_segmented() { history.path_of_dent() } else { None };
         let back = path.map(|path| Piece::on_path(model, path));
         Ok(Bodies {
             history,

@@ -134,7 +134,7 @@ impl Branch {
     /// The branch of a contact with this `history` that closes at `rate` \[m/s\].
     pub fn of<L: Loading, U: Unloading>(history: &History, model: &Model<L, U>, rate: f64) -> Branch {
         let (indentation, largest) = (history.indentation(), history.max_indentation());
-        let known = if U::SEGMENTED { history.path_of_dent() } else { None };
+        let known = if model.unloading.is_segmented() { history.path_of_dent() } else { None };
         let path = match known {
             Some(path) => Piece::on_path(model, path),
             None => Piece::at(model, indentation, largest, false),

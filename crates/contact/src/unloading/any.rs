@@ -4,6 +4,7 @@ use super::*;
 
 /// [`Unloading`] without its constants, because a trait object cannot have any.
 pub trait DynUnloading {
+    fn is_segmented(&self) -> bool;
     fn needs_work(&self) -> bool;
     fn holds_back(&self, pair: &Pair, peak: &Peak) -> bool;
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment;
@@ -13,6 +14,10 @@ pub trait DynUnloading {
 }
 
 impl<U: Unloading> DynUnloading for U {
+    fn is_segmented(&self) -> bool {
+        Unloading::is_segmented(self)
+    }
+
     fn needs_work(&self) -> bool {
         Unloading::needs_work(self)
     }
@@ -39,9 +44,12 @@ impl<U: Unloading> DynUnloading for U {
 }
 
 impl Unloading for AnyUnloading {
-    // some laws have segments, others do not; where a law has them, tangent and work are those of the path
-    const SEGMENTED: bool = false;
+    const MIXED: bool = true;
     const SQUARES: bool = true;
+
+    fn is_segmented(&self) -> bool {
+        self.law().is_segmented()
+    }
 
     fn needs_work(&self) -> bool {
         self.law().needs_work()

@@ -21,7 +21,7 @@ pub mod walton_braun;
 pub use guarded::Guarded;
 pub use paired::Paired;
 
-use super::laws::laws;
+use super::laws::{Constant, LawNumbers, laws};
 use super::material::Pair;
 use super::segment::Segment;
 use super::two_bodies::TwoBodies;
@@ -30,17 +30,17 @@ use libm::sqrt;
 laws! {
     /// An unloading law chosen while a program runs. In an FMU the scene names the law.
     pub enum AnyUnloading: dyn any::DynUnloading {
-        contact_radius::ContactRadius { "contact-radius" = ContactRadius }
-        thornton::Thornton { "thornton" = Thornton }
-        original_radius::OriginalRadius { "original-radius" = OriginalRadius }
-        deformed_radius::DeformedRadius { "deformed-radius" = DeformedRadius::REFERENCE }
-        hertz_shift::HertzShift { "hertz-shift" = HertzShift }
-        brinell::Brinell { "brinell" = Brinell::REFERENCE }
-        walton_braun::WaltonBraun { "walton-braun" = WaltonBraun::REFERENCE }
-        etsion::Etsion { "etsion" = Etsion::REFERENCE }
-        jackson::Jackson { "jackson" = Jackson::REFERENCE }
-        vu_quoc_zhang::VuQuocZhang { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
-        luding::Luding { "luding" = Luding::REFERENCE }
+        contact_radius::ContactRadius [] { "contact-radius" = ContactRadius }
+        thornton::Thornton [] { "thornton" = Thornton }
+        original_radius::OriginalRadius [] { "original-radius" = OriginalRadius }
+        deformed_radius::DeformedRadius [pressure_factor] { "deformed-radius" = DeformedRadius::REFERENCE }
+        hertz_shift::HertzShift [] { "hertz-shift" = HertzShift }
+        brinell::Brinell [height, onset, decline] { "brinell" = Brinell::REFERENCE }
+        walton_braun::WaltonBraun [stiffness_ratio] { "walton-braun" = WaltonBraun::REFERENCE }
+        etsion::Etsion [first_residual_exponent, second_residual_exponent, force_exponent, area_exponent] { "etsion" = Etsion::REFERENCE }
+        jackson::Jackson [factor, offset, exponent] { "jackson" = Jackson::REFERENCE }
+        vu_quoc_zhang::VuQuocZhang [curvature] { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
+        luding::Luding [stiffness_ratio, limit_depth] { "luding" = Luding::REFERENCE }
     }
     guarded {
         ContactRadius as GuardedContactRadius,
@@ -72,8 +72,17 @@ pub trait Unloading {
     /// [`Unloading::work`] give the rest.
     const SEGMENTED: bool = true;
 
+    /// Whether that depends on the law, so that [`Unloading::is_segmented`] tells: for a type of several laws.
+    const MIXED: bool = false;
+
     /// Whether a segment can have a quadratic term.
     const SQUARES: bool = false;
+
+    /// Whether the whole path of this law is one segment.
+    #[inline(always)]
+    fn is_segmented(&self) -> bool {
+        Self::SEGMENTED
+    }
 
     /// Whether the law needs the work of loading, which may be an integral.
     fn needs_work(&self) -> bool {

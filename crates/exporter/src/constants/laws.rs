@@ -1,14 +1,8 @@
 //! The laws of a scene with their constants, and what is added to them.
 
-use super::literal;
+use super::{MEMORY, literal};
 use crate::scene::{Loss, Rate, Scene};
 use std::fmt::Debug;
-
-/// Number of segments in which the springs of a contact with friction in one direction remember its past.
-pub const MEMORY: usize = 12;
-
-/// The same for two directions, and for bodies that share contacts.
-pub const SHARED_MEMORY: usize = 16;
 
 /// The laws, as the entry `laws`.
 pub fn of(scene: &Scene) -> String {
@@ -48,10 +42,8 @@ fn friction(scene: &Scene) -> String {
         None => "",
     };
     match scene.directions {
-        2 => format!("(friction PlaneContact {SHARED_MEMORY} {mean}{loss})"),
-        // the motion of bodies that share contacts is curved
-        _ if scene.inverse_masses.is_some() => format!("(friction RoughContact {SHARED_MEMORY} {mean}{loss})"),
-        _ => format!("(friction RoughContact {MEMORY} {mean})"),
+        2 => format!("(friction PlaneContact {MEMORY} {mean}{loss})"),
+        _ => format!("(friction RoughContact {MEMORY} {mean}{loss})"),
     }
 }
 
@@ -73,6 +65,7 @@ fn rate(scene: &Scene) -> String {
 fn value_of(law: &impl Debug) -> String {
     let text = format!("{law:?}");
     let (_, inner) = text.split_once('(').expect("a variant of an enum holds the law");
-    let inner = inner.strip_suffix(')').unwrap_or(inner);
-    if inner.contains('{') { inner.into() } else { format!("{inner} {{}}") }
+    // the lists of a law are references
+    let inner = inner.strip_suffix(')').unwrap_or(inner).replace(": [", ": &[");
+    if inner.contains('{') { inner } else { format!("{inner} {{}}") }
 }

@@ -1,17 +1,16 @@
 //! The scene as data in Rust: the file `crates/unit/src/exported.rs` of the library, a call of `scene!`.
 
-pub mod kind;
 mod laws;
 mod parameters;
 
-use crate::interface::{INVERSE_MASS, inverse_mass_inputs};
+use crate::interface::{Entry, INVERSE_MASS, inverse_mass_inputs};
 use crate::plan::Plan;
 use crate::scene::{Coupling, Group, InverseMasses, Scene};
 use crate::table::{Causality, Symbol, Variable};
 use std::fmt::{Display, Write};
 
-pub use laws::{MEMORY, SHARED_MEMORY};
-pub use parameters::{parameters, start_value};
+pub use brinell_fmu::scene::prebuilt::kinds::MEMORY;
+pub use parameters::{Sources, Value, first_contact, parameters, start_value};
 
 const HEAD: &str = "\
 //! The scene of this library.
@@ -33,7 +32,7 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     if scene.watches {
         file.add("impact_mass", literal(scene.impact.mass));
     }
-    let forces = presence(scene.contact_count() > 1 && !scene.is_rate_dependent());
+    let forces = presence(keeps_forces(scene));
     let starts = plan.variables.iter().filter(|entry| entry.variable.name == INVERSE_MASS);
     let starts = starts.flat_map(|entry| vec![entry.start.unwrap_or(0.0); entry.count]);
     match &scene.inverse_masses {
@@ -49,12 +48,43 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     file.add("parts", format_args!("{{ Forces = {forces}, {}, {bodies} }}", parts(scene)));
     parameters::add_settable(&mut file, scene, entries);
     parameters::add_sources(&mut file, scene);
-    let mut kinds: Vec<&Variable> = entries.iter().map(|entry| entry.variable).collect();
-    kinds.retain(|variable| variable.causality != Causality::Parameter && variable.name != INVERSE_MASS);
-    kinds.dedup_by_key(|variable| variable.name.as_str());
+    let kinds = kinds_of(entries);
     file.add("kinds", kinds.len());
     file.add_places(kinds.into_iter().enumerate());
     file.text + "}\n"
+}
+
+/// The kinds of variables of a contact without parameters, in the order of their references.
+fn kinds_of<'a>(entries: &'a [Entry]) -> Vec<&'a Variable> {
+    let mut kinds: Vec<&Variable> = entries.iter().map(|entry| entry.variable).collect();
+    kinds.retain(|variable| variable.causality != Causality::Parameter && variable.name != INVERSE_MASS);
+    kinds.dedup_by_key(|variable| variable.name.as_str());
+    kinds
+}
+
+/// Their names.
+pub fn kinds<'a>(plan: &'a Plan) -> Vec<&'a str> {
+    kinds_of(&plan.variables).into_iter().map(|variable| variable.name.as_str()).collect()
+}
+
+/// The kind of a prebuilt library as Rust: the file `crates/unit/src/kind.rs` of the library. `made_from` identifies it.
+pub fn kind(kind: &str, made_from: &str) -> String {
+    format!(
+        "{HEAD_OF_KIND}\n/// The kind.\npub type Library = brinell_fmu::scene::prebuilt::kinds::{kind};\n\n\
+         /// A hash of the sources of the library.\npub const MADE_FROM: &str = {made_from:?};\n"
+    )
+}
+
+const HEAD_OF_KIND: &str = "\
+//! The kind of this library, if it is a prebuilt one.
+//!
+//! `brinell prebuild` writes this file for every library that it builds. The file in the source tree is that of the kind `state`,
+//! without identification; a test compares it with the output of the program.
+";
+
+/// Whether the forces of contacts are stored. A single contact, or one whose force depends on the rate, computes its own on request.
+pub fn keeps_forces(scene: &Scene) -> bool {
+    scene.contact_count() > 1 && !scene.is_rate_dependent()
 }
 
 /// A file with one call of a macro.
@@ -94,9 +124,7 @@ impl File {
 /// Adds the contacts, their groups, and what differs between the tables of the scene.
 fn add_groups(file: &mut File, scene: &Scene) {
     let contacts = scene.contact_count();
-    // contacts that may differ are groups of one
-    let groups = if scene.contacts_differ() { contacts } else { scene.contacts.len() };
-    file.add("contacts", format_args!("{contacts} in {groups}"));
+    file.add("contacts", format_args!("{contacts} in {}", scene.group_count()));
     let mut end = 0;
     let table = |group: &Group| {
         end += group.size();

@@ -50,7 +50,7 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
 }
 
 /// The first contact of `group`.
-fn first_contact(scene: &Scene, group: &Group) -> usize {
+pub fn first_contact(scene: &Scene, group: &Group) -> usize {
     scene.contacts.iter().take_while(|other| other.name != group.name).map(Group::size).sum()
 }
 
@@ -94,14 +94,14 @@ pub fn add_sources(file: &mut File, scene: &Scene) {
 }
 
 /// The source of the value of each parameter.
-struct Sources<'a> {
+pub struct Sources<'a> {
     scene: &'a Scene,
     /// For each group, the index of its first own value among the settable values, and its first contact.
     firsts: Vec<(usize, usize)>,
 }
 
 impl Sources<'_> {
-    fn of(scene: &Scene) -> Sources<'_> {
+    pub fn of(scene: &Scene) -> Sources<'_> {
         let (mut value, mut contact) = (scene.settable().count(), 0);
         let firsts = scene.contacts.iter().map(|group| {
             let first = (value, contact);
@@ -113,7 +113,7 @@ impl Sources<'_> {
     }
 
     /// The source of the parameter `name` for the contacts of `group`, if they have it.
-    fn get(&self, group: usize, name: &str) -> Option<Value> {
+    pub fn get(&self, group: usize, name: &str) -> Option<Value> {
         let ((first, contact), group) = (self.firsts[group], &self.scene.contacts[group]);
         if let Some((parameter, place)) = find(&group.own, name, |own| group.variables_of(own)) {
             return Some(match parameter.settable {
@@ -135,7 +135,7 @@ fn find<'a>(list: &'a [Parameter], name: &str, values: impl Fn(&Parameter) -> us
 }
 
 /// The source of the value of a parameter.
-enum Value {
+pub enum Value {
     /// Index among the settable values.
     Settable(usize),
     /// Index of the first settable value, and its contact: each contact has its own value.

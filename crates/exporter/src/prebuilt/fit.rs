@@ -1,159 +1,212 @@
-//! Fits a scene to a prebuilt library, and turns it into the data of that library.
+//! Turns a planned FMU into the data of its prebuilt library.
 
-use super::kinds::{Library, LibraryLaws};
-use crate::constants::{parameters, start_value};
-use crate::interface::Entry;
+use crate::constants::{self, Value};
+use crate::interface::{Entry, INVERSE_MASS, is_tunable};
 use crate::plan::Plan;
-use crate::scene::{InverseMasses, Scene};
-use crate::table::{Causality, VARIABLES};
+use crate::scene::{Coupling, InverseMasses, Loss, Scene};
+use crate::table::Causality;
 use brinell_contact::Surface;
-use brinell_contact::damped::AnyDamped;
-use brinell_fmu::scene::Parameter;
-use brinell_fmu::scene::identity_of;
-use brinell_fmu::scene::prebuilt::block::{Data, FIRST_PARAMETER, Flag, GUID, TEXTS, VARIABLES as PLACES};
+use brinell_contact::rate::Rate;
+use brinell_fmu::scene::prebuilt::block::{
+    self, Data, FIRST_INTEGER, Flag, KINDS, List, POOL, RateNumbers, Run, SOURCE_WORDS, Table, Text,
+};
+use brinell_fmu::scene::variable::Source;
+use brinell_fmu::scene::{Integer, Parameter, Real, identity_of};
 
 /// A scene that fits no prebuilt library.
 #[derive(Debug, thiserror::Error)]
 #[error("{key}: {reason}")]
 pub struct NeedsCompiler {
     /// The part of the scene that is the reason.
-    pub key: String,
+    pub key: &'static str,
     pub reason: String,
 }
 
-fn needs(key: impl Into<String>, reason: impl Into<String>) -> NeedsCompiler {
-    NeedsCompiler { key: key.into(), reason: reason.into() }
+/// The lists of a scene.
+#[derive(Default)]
+struct Lists {
+    words: Vec<u64>,
+    ends: [[u32; 2]; List::COUNT],
+    texts: Vec<u8>,
 }
 
-impl Library {
-    /// The smallest library that fits `scene`.
-    ///
-    /// # Errors
-    /// [`NeedsCompiler`] with the first key that no prebuilt library supports.
-    pub fn of(scene: &Scene) -> Result<Library, NeedsCompiler> {
-        library_for(scene)
+impl Lists {
+    /// Adds a list of rows.
+    fn add<const WORDS: usize>(&mut self, list: List, rows: impl IntoIterator<Item = [u64; WORDS]>) {
+        let start = self.words.len();
+        self.words.extend(rows.into_iter().flatten());
+        self.ends[list as usize] = [start as u32, (self.words.len() - start) as u32];
     }
-}
 
-fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
-    let count = scene.contact_count();
-    if count > 1 {
-        return Err(needs("[[contact]]", format!("there are {count} contacts, and prebuilt libraries have one")));
+    /// Adds a list of bytes, with zeros at its end.
+    fn add_bytes(&mut self, list: List, bytes: &[u8]) {
+        let word = |bytes: &[u8]| {
+            let mut word = [0; 8];
+            word[..bytes.len()].copy_from_slice(bytes);
+            [u64::from_le_bytes(word)]
+        };
+        self.add(list, bytes.chunks(8).map(word));
     }
-    if let Some(masses) = &scene.inverse_masses {
-        let key = if *masses == InverseMasses::Inputs { "coupling.inverse_masses" } else { "[[body]]" };
-        return Err(needs(key, "prebuilt libraries know one mass and no bodies"));
-    }
-    if scene.passivity_guard {
-        return Err(needs("law.passivity_guard", "prebuilt libraries have no guard"));
-    }
-    if scene.has_friction() {
-        return Err(needs("[friction]", "prebuilt libraries have no friction"));
-    }
-    if let Some(loss) = scene.loss {
-        let key = if loss.follows_rate() { "law.elastic_restitution" } else { "target.plate_thickness" };
-        return Err(needs(key, "prebuilt libraries have no losses below yield"));
-    }
-    if scene.finds_strength() {
-        let reason = "with [coupling] the strength is found at the first touch of each impact, and prebuilt libraries have one \
-                      strength for all";
-        return Err(needs("target.rate", reason));
-    }
-    if let (Some((name, _)), Some(_)) = (scene.damped, scene.coupling) {
-        return Err(needs("[coupling]", format!("prebuilt libraries with {name} don't move the bodies")));
-    }
-    let laws = laws_of(scene)?;
-    let library = Library::for_scene(laws, scene).expect("some kind has all outputs");
-    let (published, kind) = (&library.scene, "the prebuilt library has the constants of the reference");
-    let differs = published.loading != scene.loading || published.damped != scene.damped;
-    if differs {
-        return Err(needs("law.loading_parameters", kind));
-    }
-    if published.unloading != scene.unloading {
-        return Err(needs("law.unloading_parameters", kind));
-    }
-    Ok(library)
-}
 
-/// The prebuilt laws of `scene`, regardless of their constants.
-fn laws_of(scene: &Scene) -> Result<LibraryLaws, NeedsCompiler> {
-    let all = LibraryLaws::all();
-    if let Some((name, law)) = scene.damped {
-        let of_name: Vec<_> = all.into_iter().filter(|laws| laws.loading == name).collect();
-        // the damping selects the variant; constants are compared later
-        let same = of_name.iter().find(|laws| damped_of(laws) == Some(law)).or(of_name.first());
-        return Ok(*same.expect("every rate-dependent law is prebuilt"));
+    /// Adds a text to the texts.
+    fn text(&mut self, text: &str) -> Text {
+        let start = self.texts.len() as u32;
+        self.texts.extend(text.as_bytes());
+        Text { start, length: text.len() as u32 }
     }
-    let of_name: Vec<_> = all.into_iter().filter(|laws| laws.loading == scene.loading.0).collect();
-    let partner = scene.unloading.map(|(name, _)| name);
-    if let Some(laws) = of_name.iter().find(|laws| laws.partner == partner) {
-        return Ok(*laws);
-    }
-    let prebuilt: Vec<_> = of_name.iter().filter_map(|laws| laws.partner).collect();
-    let reason = format!("{} is prebuilt with unloading = \"{}\"", scene.loading.0, prebuilt.join("\", \""));
-    Err(needs(format!("law.unloading = {:?}", partner.unwrap_or_default()), reason))
-}
-
-/// The rate-dependent law with these names and its reference constants.
-fn damped_of(laws: &LibraryLaws) -> Option<AnyDamped> {
-    use crate::model::Dampings;
-    let (_, law) = AnyDamped::ALL.into_iter().find(|(name, _)| *name == laws.loading)?;
-    laws.partner.map_or(Some(law), |damping| law.with_damping(damping))
 }
 
 /// The data of the planned FMU with the identification `guid`.
 ///
 /// # Errors
-/// [`NeedsCompiler`] if the names of the variables are too long.
+/// [`NeedsCompiler`] if the data take more room than a library has.
 pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
     let scene = plan.scene;
-    let group = &scene.contacts[0];
-    let mut data = Data { identity: identity_of(guid), guid: as_bytes(guid), ..Data::EMPTY };
-    let flags = [
-        (Flag::Fresh, group.surface == Surface::Fresh),
-        (Flag::Acceleration, scene.has_input("external_acceleration")),
-        (Flag::Mass, scene.has_input("effective_mass")),
-    ];
-    data.flags = flags.iter().filter(|(_, is)| *is).map(|(flag, _)| flag.bit()).sum();
-    data.density = group.density.unwrap_or(f64::NAN);
-    data.impact_mass = if scene.watches { scene.impact.mass } else { f64::NAN };
-    let mut texts = String::new();
-    let is_parameter = |entry: &&Entry| entry.variable.causality == Causality::Parameter;
-    for (place, variable) in parameters().take(Parameter::PREBUILT).enumerate() {
-        data.starts[place] = start_value(scene, 0, &variable.name);
-        let entry = plan.variables.iter().filter(is_parameter).find(|entry| entry.variable.name == variable.name);
-        if let Some(entry) = entry {
-            data.settable |= 1 << place;
-            data.minima[place] = variable.minimum.unwrap_or(f64::MIN);
-            data.maxima[place] = variable.maximum.unwrap_or(f64::MAX);
-            texts += &entry.name(0);
-            data.variables[entry.reference] = FIRST_PARAMETER + place as u8;
+    if scene.standalone {
+        let reason = "prebuilt libraries take their memory from the process".into();
+        return Err(NeedsCompiler { key: "fmu.standalone", reason });
+    }
+    let mut lists = Lists::default();
+    let mut end = 0;
+    let tables = scene.contacts.iter().map(|group| {
+        end += group.size() as u64;
+        Table {
+            end,
+            is_counted: group.count.is_some(),
+            is_fresh: group.surface == Surface::Fresh,
+            density: group.density.unwrap_or(f64::NAN),
+            name: lists.text(group.name.as_deref().unwrap_or_default()),
         }
-        texts.push('\0');
-        texts += entry.and_then(|entry| entry.variable.unit.as_deref()).unwrap_or_default();
-        texts.push('\0');
+    });
+    let tables: Vec<_> = tables.collect();
+    lists.add(List::Tables, tables.iter().map(Table::words));
+    let runs = runs(plan, &mut lists);
+    lists.add(List::Runs, runs.iter().map(Run::words));
+    let sources = sources(scene);
+    let differ = sources.iter().any(|table| *table != sources[0]);
+    if differ {
+        lists.add(List::Sources, sources.iter().copied().flatten());
     }
-    for entry in plan.variables.iter().filter(|entry| !is_parameter(entry)) {
-        let place = VARIABLES.iter().position(|variable| std::ptr::eq(variable, entry.variable));
-        data.variables[entry.reference] = place.expect("every variable is in the table") as u8;
+    if let Some(masses) = &scene.inverse_masses {
+        lists.add(List::InverseMasses, inverse_masses(plan, masses).into_iter().map(|entry| [entry.to_bits()]));
     }
-    let room = data.texts.get_mut(..texts.len()).ok_or_else(|| {
-        let name = group.name.as_deref().unwrap_or_default();
-        needs(
-            format!("[[contact]] name = {name:?}"),
-            format!(
-                "the names of its variables take {} bytes, and prebuilt libraries have room for {TEXTS}",
-                texts.len()
-            ),
-        )
+    if let Some(guard) = &plan.guard {
+        lists.add_bytes(List::Guard, format!("the passivity guard {}", guard.words()).as_bytes());
+    }
+    let texts = std::mem::take(&mut lists.texts);
+    lists.add_bytes(List::Texts, &texts);
+    let contacts = scene.contact_count();
+    let kinds = constants::kinds(plan);
+    let mut data = Data {
+        identity: identity_of(guid),
+        flags: flags(scene) | if differ { Flag::TablesDiffer.bit() } else { 0 },
+        contacts: contacts as u64,
+        groups: scene.group_count() as u64,
+        values: runs.last().map_or(0, |run| run.end),
+        kinds: kinds.len() as u64,
+        impact_mass: if scene.watches { scene.impact.mass } else { f64::NAN },
+        rates: [scene.rates.target, scene.rates.impactor].map(|rate| RateNumbers::of(rate.unwrap_or(Rate::NONE))),
+        sources: sources[0],
+        guid: guid.as_bytes().try_into().expect("a GUID has 32 digits"),
+        lists: lists.ends,
+        ..Data::EMPTY
+    };
+    match &scene.damped {
+        Some((_, law)) => data.loading = law.numbers(),
+        None => (data.loading, data.unloading) = (scene.loading.1.numbers(), scene.plain_unloading().numbers()),
+    }
+    data.loss = match scene.loss {
+        Some(Loss::Waves) => block::Loss::Waves,
+        Some(Loss::Plate(_)) => block::Loss::Plate,
+        Some(Loss::Fitted(_)) | None => block::Loss::Fitted,
+    } as u64;
+    const { assert!(Real::ALL.len() <= FIRST_INTEGER as usize) };
+    for (slot, name) in data.codes[..kinds.len().min(KINDS)].iter_mut().zip(&kinds) {
+        let real = Real::ALL.iter().position(|(known, _)| known == name).map(|place| place as u8);
+        let integer = || Integer::ALL.iter().position(|(known, _)| known == name).map(|place| place as u8);
+        *slot = real.or_else(|| Some(FIRST_INTEGER + integer()?)).expect("every variable has a type");
+    }
+    let room = data.pool.get_mut(..lists.words.len()).ok_or_else(|| NeedsCompiler {
+        key: if scene.inverse_masses.is_some() { "[[body]]" } else { "[[contact]]" },
+        reason: format!(
+            "the data of this scene take {} bytes, and prebuilt libraries have room for {}",
+            8 * lists.words.len(),
+            8 * POOL
+        ),
     })?;
-    room.copy_from_slice(texts.as_bytes());
+    room.copy_from_slice(&lists.words);
     Ok(data)
 }
 
-fn as_bytes(guid: &str) -> [u8; GUID] {
-    guid.as_bytes().try_into().expect("a GUID has 32 digits")
+/// The features of a scene.
+fn flags(scene: &Scene) -> u64 {
+    let moved = |of: fn(&Coupling) -> bool| scene.coupling.as_ref().is_some_and(of);
+    let outputs = |names: &[&str]| scene.outputs.iter().any(|output| names.contains(&output.as_str()));
+    let flags = [
+        (Flag::Acceleration, moved(|coupling| coupling.acceleration_input)),
+        (Flag::Mass, moved(|coupling| coupling.mass_input)),
+        (Flag::Moves, scene.coupling.is_some()),
+        (Flag::Parallel, moved(|coupling| coupling.parallel)),
+        (Flag::Shared, scene.inverse_masses.is_some()),
+        (Flag::InverseMassInputs, scene.inverse_masses == Some(InverseMasses::Inputs)),
+        (Flag::Momentum, outputs(&["impulse", "mean_force"])),
+        (Flag::Course, constants::has_course(scene)),
+        (Flag::Forces, constants::keeps_forces(scene)),
+        (Flag::Paired, scene.is_paired()),
+        (Flag::FollowsRate, scene.follows_rate()),
+    ];
+    flags.iter().filter(|(_, is)| *is).map(|(flag, _)| flag.bit()).sum()
 }
 
-/// A value reference and an index into the table take one byte each.
-const _: () = assert!(PLACES <= FIRST_PARAMETER as usize);
+/// The inverse masses, or their start values.
+fn inverse_masses(plan: &Plan, masses: &InverseMasses) -> Vec<f64> {
+    match masses {
+        InverseMasses::Constant(entries) => entries.clone(),
+        InverseMasses::Inputs => {
+            let starts = plan.variables.iter().filter(|entry| entry.variable.name == INVERSE_MASS);
+            starts.flat_map(|entry| vec![entry.start.unwrap_or(0.0); entry.count]).collect()
+        }
+    }
+}
+
+/// The parameters that can be set, each with its values.
+fn runs(plan: &Plan, lists: &mut Lists) -> Vec<Run> {
+    let is_parameter = |entry: &&Entry| entry.variable.causality == Causality::Parameter;
+    let mut end = 0;
+    let run = |entry: &Entry| {
+        end += entry.count as u64;
+        let [minimum, maximum, start] = [entry.variable.minimum, entry.variable.maximum, entry.start]
+            .map(|value| value.expect("a parameter has a start value and limits"));
+        let first = entry.group.filter(|_| entry.count > 1).map(|group| constants::first_contact(plan.scene, group));
+        // with several values, the contact is named before
+        let name = if entry.count == 1 { entry.name(0) } else { entry.variable.name.clone() };
+        Run {
+            end,
+            first_contact: first.map_or(u64::MAX, |first| first as u64),
+            is_tunable: is_tunable(plan.scene, &entry.variable.name),
+            start,
+            minimum,
+            maximum,
+            name: lists.text(&name),
+            unit: lists.text(entry.variable.unit.as_deref().unwrap_or_default()),
+        }
+    };
+    plan.variables.iter().filter(is_parameter).map(run).collect()
+}
+
+/// The sources of all parameters of each table.
+fn sources(scene: &Scene) -> Vec<[[u64; SOURCE_WORDS]; Parameter::ALL.len()]> {
+    let sources = constants::Sources::of(scene);
+    let of_table = |table: usize| {
+        Parameter::ALL.map(|(name, parameter)| {
+            block::source_words(&match sources.get(table, name) {
+                Some(Value::Settable(place)) => Source::Settable(place),
+                // for a contact before these, the index is below zero
+                Some(Value::PerContact((place, first))) => Source::PerContact(place as isize - first as isize),
+                Some(Value::Constant(value)) => Source::Constant(value),
+                None => Source::Constant(parameter.without_effect()),
+            })
+        })
+    };
+    (0..scene.contacts.len()).map(of_table).collect()
+}

@@ -11,8 +11,14 @@ const PAGE: usize = 4096;
 /// Start of the block, which crosses a page border.
 const BLOCK_AT: usize = 2 * PAGE - 100;
 
-/// End of the signed part: within the fifth page.
-const END: usize = 4 * PAGE + 16;
+/// Pages that are signed.
+const PAGES: usize = (BLOCK_AT + size_of::<Block>()).div_ceil(PAGE) + 1;
+
+/// End of the signed part: within the last page.
+const END: usize = (PAGES - 1) * PAGE + 16;
+
+/// Length of the hashes with their head.
+const HASHES: usize = 88 + PAGES * 32;
 
 fn data() -> Data {
     // the identity is on the first of the two pages, the GUID on the second
@@ -46,18 +52,18 @@ fn library(signed: bool) -> Vec<u8> {
     file.extend([BLOCK_AT as u64, size_of::<Block>() as u64].into_iter().flat_map(u64::to_le_bytes));
     file.extend([BLOCK_AT as u32, 3, 0, 0, 0, 0, 0, 0].into_iter().flat_map(u32::to_le_bytes));
     if signed {
-        file.extend([0x1d_u32, 16, END as u32, 20 + 88 + 5 * 32].into_iter().flat_map(u32::to_le_bytes));
+        file.extend([0x1d_u32, 16, END as u32, 20 + HASHES as u32].into_iter().flat_map(u32::to_le_bytes));
     }
     file.resize(END, 0x5a);
     file[BLOCK_AT..BLOCK_AT + size_of::<Block>()].copy_from_slice(&bytes_of(Block::unfilled(LIBRARY)));
     if signed {
         let pages: Vec<_> = file.chunks(PAGE).map(Sha256::digest).collect();
-        assert_eq!(pages.len(), 5);
+        assert_eq!(pages.len(), PAGES);
         // one blob: the hashes
-        for word in [0xfade_0cc0_u32, 20 + 88 + 5 * 32, 1, 0, 20] {
+        for word in [0xfade_0cc0_u32, 20 + HASHES as u32, 1, 0, 20] {
             file.extend(word.to_be_bytes());
         }
-        for word in [0xfade_0c02_u32, 88 + 5 * 32, 0x20400, 0x20002, 88, 88, 0, 5, END as u32] {
+        for word in [0xfade_0c02_u32, HASHES as u32, 0x20400, 0x20002, 88, 88, 0, PAGES as u32, END as u32] {
             file.extend(word.to_be_bytes());
         }
         file.extend([32, 2, 0, 12]);
@@ -76,12 +82,16 @@ fn a_filled_library_has_the_data_and_the_hashes_of_its_pages() {
     check(&filled).expect("every page has its hash");
     let block = bytes_of(Block::filled(LIBRARY, data()));
     assert!(filled[BLOCK_AT..].starts_with(&block));
-    // nothing changes except the hashes of the two pages
-    let hashes = END + 20 + 88 + 32..END + 20 + 88 + 3 * 32;
-    let others = |place: &usize| !(BLOCK_AT..BLOCK_AT + block.len()).contains(place) && !hashes.contains(place);
+    // nothing else changes except the hashes of the pages that do
+    let others = |place: &usize| !(BLOCK_AT..BLOCK_AT + block.len()).contains(place) && *place < END + 20 + 88;
     assert_eq!(filled.len(), empty.len());
     assert!((0..empty.len()).filter(others).all(|place| filled[place] == empty[place]));
-    assert!(hashes.step_by(32).all(|place| filled[place..place + 32] != empty[place..place + 32]));
+    let page = |file: &[u8], page: usize| file[page * PAGE..END.min((page + 1) * PAGE)].to_vec();
+    let hash = |file: &[u8], page: usize| file[END + 20 + 88 + page * 32..][..32].to_vec();
+    let changed = |page: &usize, part: &dyn Fn(&[u8], usize) -> Vec<u8>| part(&filled, *page) != part(&empty, *page);
+    let pages: Vec<_> = (0..PAGES).filter(|number| changed(number, &page)).collect();
+    assert!(pages.len() > 1 && pages.len() < PAGES - 2, "{pages:?}");
+    assert_eq!((0..PAGES).filter(|number| changed(number, &hash)).collect::<Vec<_>>(), pages);
 }
 
 #[test]
@@ -89,10 +99,9 @@ fn a_library_that_macos_would_not_load_is_refused() {
     let refused = |mut library: Vec<u8>| fill(&mut library, LIBRARY, data()).unwrap_err();
     assert!(matches!(refused(library(false)), FillError::Signature(SignatureError::None)));
     // one wrong byte in each page
-    for page in 0..5 {
+    for page in 0..PAGES {
         let mut damaged = library(true);
         let at = if page == 0 { 300 } else { page * PAGE + 8 };
-        let at = if page == 2 { 3 * PAGE - 1 } else { at };
         damaged[at] ^= 1;
         let error = refused(damaged);
         assert!(

@@ -1,8 +1,7 @@
 //! Prebuilt libraries: FMUs without a compiler.
 //!
-//! Scenes with the same laws differ almost only in data. A prebuilt library has a block of memory for these data
-//! (`brinell_fmu::scene::prebuilt`). Such libraries are compiled once; an export copies the one that fits and writes the data of its
-//! scene to the copy.
+//! A prebuilt library contains all laws, and has a block of memory for the data of a scene (`brinell_fmu::scene::prebuilt`). Such
+//! libraries are compiled once, one for each kind; an export copies the one of its scene and writes the data to the copy.
 
 mod fill;
 mod fit;
@@ -12,7 +11,7 @@ mod macho_tests;
 
 pub use fill::FillError;
 pub use fit::NeedsCompiler;
-pub use kinds::{KINDS, Library, LibraryLaws};
+pub use kinds::{LIBRARIES, Library};
 
 use crate::package::{GUID_TO_COME, guid};
 use crate::plan::Plan;
@@ -34,7 +33,7 @@ impl PrebuiltUnit {
     /// # Errors
     /// [`NeedsCompiler`] if no prebuilt library fits the scene.
     pub fn of(plan: &Plan, sources: &str) -> Result<PrebuiltUnit, NeedsCompiler> {
-        let library = Library::of(plan.scene)?;
+        let library = Library::of(plan.scene);
         let (source, made_from) = library.source(sources);
         // the size of the data does not depend on the value of the GUID
         let block = Block::filled(0, fit::data_of(plan, GUID_TO_COME)?);

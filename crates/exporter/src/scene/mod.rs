@@ -162,9 +162,10 @@ impl Scene {
         Impact { mass: mass.unwrap_or(self.impact.mass), ..self.impact }
     }
 
-    /// Whether contacts of a group may differ, so that each is treated as a group of its own.
-    pub fn contacts_differ(&self) -> bool {
-        self.contacts.iter().any(|group| group.size() > 1 && group.own.iter().any(|own| own.per_contact))
+    /// The number of groups of equal contacts. If contacts of a table may differ, each is a group of its own.
+    pub fn group_count(&self) -> usize {
+        let differ = self.contacts.iter().any(|group| group.size() > 1 && group.own.iter().any(|own| own.per_contact));
+        if differ { self.contact_count() } else { self.contacts.len() }
     }
 
     /// Whether the FMU has the input `name`, which is not the rate.

@@ -383,15 +383,3 @@ fn bodies_are_coupled_as_the_scene_says() {
     assert!(scene.outputs.iter().any(|output| output == "mean_force"));
     assert!(scene.value("effective_mass").is_none() && !scene.has_input("effective_mass") && !scene.watches);
 }
-
-#[test]
-fn a_unit_with_bodies_has_no_prebuilt_library() {
-    use crate::prebuilt::Library;
-    for (tables, key) in [
-        (format!("{}{}", body("ball", 0.1), contact("floor", ["ball", "ground"], "")), "[[body]]: "),
-        ("[coupling]\ninverse_masses = \"input\"\n".into(), "coupling.inverse_masses: "),
-    ] {
-        let reason = Library::of(&scene(&tables)).map(|_| ()).expect_err("bodies need a compiler").to_string();
-        assert!(reason.starts_with(key) && reason.contains("no bodies"), "{reason}");
-    }
-}

@@ -3,6 +3,7 @@
 use super::complaint::Complaint;
 use super::handle::Handle;
 use super::memory::Memory;
+use super::span::Free;
 use crate::instance::Instance;
 use crate::scene::Scene;
 use core::ffi::c_void;
@@ -32,10 +33,14 @@ const COUNT_AT: usize = 2;
 const WORDS_AT: usize = 3;
 
 impl<S: Scene> Snapshot<S> {
-    const CHECKSUM_AT: usize = WORDS_AT + Instance::<S>::WORDS;
+    fn checksum_at() -> usize {
+        WORDS_AT + Instance::<S>::words()
+    }
 
     /// Length of a serialized state \[bytes\].
-    pub const SERIALIZED_SIZE: usize = 8 * (Self::CHECKSUM_AT + 1);
+    pub fn serialized_size() -> usize {
+        8 * (Self::checksum_at() + 1)
+    }
 
     /// The mark that distinguishes states of this scene from those of other scenes, which may have the same length.
     fn mark() -> u64 {
@@ -76,10 +81,19 @@ impl<S: Scene> Snapshot<S> {
 
     /// A snapshot of zeros.
     fn allocate(memory: Memory) -> Result<*mut c_void, Complaint> {
-        let made = memory.allocate(size_of::<Snapshot<S>>());
+        let outside = Instance::<S>::outside();
+        let made = memory.allocate(size_of::<Snapshot<S>>() + outside);
         // SAFETY: the memory is large enough and aligned for any object; zeros are a valid snapshot, as they are a valid
-        // component.
-        unsafe { Self::behind(made) }.ok_or(Complaint::NoMemory)?.mark = Self::mark();
+        // component. What is behind it belongs to the arrays of its instance.
+        unsafe {
+            let snapshot = Self::behind(made).ok_or(Complaint::NoMemory)?;
+            if outside > 0 {
+                made.expose_provenance();
+                let free = Free::behind(snapshot, outside);
+                snapshot.instance.place(free);
+            }
+            snapshot.mark = Self::mark();
+        }
         Ok(made)
     }
 
@@ -102,14 +116,14 @@ impl<S: Scene> Snapshot<S> {
     /// Writes the snapshot to `bytes`.
     ///
     /// # Errors
-    /// [`Complaint::BadState`] if there are fewer bytes than [`Snapshot::SERIALIZED_SIZE`].
+    /// [`Complaint::BadState`] if there are fewer bytes than [`Snapshot::serialized_size`].
     pub fn serialize(&self, bytes: &mut [u8]) -> Result<(), Complaint> {
         let (slots, _) = bytes.as_chunks_mut();
-        if slots.len() <= Self::CHECKSUM_AT {
+        if slots.len() <= Self::checksum_at() {
             return Err(Complaint::BadState { reason: "the buffer is too short" });
         }
         let mut writer = Writer { slots: slots.iter_mut(), sum: CHECKSUM_START };
-        for word in [u64::from_le_bytes(MAGIC), S::identity(), Instance::<S>::WORDS as u64] {
+        for word in [u64::from_le_bytes(MAGIC), S::identity(), Instance::<S>::words() as u64] {
             writer.word(word);
         }
         self.instance.save(|word| writer.word(word));
@@ -125,21 +139,21 @@ impl<S: Scene> Snapshot<S> {
     pub fn deserialize(bytes: &[u8], memory: Memory) -> Result<*mut c_void, Complaint> {
         let bad = |reason| Err(Complaint::BadState { reason });
         let (words, rest) = bytes.as_chunks();
-        if words.len() != Self::CHECKSUM_AT + 1 || !rest.is_empty() {
+        if words.len() != Self::checksum_at() + 1 || !rest.is_empty() {
             return bad("it doesn't have the length of a state of this FMU");
         }
         let known =
-            [(0, u64::from_le_bytes(MAGIC)), (IDENTITY_AT, S::identity()), (COUNT_AT, Instance::<S>::WORDS as u64)];
+            [(0, u64::from_le_bytes(MAGIC)), (IDENTITY_AT, S::identity()), (COUNT_AT, Instance::<S>::words() as u64)];
         if known.into_iter().any(|(place, expected)| word(words, place) != expected) {
             return bad("it is of another unit or version");
         }
-        let summed = words.iter().take(Self::CHECKSUM_AT);
+        let summed = words.iter().take(Self::checksum_at());
         let sum = summed.fold(CHECKSUM_START, checksum);
-        if sum != word(words, Self::CHECKSUM_AT) {
+        if sum != word(words, Self::checksum_at()) {
             return bad("its checksum is wrong, it is damaged");
         }
         let made = Self::allocate(memory)?;
-        let own = words.get(WORDS_AT..Self::CHECKSUM_AT).unwrap_or(&[]);
+        let own = words.get(WORDS_AT..Self::checksum_at()).unwrap_or(&[]);
         // SAFETY: it was created here, nothing else refers to it, and it is freed here.
         unsafe {
             if !Self::at(made)?.instance.load(own) {

@@ -13,7 +13,7 @@ use crate::instance::{Instance, Phase, Warning};
 use crate::scene::{Presence, Scene};
 use core::ffi::c_char;
 
-/// An instance with the data from its importer. The name of the instance follows it in memory.
+/// An instance with the data from its importer. Its arrays [outside](Instance::outside) and its name follow it in memory.
 #[repr(C)]
 pub struct Component<S: Scene> {
     /// The instance.
@@ -87,10 +87,10 @@ impl Logger {
 }
 
 impl<S: Scene> Component<S> {
-    /// The name of the instance, which follows the component in memory.
+    /// The name of the instance, which follows the component and its arrays in memory.
     fn name(&self) -> fmi2String {
         // SAFETY: fmi2Instantiate allocates the component and the name after it in one piece.
-        unsafe { core::ptr::from_ref(self).add(1).cast::<c_char>() }
+        unsafe { core::ptr::from_ref(self).add(1).cast::<c_char>().add(Instance::<S>::outside()) }
     }
 
     /// Warns if a contact is deeper or closes faster than its law is valid.

@@ -7,7 +7,9 @@ use super::order::{self, Function};
 use crate::c::complaint::Complaint;
 use crate::c::handle::{Handle, array};
 use crate::c::memory::Memory;
+use crate::c::span::Free;
 use crate::c::text::{extent, is_same};
+use crate::instance::Instance;
 use crate::scene::Scene;
 use core::ffi::c_char;
 
@@ -91,16 +93,17 @@ unsafe fn make<S: Scene>(
             reason: "fmuGUID is not the one of this library: modelDescription.xml and binary are from different exports",
         });
     }
-    let made = memory.allocate(size_of::<Component<S>>() + length);
+    let outside = Instance::<S>::outside();
+    let made = memory.allocate(size_of::<Component<S>>() + outside + length);
     if made.is_null() {
         return Err(Complaint::NoMemory);
     }
     let _ = Component::<S>::ZEROS;
-    // SAFETY: the memory is large enough for the component and the name after it, and aligned for any object. It is zeroed, and
+    // SAFETY: the memory is large enough for the component, its arrays and the name after it, and aligned for any object. It is zeroed, and
     // zeros are a valid component, as `ZEROS` proves.
     unsafe {
         let component = Component::<S>::pointer(made);
-        let copy = component.add(1).cast::<c_char>();
+        let copy = component.add(1).cast::<c_char>().add(outside);
         let mut place = 0;
         // the terminating 0 is already there
         while *name.add(place) != 0 {
@@ -108,6 +111,11 @@ unsafe fn make<S: Scene>(
             place += 1;
         }
         let component = &mut *component;
+        if outside > 0 {
+            made.expose_provenance();
+            let free = Free::behind(component, outside);
+            component.instance.place(free);
+        }
         component.logger = logger;
         component.memory = memory;
         component.categories = if logging_on { ALL_CATEGORIES } else { WARNINGS };

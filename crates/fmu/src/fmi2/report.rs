@@ -3,7 +3,7 @@
 use crate::c::complaint::Complaint;
 use crate::c::text::Text;
 use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
-use crate::scene::{Coupling, Presence, Real, Scene, Settable, Store};
+use crate::scene::{Coupling, Presence, Real, Scene, Settable};
 use brinell_contact::Contact;
 use brinell_contact::shared::NotInverseMasses;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
@@ -21,11 +21,11 @@ fn phase_name(phase: Phase) -> &'static str {
 
 /// Writes the name of a contact, if there are several.
 fn contact_name<S: Scene>(text: &mut Text, contact: usize) -> &mut Text {
-    if S::CONTACTS == 1 {
+    if S::contacts() == 1 {
         return text;
     }
     let (name, number) = S::contact_name(contact);
-    text.string(name);
+    text.bytes(name);
     if number != 0 {
         text.string("[").integer(number as u32).string("]");
     }
@@ -85,7 +85,7 @@ pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
     let mut message = Message::BLANK;
     message.template = match *complaint {
         Complaint::Instance(fault) => {
-            if S::CONTACTS > 1 {
+            if S::contacts() > 1 {
                 message.contact = contact_of::<S>(fault);
             }
             describe_fault::<S>(&mut message, fault)
@@ -199,8 +199,8 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             numbers[0] = step;
             "the bodies rebound too often to be followed within communicationStepSize = ~ s"
         }
-        Fault::TooLongTogether { .. } if !S::Shared::IS_PRESENT => "",
-        Fault::InverseMasses(_) if S::InverseMasses::LENGTH == 0 => "",
+        Fault::TooLongTogether { .. } if !S::is_shared() => "",
+        Fault::InverseMasses(_) if S::inverse_mass_inputs() == 0 => "",
         Fault::TooLongTogether { step, possible } => {
             (numbers[0], numbers[1]) = (step, possible);
             "the contacts touch, part and turn too often to be followed within communicationStepSize = ~ s: a step of ~ s is possible"
@@ -218,7 +218,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::DerivativeOrder { order, largest } => {
             numbers[0] = f64::from(order);
-            if S::Contact::DERIVATIVES == 0 && largest == 0 {
+            if S::derivatives() == 0 && largest == 0 {
                 "outputs of this FMU have no derivatives: the indentation on a plate is not the distance of the bodies"
             } else if largest > 1 {
                 "there is no derivative of order ~: allowed is 1 or 2"
@@ -238,7 +238,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         Fault::NoInputDerivatives if S::has_input(Real::ExternalAcceleration) => {
             "inputs of this FMU have no derivatives: external_acceleration is the input for the acceleration"
         }
-        Fault::NoInputDerivatives if S::Contact::FOLLOWS_RATE => {
+        Fault::NoInputDerivatives if S::follows_rate() => {
             "inputs of this FMU have no derivatives: its law depends on the rate"
         }
         Fault::NoInputDerivatives => "inputs of this FMU have no derivatives: its scene has input_derivatives = false",
@@ -248,7 +248,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
 /// Writes a warning.
 pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
     let mut message = Message::BLANK;
-    let guard = S::GUARD.map_or("", |guard| guard.words);
+    message.words[0] = S::guard().map_or(&[][..], |guard| guard.words);
     message.template = match *warning {
         Warning::Deep { contact, indentation, allowed } => {
             message.contact = Some(contact);
@@ -265,28 +265,31 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
         // a library contains no text for features that its scene lacks
-        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired::<S>(&mut message, *warning, guard),
-        _ => guard,
+        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired::<S>(&mut message, *warning),
+        _ => GUARD,
     };
     message.write::<S>(text);
 }
 
-/// The template for an importer with the other order of execution or with bodies that contacts share, otherwise that of the passivity
-/// `guard`.
-fn miswired<S: Scene>(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
-    let Warning::Miswired { contact, rate, expected, parallel, shared_with } = warning else { return guard };
+/// The template for what the passivity guard does.
+const GUARD: &str = "@";
+
+/// The template for an importer with the other order of execution or with bodies that contacts share, otherwise that of the
+/// passivity guard.
+fn miswired<S: Scene>(message: &mut Message, warning: Warning) -> &'static str {
+    let Warning::Miswired { contact, rate, expected, parallel, shared_with } = warning else { return GUARD };
     message.contact = Some(contact);
     (message.numbers[0], message.numbers[1]) = (rate, expected);
-    if S::CONTACTS > 1
+    if S::contacts() > 1
         && let Some(other) = shared_with
     {
         message.numbers[2] = other as f64 + 1.0;
         return match () {
-            () if S::InverseMasses::LENGTH > 0 => {
+            () if S::inverse_mass_inputs() > 0 => {
                 "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one otherwise than the \
                  inputs inverse_mass say; set them from the masses of the bodies"
             }
-            () if S::Shared::IS_PRESENT => {
+            () if S::is_shared() => {
                 "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one otherwise than the \
                  tables [[body]] of the scene say"
             }

@@ -100,7 +100,7 @@ pub unsafe fn serialized_fmu_state_size<S: Scene>(
     unsafe {
         call::<S>(c, order::SERIALIZED_FMU_STATE_SIZE, |_| {
             Snapshot::<S>::at(FMUstate)?;
-            *object(size, "size")? = Snapshot::<S>::SERIALIZED_SIZE;
+            *object(size, "size")? = Snapshot::<S>::serialized_size();
             Ok(())
         })
     }

@@ -7,7 +7,7 @@ use super::variables::{any_real, get_any_real, real};
 use crate::c::complaint::Complaint;
 use crate::c::handle::{Handle, array, array_mut};
 use crate::instance::{Fault, Plain};
-use crate::scene::{Presence, Real, Scene};
+use crate::scene::{Real, Scene};
 use brinell_contact::Contact;
 
 /// Reference of the input of the first contact.
@@ -33,7 +33,7 @@ pub unsafe fn do_step<S: Scene>(
         match component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize) {
             Plain::Done => {
                 // a single contact leaves its branch when it becomes too deep
-                if S::CONTACTS > 1 {
+                if S::contacts() > 1 {
                     if component.instance.is_guard_seen() {
                         component.warn_of_guard(order::DO_STEP);
                     }
@@ -108,8 +108,8 @@ pub unsafe fn set_real_input_derivatives<S: Scene>(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
-        if S::CONTACTS == 1
-            && S::Course::IS_PRESENT
+        if S::contacts() == 1
+            && S::has_course()
             && let Some(component) = Component::<S>::behind(c)
             && !vr.is_null()
             && !order.is_null()
@@ -150,7 +150,7 @@ unsafe fn set_any_input_derivatives<S: Scene>(
                 component.instance.check_input_derivative(any_real::<S>(reference)?, order, value)?;
             }
             // those of a single contact have already been set if they were valid, except for the tangential rate
-            for ((&reference, &order), &value) in all().filter(|_| S::CONTACTS > 1 || S::Contact::HAS_FRICTION) {
+            for ((&reference, &order), &value) in all().filter(|_| S::contacts() > 1 || S::Contact::HAS_FRICTION) {
                 component.instance.set_input_derivative(any_real::<S>(reference)?, order, value);
             }
             Ok(())

@@ -29,8 +29,8 @@ const FORCE: u32 = 1;
 #[inline(always)]
 fn contact_of<S: Scene>(kind: u32, reference: fmi2ValueReference) -> Option<usize> {
     // for a smaller reference, the difference is a very large number
-    let contact = reference.wrapping_sub(kind * S::CONTACTS as u32) as usize;
-    (contact < S::CONTACTS).then_some(contact)
+    let contact = reference.wrapping_sub(kind * S::contacts() as u32) as usize;
+    (contact < S::contacts()).then_some(contact)
 }
 
 /// The contact of a call for a single variable of this `kind`, if surely no pointer is null.
@@ -54,7 +54,7 @@ unsafe fn only_one<S: Scene>(
 
 /// The first contact of consecutive contacts whose variables of this `kind` have these references.
 fn run_of<S: Scene>(kind: u32, references: &[fmi2ValueReference]) -> Option<usize> {
-    let &first = references.first().filter(|_| S::CONTACTS > 1)?;
+    let &first = references.first().filter(|_| S::contacts() > 1)?;
     let mut other = false;
     for (index, &reference) in references.iter().enumerate() {
         other |= reference.wrapping_sub(first) != index as u32;
@@ -193,7 +193,7 @@ unsafe fn set_any_real<S: Scene>(
                 component.instance.parameters_are_set();
             }
             // with many contacts, checking each of them takes long
-            if S::CONTACTS == 1 || values.iter().any(|&value| component.instance.may_be_fast(value)) {
+            if S::contacts() == 1 || values.iter().any(|&value| component.instance.may_be_fast(value)) {
                 component.warn_of_limits(order::SET_REAL);
             }
             Ok(())

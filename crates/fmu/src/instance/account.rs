@@ -94,12 +94,9 @@ const DIFFERENT: f64 = 1e-2;
 const ROUNDING: f64 = 1e-8;
 
 impl<S: Scene> Instance<S> {
-    /// Whether the FMU moves the bodies.
-    pub(super) const MOVES: bool = <S::Coupling as Coupling>::Ending::IS_PRESENT;
-
     /// Effective mass of `contact` \[kg\]. Of contacts that share bodies, it is that of this contact alone.
     pub(super) fn mass(&self, contact: usize) -> f64 {
-        if S::Shared::IS_PRESENT {
+        if S::is_shared() {
             let inverse = self.inverse_masses().of(contact, contact);
             return quotient(1.0, inverse, inverse > 0.0, f64::MAX);
         }
@@ -121,7 +118,7 @@ impl<S: Scene> Instance<S> {
     /// The part of the given rate of a row that the importer has yet to remove \[m/s\].
     pub(super) fn owed(&self, row: usize) -> f64 {
         let accounts = self.contacts.accounts.as_ref();
-        match is_parallel::<S>() {
+        match S::is_parallel() {
             true => self.response(row, |other| accounts.get(other).map_or(0.0, |account| account.debt)),
             false => 0.0,
         }
@@ -130,11 +127,11 @@ impl<S: Scene> Instance<S> {
     /// The change of the speed of a row by these impulses \[N.s\] of all rows of contacts that share its bodies: how much it
     /// loses \[m/s\]. With forces \[N\], it is an acceleration.
     pub(super) fn response(&self, row: usize, impulse: impl Fn(usize) -> f64) -> f64 {
-        if !S::Shared::IS_PRESENT {
+        if !S::is_shared() {
             return impulse(row) / self.mass(row);
         }
         let masses = self.inverse_masses();
-        (0..S::ROWS).map(|other| masses.of(row, other) * impulse(other)).sum()
+        (0..S::rows()).map(|other| masses.of(row, other) * impulse(other)).sum()
     }
 
     /// Records the end of a `step` \[s\] of `contact`: its `speed` \[m/s\] and its `mean_force` \[N\].
@@ -150,7 +147,8 @@ impl<S: Scene> Instance<S> {
     pub(super) fn book(&mut self, row: usize, speed: f64, mean_force: f64, step: f64) -> f64 {
         let Contacts { endings, accounts, .. } = &mut self.contacts;
         let Some(ending) = endings.as_mut().get_mut(row) else { return 0.0 };
-        let force = match accounts.as_mut().get_mut(row) {
+        let account = accounts.as_mut().get_mut(row).filter(|_| S::is_parallel());
+        let force = match account {
             Some(account) => account.book(mean_force * step, ending.force, step),
             None => mean_force,
         };
@@ -168,7 +166,7 @@ impl<S: Scene> Instance<S> {
         };
         let expected = ending.speed + self.owed(contact);
         // a serial importer has already applied the new force, a parallel one still the old force
-        let other = if is_parallel::<S>() { -ending.jump } else { ending.jump };
+        let other = if S::is_parallel() { -ending.jump } else { ending.jump };
         let size = rate.abs() + ending.speed.abs() + expected.abs();
         if other.abs() > TELLING * size && (rate - expected - other).abs() <= ROUNDING * other.abs() {
             let wiring = Miswired { contact: contact as u32 + 1, rate, expected, other: 0 };
@@ -181,20 +179,20 @@ impl<S: Scene> Instance<S> {
         let Miswired { contact, rate, expected, other } = core::mem::take(self.contacts.miswired.as_mut().first_mut()?);
         let contact = contact.checked_sub(1)? as usize;
         let shared_with = other.checked_sub(1).map(|other| other as usize);
-        Some(Warning::Miswired { contact, rate, expected, parallel: is_parallel::<S>(), shared_with })
+        Some(Warning::Miswired { contact, rate, expected, parallel: S::is_parallel(), shared_with })
     }
 
     /// Looks for contacts that share a body of which the FMU does not know, or with another mass than it knows: in two steps, the rate of a contact
     /// differs from the expected one by the same multiple of the force of another contact, which alone pushes.
     pub(super) fn check_sharing(&mut self) {
-        if S::CONTACTS < 2 || !Self::MOVES {
+        if S::contacts() < 2 || !S::moves() {
             return;
         }
         let mut pushing = None;
         let mut count = 0_usize;
         let Contacts { endings, suspects, .. } = &mut self.contacts;
         for (contact, (ending, suspect)) in endings.as_ref().iter().zip(suspects.as_mut()).enumerate() {
-            let applied = if is_parallel::<S>() { suspect.before } else { ending.force };
+            let applied = if S::is_parallel() { suspect.before } else { ending.force };
             suspect.before = ending.force;
             if applied != 0.0 {
                 pushing = Some((contact, applied));
@@ -202,7 +200,7 @@ impl<S: Scene> Instance<S> {
             }
         }
         let Some((other, force)) = pushing.filter(|_| count == 1) else { return };
-        for contact in (0..S::CONTACTS).filter(|&contact| contact != other) {
+        for contact in (0..S::contacts()).filter(|&contact| contact != other) {
             let (Some(ending), Some(&rate)) = (self.contacts.endings.as_ref().get(contact), self.rates().get(contact))
             else {
                 continue;
@@ -225,11 +223,6 @@ impl<S: Scene> Instance<S> {
             }
         }
     }
-}
-
-/// Whether the scene is for an importer that steps all FMUs at once.
-fn is_parallel<S: Scene>() -> bool {
-    <S::Coupling as Coupling>::Account::IS_PRESENT
 }
 
 /// A contact whose rate came from an importer with the other order of execution, until the warning is taken.

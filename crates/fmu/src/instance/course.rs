@@ -4,8 +4,10 @@ use super::*;
 
 impl<S: Scene> Instance<S> {
     /// Whether a step with derivatives of the input concerns a single contact that follows its input.
-    pub(super) const ALONE: bool =
-        S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT && !S::Contact::HAS_FRICTION;
+    #[inline(always)]
+    pub(super) fn is_alone() -> bool {
+        S::contacts() == 1 && Self::is_plain() && S::has_course() && !S::Contact::HAS_FRICTION
+    }
 
     /// Moves the single contact for `step` \[s\], to the time `end` \[s\], along the course of its input.
     #[inline(never)]
@@ -15,7 +17,7 @@ impl<S: Scene> Instance<S> {
         let course = curves.as_ref().first().copied().unwrap_or_default().course(rate);
         let deep = self.deep;
         let mut mean_force = 0.0;
-        if S::Momentum::IS_PRESENT {
+        if S::has_momentum() {
             let (mut history, model) = (*history, self.model(0));
             let moved = history.step_with_mean_force(&course, step, || model);
             let (deepest, mean) = moved.map_err(|deep| too_deep(0, deep))?;

@@ -12,7 +12,10 @@ use core::f64::consts::PI;
 
 impl<S: Scene> Instance<S> {
     /// The highest order of the derivative of an input.
-    pub const INPUT_ORDER: i32 = if S::FOLLOW.is_some() { 1 } else { 2 };
+    #[inline(always)]
+    pub fn input_order() -> i32 {
+        if S::moves() { 1 } else { 2 }
+    }
 
     /// Checks whether the derivative of this `order` of an input may be set to `value` now.
     ///
@@ -21,7 +24,7 @@ impl<S: Scene> Instance<S> {
     /// [`Fault::NoInputDerivatives`] for a rate-dependent law, where the acceleration is an input, and where the scene doesn't want
     /// them.
     pub fn check_input_derivative(&self, (variable, _): (Real, usize), order: i32, value: f64) -> Result<(), Fault> {
-        if !S::Course::IS_PRESENT || S::has_input(Real::ExternalAcceleration) {
+        if !S::has_course() || S::has_input(Real::ExternalAcceleration) {
             return Err(Fault::NoInputDerivatives);
         }
         let (inputs, name) = match variable {
@@ -33,7 +36,7 @@ impl<S: Scene> Instance<S> {
         if variable != Real::IndentationRate && !is_tangential {
             return Err(Fault::NoDerivative { of: inputs });
         }
-        check_order(order, Self::INPUT_ORDER)?;
+        check_order(order, Self::input_order())?;
         if value.is_finite() { Ok(()) } else { Err(Fault::NotFinite { name, value }) }
     }
 
@@ -63,7 +66,7 @@ impl<S: Scene> Instance<S> {
         let mut numbers = [before.slope, before.bend];
         for (order, value) in derivatives {
             match numbers.get_mut((order as u32).wrapping_sub(1) as usize) {
-                Some(number) if order <= Self::INPUT_ORDER && value.is_finite() => *number = value,
+                Some(number) if order <= Self::input_order() && value.is_finite() => *number = value,
                 _ => return false,
             }
         }
@@ -103,7 +106,7 @@ impl<S: Scene> Instance<S> {
         if !variable.is_output() {
             return Err(Fault::NoDerivative { of: "outputs" });
         }
-        check_order(order, S::Contact::DERIVATIVES)?;
+        check_order(order, S::derivatives())?;
         let derivative = self.derivatives(variable, contact).map_or(f64::NAN, |(first, second)| match order {
             1 => first,
             _ => second,
@@ -127,7 +130,7 @@ impl<S: Scene> Instance<S> {
             return Some(history.tangential_derivatives(&model, quantity, &normal, &tangential));
         }
         let variable = match output {
-            Real::Force if S::Contact::DERIVATIVES < 2 => return Some((stiffness * rate, 0.0)),
+            Real::Force if S::derivatives() < 2 => return Some((stiffness * rate, 0.0)),
             Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
             Real::Indentation => return Some((rate, slope)),
             Real::MaxIndentation => {
@@ -146,17 +149,17 @@ impl<S: Scene> Instance<S> {
             | Real::PredictedTangentialForce
             | Real::SecondPredictedTangentialForce => return Some((0.0, 0.0)),
             // the force changes with the distance
-            Real::ClosingSpeed if Self::MOVES => {
+            Real::ClosingSpeed if S::moves() => {
                 return Some((slope, -self.response(contact, |other| self.growth_of_force(other))));
             }
             Real::TangentialSpeed | Real::SecondTangentialSpeed => {
                 let direction = usize::from(output == Real::SecondTangentialSpeed);
                 let slope = self.tangential_end_of(contact, direction).slope;
-                let row = (1 + direction) * S::CONTACTS + contact;
+                let row = (1 + direction) * S::contacts() + contact;
                 return Some((slope, -self.response(row, |other| self.growth_of_force(other))));
             }
             // the heat is not a function of the indentation, but the remaining part of the work is
-            Real::DissipatedEnergy if S::Contact::FOLLOWS_RATE => Real::ElasticEnergy,
+            Real::DissipatedEnergy if S::follows_rate() => Real::ElasticEnergy,
             variable => variable,
         };
         if history.regime() == Regime::Apart {
@@ -164,7 +167,7 @@ impl<S: Scene> Instance<S> {
         }
         let (first, second) =
             by_time(slopes(history, &model, |contact| of_state::<S>(variable, contact, &model, rate)));
-        let rest = output == Real::DissipatedEnergy && S::Contact::FOLLOWS_RATE;
+        let rest = output == Real::DissipatedEnergy && S::follows_rate();
         Some(if rest { (work.0 - first, work.1 - second) } else { (first, second) })
     }
 
@@ -258,11 +261,11 @@ impl<S: Scene> Instance<S> {
             let force = |rate| self.tangential_prediction_at(contact, of, rate, None);
             return if self.clock.curved { Some(0.0) } else { slope_at(rate, force) };
         }
-        if Self::MOVES && variable == Real::ClosingSpeed && self.phase() == Phase::Initialization {
+        if S::moves() && variable == Real::ClosingSpeed && self.phase() == Phase::Initialization {
             return Some(1.0);
         }
         // bodies that the FMU moves have their own speed
-        if !S::Contact::FOLLOWS_RATE || Self::MOVES && self.own_speed(contact).is_some() {
+        if !S::follows_rate() || S::moves() && self.own_speed(contact).is_some() {
             return Some(0.0);
         }
         let (damping, model) = (history.damping(rate), self.model(contact));
@@ -285,7 +288,7 @@ impl<S: Scene> Instance<S> {
         }
         // of the other contacts, the indentation isn't the distance, or the force follows the rate
         let finds_strength = S::Contact::FINDS_STRENGTH && self.histories().get(contact)?.regime() == Regime::Apart;
-        if S::Contact::DERIVATIVES == 2 && !finds_strength {
+        if S::derivatives() == 2 && !finds_strength {
             return Some(self.predicted(contact, model, rate)?.stiffness(rate) * self.last_step());
         }
         // the speed of a first touch within the step also depends on the input

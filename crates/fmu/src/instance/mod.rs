@@ -21,6 +21,7 @@ pub use clock::{LATEST, Phase, SHORTEST};
 pub use fault::{Fault, Warning};
 pub use stepping::Plain;
 
+use crate::c::span::Free;
 use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
 use account::{Account, Ending, Miswired, Suspect};
 use brinell_contact::behaviour::is_finite_at;
@@ -74,6 +75,8 @@ struct Contacts<S: Scene> {
     checked: bool,
     /// Working memory of a step of all contacts together.
     works: IfPresent<S::Shared, S, Work<S::Contact>>,
+    /// The same, for each [number](together::Number) of rows.
+    numbers: [RowsIfPresent<S::Shared, S, f64>; 4],
 }
 
 /// Values that follow from the parameters.
@@ -86,6 +89,61 @@ struct Settings<S: Scene> {
     stamp: u64,
     bodies: S::Groups<BodiesOf<S>>,
     values: S::Values,
+}
+
+/// Calls `each` for every array of an instance whose length follows from the scene, with this length.
+macro_rules! arrays {
+    ($each:ident) => {
+        $each!((contacts.rates) S::contacts());
+        $each!((contacts.histories) S::contacts());
+        $each!((contacts.forces) S::stored_forces());
+        $each!((contacts.momenta) S::momenta());
+        $each!((contacts.curves) S::curves());
+        $each!((contacts.endings) S::moved_rows());
+        $each!((contacts.accounts) S::accounts());
+        $each!((contacts.accelerations) S::accelerations());
+        $each!((contacts.masses) S::masses());
+        $each!((contacts.watched) S::watched());
+        $each!((contacts.suspects) S::moved_contacts());
+        $each!((contacts.moments) S::shared_rows());
+        $each!((contacts.inverse_masses) S::inverse_mass_inputs());
+        $each!((contacts.scratch) S::inverse_mass_inputs());
+        $each!((contacts.works) S::shared_contacts());
+        $each!((contacts.numbers[0]) S::shared_rows());
+        $each!((contacts.numbers[1]) S::shared_rows());
+        $each!((contacts.numbers[2]) S::shared_rows());
+        $each!((contacts.numbers[3]) S::shared_rows());
+        $each!((settings.bodies) S::groups());
+        $each!((settings.values) S::values());
+    };
+}
+
+/// The memory that `count` values of the array that `_of` gives take outside of it \[bytes\].
+#[inline(always)]
+fn outside<O, T, A: Store<T>>(_of: impl Fn(&O) -> &A, count: usize) -> usize {
+    A::outside(count)
+}
+
+impl<S: Scene> Instance<S> {
+    /// The memory of its arrays outside of the instance \[bytes\]: zero for a scene whose numbers the compiler knows.
+    #[inline(always)]
+    pub fn outside() -> usize {
+        let mut sum = 0;
+        macro_rules! add {
+            (($($field:tt)+) $count:expr) => { sum += outside(|instance: &Instance<S>| &instance.$($field)+, $count) };
+        }
+        arrays!(add);
+        sum
+    }
+
+    /// Places its arrays in [as much](Instance::outside) `free` memory.
+    #[inline(always)]
+    pub fn place(&mut self, mut free: Free) {
+        macro_rules! place {
+            (($($field:tt)+) $count:expr) => { self.$($field)+.place($count, &mut free) };
+        }
+        arrays!(place);
+    }
 }
 
 /// A contact whose indentation was beyond the validity of its law at some time in a step, kept until the warning is
@@ -142,13 +200,17 @@ impl<S: Scene> Settings<S> {
 
 impl<S: Scene> Instance<S> {
     /// Whether a step is plain if it takes only a few comparisons for each contact.
-    const PLAIN: bool = S::FOLLOW.is_none();
+    #[inline(always)]
+    fn is_plain() -> bool {
+        !S::moves()
+    }
 
     /// All steps are longer than this \[s\].
-    const SHORTEST: f64 = {
-        let divides = S::Momentum::IS_PRESENT || S::FOLLOW.is_some() || S::Contact::HAS_FRICTION;
+    #[inline(always)]
+    fn shortest() -> f64 {
+        let divides = S::has_momentum() || S::moves() || S::Contact::HAS_FRICTION;
         if divides { SHORTEST } else { 0.0 }
-    };
+    }
 
     fn histories(&self) -> &[S::Contact] {
         self.contacts.histories.as_ref()
@@ -160,7 +222,8 @@ impl<S: Scene> Instance<S> {
 
     /// The contact of a row, and its tangential direction; `None` for the normal.
     fn place_of(row: usize) -> (usize, Option<usize>) {
-        (row % S::CONTACTS, (row / S::CONTACTS).checked_sub(1))
+        let contacts = S::contacts();
+        (row.checked_rem(contacts).unwrap_or(0), row.checked_div(contacts).unwrap_or(0).checked_sub(1))
     }
 
     /// The rate of a row that the importer has given \[m/s\].
@@ -236,10 +299,10 @@ impl<S: Scene> Instance<S> {
     pub fn exit_initialization(&mut self) -> Result<(), Fault> {
         self.start()?;
         for (history, &rate) in self.histories().iter().zip(self.rates()) {
-            check_rate(history, rate)?;
+            check_rate::<S>(history, rate)?;
         }
         // moved bodies have their speed from the start
-        for row in 0..S::ROWS {
+        for row in 0..S::rows() {
             let rate = self.given_rate(row);
             self.contacts.endings.as_mut().get_mut(row).into_iter().for_each(|ending| ending.speed = rate);
         }
@@ -278,6 +341,6 @@ fn is_mass(mass: f64) -> bool {
     MASSES.contains(&mass)
 }
 
-fn check_rate<M, C: Contact<M>>(history: &C, rate: f64) -> Result<(), Fault> {
-    if is_finite_at(history, rate) { Ok(()) } else { Err(Fault::TooFast { rate }) }
+fn check_rate<S: Scene>(history: &S::Contact, rate: f64) -> Result<(), Fault> {
+    if !S::follows_rate() || is_finite_at(history, rate) { Ok(()) } else { Err(Fault::TooFast { rate }) }
 }

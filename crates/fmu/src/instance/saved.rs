@@ -2,6 +2,7 @@
 
 use super::start::pair_of;
 use super::*;
+use crate::scene::Real;
 use brinell_contact::words::{count, load_kept, load_numbers, store_kept, store_numbers};
 
 impl<S: Scene> Instance<S> {
@@ -9,39 +10,44 @@ impl<S: Scene> Instance<S> {
     const TIMES: [bool; 3] = [true, true, S::Prediction::IS_PRESENT];
 
     /// Which numbers of a [`Curve`] are stored: the derivatives that its input may have, and the end of the last step.
-    const CURVE: [bool; 4] = {
-        let has_course = S::Course::IS_PRESENT;
-        let has_slope = has_course && !<S::Coupling as Coupling>::Acceleration::IS_PRESENT;
-        [has_slope, has_slope && Self::INPUT_ORDER > 1, has_course, has_course]
-    };
+    fn kept_of_curve() -> [bool; 4] {
+        let has_course = S::has_course();
+        let has_slope = has_course && !S::has_input(Real::ExternalAcceleration);
+        [has_slope, has_slope && Self::input_order() > 1, has_course, has_course]
+    }
 
     /// Which numbers of a [`Momentum`] are stored. The mean force of bodies that the FMU moves is that of their [`Ending`].
-    const MOMENTUM: [bool; 3] = {
-        let has_momentum = S::Momentum::IS_PRESENT;
-        [has_momentum, has_momentum, has_momentum && !Self::MOVES]
-    };
+    fn kept_of_momentum() -> [bool; 3] {
+        let has_momentum = S::has_momentum();
+        [has_momentum, has_momentum, has_momentum && !S::moves()]
+    }
 
     /// Number of words of a contact.
-    const CONTACT_WORDS: usize = 1
-        + S::Contact::WORDS
-        + count(Self::CURVE)
-        + count(Self::MOMENTUM)
-        + <S::Coupling as Coupling>::Mass::IS_PRESENT as usize;
+    fn contact_words() -> usize {
+        1 + S::Contact::WORDS
+            + count(Self::kept_of_curve())
+            + count(Self::kept_of_momentum())
+            + usize::from(S::has_input(Real::EffectiveMass))
+    }
 
     /// Number of words of a row.
-    const ROW_WORDS: usize = if <S::Coupling as Coupling>::Ending::IS_PRESENT { Ending::WORDS } else { 0 }
-        + if <S::Coupling as Coupling>::Account::IS_PRESENT { Account::WORDS } else { 0 }
-        + <S::Coupling as Coupling>::Acceleration::IS_PRESENT as usize
-        + S::Shared::IS_PRESENT as usize;
+    fn row_words() -> usize {
+        usize::from(S::moves()) * Ending::WORDS
+            + usize::from(S::is_parallel()) * Account::WORDS
+            + usize::from(S::has_input(Real::ExternalAcceleration))
+            + usize::from(S::is_shared())
+    }
 
     /// Number of words that hold an instance.
-    pub const WORDS: usize = 2
-        + count(Self::TIMES)
-        + <S::Values as Store<f64>>::LENGTH
-        + S::InverseMasses::LENGTH
-        + 2 * S::GROUPS
-        + Self::CONTACT_WORDS * S::CONTACTS
-        + Self::ROW_WORDS * S::ROWS;
+    #[inline(always)]
+    pub fn words() -> usize {
+        2 + count(Self::TIMES)
+            + S::values()
+            + S::inverse_mass_inputs()
+            + 2 * S::groups()
+            + Self::contact_words() * S::contacts()
+            + Self::row_words() * S::rows()
+    }
 
     /// Makes this instance equal to `other` and returns true. If the parameters differ, or `other` is in fact of another scene, it
     /// changes nothing and returns false.
@@ -51,29 +57,29 @@ impl<S: Scene> Instance<S> {
             return false;
         }
         let (own, given) = (&mut self.contacts, &other.contacts);
-        own.rates.as_mut().copy_from_slice(given.rates.as_ref());
-        if S::CONTACTS == 1 {
+        put_all(own.rates.as_mut(), given.rates.as_ref());
+        if S::contacts() == 1 {
             let histories = own.histories.as_mut().iter_mut().zip(given.histories.as_ref());
             histories.for_each(|(own, history)| own.copy_from(history));
         } else {
-            own.histories.as_mut().copy_from_slice(given.histories.as_ref());
+            put_all(own.histories.as_mut(), given.histories.as_ref());
         }
-        own.forces.as_mut().copy_from_slice(given.forces.as_ref());
-        own.momenta.as_mut().copy_from_slice(given.momenta.as_ref());
-        own.last_step.as_mut().copy_from_slice(given.last_step.as_ref());
-        own.endings.as_mut().copy_from_slice(given.endings.as_ref());
-        own.accounts.as_mut().copy_from_slice(given.accounts.as_ref());
-        own.accelerations.as_mut().copy_from_slice(given.accelerations.as_ref());
-        own.masses.as_mut().copy_from_slice(given.masses.as_ref());
-        own.moments.as_mut().copy_from_slice(given.moments.as_ref());
-        own.inverse_masses.as_mut().copy_from_slice(given.inverse_masses.as_ref());
+        put_all(own.forces.as_mut(), given.forces.as_ref());
+        put_all(own.momenta.as_mut(), given.momenta.as_ref());
+        put_all(own.last_step.as_mut(), given.last_step.as_ref());
+        put_all(own.endings.as_mut(), given.endings.as_ref());
+        put_all(own.accounts.as_mut(), given.accounts.as_ref());
+        put_all(own.accelerations.as_mut(), given.accelerations.as_ref());
+        put_all(own.masses.as_mut(), given.masses.as_ref());
+        put_all(own.moments.as_mut(), given.moments.as_ref());
+        put_all(own.inverse_masses.as_mut(), given.inverse_masses.as_ref());
         own.checked = given.checked;
         // without derivatives, the stored curves are meaningless
         if other.clock.curved {
-            own.curves.as_mut().copy_from_slice(given.curves.as_ref());
+            put_all(own.curves.as_mut(), given.curves.as_ref());
         }
         self.clock = other.clock;
-        if S::GUARD.is_some() {
+        if S::guard().is_some() {
             // what has been told of the other contacts is not known here
             self.look();
         }
@@ -84,13 +90,13 @@ impl<S: Scene> Instance<S> {
     #[inline(never)]
     pub fn copy(&mut self, other: &Instance<S>) {
         let (own, given) = (&mut self.settings, &other.settings);
-        own.bodies.as_mut().copy_from_slice(given.bodies.as_ref());
-        own.values = given.values;
+        put_all(own.bodies.as_mut(), given.bodies.as_ref());
+        put_all(own.values.as_mut(), given.values.as_ref());
         (own.largest_rate, own.stamp) = (given.largest_rate, given.stamp);
         self.copy_alike(other);
     }
 
-    /// Passes the [`Instance::WORDS`] words of the instance to `store`. Equal instances have equal words.
+    /// Passes the [`Instance::words`] words of the instance to `store`. Equal instances have equal words.
     pub fn save(&self, mut store: impl FnMut(u64)) {
         let last_step = self.contacts.last_step.as_ref().first().copied().unwrap_or(0.0);
         let flags = u64::from(self.clock.experiment_defined) | u64::from(self.clock.curved) << 1;
@@ -110,34 +116,37 @@ impl<S: Scene> Instance<S> {
             if let Some(curve) = curves.get(contact) {
                 // without derivatives, the stored curves are meaningless
                 let curve = if self.clock.curved { *curve } else { Curve::default() };
-                curve.save(Self::CURVE, &mut store);
+                curve.save(Self::kept_of_curve(), &mut store);
             }
             if let Some(momentum) = momenta.get(contact) {
-                momentum.save(Self::MOMENTUM, &mut store);
+                momentum.save(Self::kept_of_momentum(), &mut store);
             }
             self.contacts.masses.as_ref().get(contact).into_iter().for_each(|mass| store(mass.to_bits()));
         }
-        for row in 0..S::ROWS {
+        for row in 0..S::rows() {
             self.save_row(row, &mut store);
         }
     }
 
     /// Makes this the instance that [`Instance::save`] has stored, with each word as little-endian bytes, and returns true. If
-    /// the words are not valid, it changes nothing and returns false.
+    /// the words are not valid, it returns false; part of them may then have been taken, and the instance must be reset or loaded
+    /// before use.
     pub fn load(&mut self, words: &[[u8; 8]]) -> bool {
-        // the first pass checks everything, the second pass writes
-        words.len() == Self::WORDS && self.read(words, false).is_some() && self.read(words, true).is_some()
+        words.len() == Self::words() && self.read(words).is_some()
     }
 
-    /// Reads all words, and writes the values if `in_earnest`; `None` if the words are not a valid instance.
+    /// Reads all words; `None` if they are not a valid instance.
     #[inline(never)]
-    fn read(&mut self, words: &[[u8; 8]], in_earnest: bool) -> Option<()> {
+    fn read(&mut self, words: &[[u8; 8]]) -> Option<()> {
         let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
         let (phase, flags) = (words.next()?, words.next().filter(|&flags| flags <= 3)?);
         let phase = Phase::ALL.into_iter().find(|&known| known as u64 == phase)?;
         let [time, stop, last_step] = load_kept(Self::TIMES, &mut words)?;
         let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
-        let mut values = S::start_values();
+        let Settings { bodies, values, stamp, .. } = &mut self.settings;
+        // that of no scene, until all is known
+        *stamp = 0;
+        S::set_start_values(values);
         for (index, value) in values.as_mut().iter_mut().enumerate() {
             let Some((settable, _)) = S::settable(index) else {
                 // a constant of the scene, which may be infinite
@@ -151,82 +160,61 @@ impl<S: Scene> Instance<S> {
                 return None;
             }
         }
-        for place in 0..S::InverseMasses::LENGTH {
-            let [entry] = load_numbers(&mut words)?;
-            if in_earnest && let Some(slot) = self.contacts.inverse_masses.as_mut().get_mut(place) {
-                *slot = entry;
-            }
+        for entry in self.contacts.inverse_masses.as_mut() {
+            [*entry] = load_numbers(&mut words)?;
         }
         let unfit = !matches!(phase, Phase::StepComplete | Phase::Terminated);
-        let sizes = words.clone();
-        for (group, bodies) in self.settings.bodies.as_mut().iter_mut().enumerate() {
+        for (group, bodies) in bodies.as_mut().iter_mut().enumerate() {
             let [radius, modulus] = load_numbers(&mut words)?;
-            let (radius, modulus) = match pair_of::<S>(group, &values) {
+            (bodies.radius, bodies.modulus) = match pair_of::<S>(group, values) {
                 Ok(pair) => (pair.radius, pair.modulus),
                 // with parameters that do not fit together, the previous bodies stay
                 Err(_) if unfit && radius > 0.0 && modulus > 0.0 => (radius, modulus),
                 Err(_) => return None,
             };
-            if in_earnest {
-                (bodies.radius, bodies.modulus) = (radius, modulus);
-            }
         }
         let Contacts { histories, rates, curves, momenta, endings, accounts, accelerations, masses, moments, .. } =
             &mut self.contacts;
         let mut masses = masses.as_mut().iter_mut();
         let (mut curves, mut momenta) = (curves.as_mut().iter_mut(), momenta.as_mut().iter_mut());
         let slots = histories.as_mut().iter_mut().zip(rates.as_mut());
-        for (contact, (history_slot, rate_slot)) in slots.enumerate() {
+        for (contact, (history, rate)) in slots.enumerate() {
             let group = S::group(contact);
-            // in the first pass, these may be the bodies of a blank instance, for which no law can be evaluated; contacts with
-            // friction or a loss evaluate theirs
-            let asks = S::Contact::HAS_FRICTION || S::Contact::FOLLOWS_RATE;
-            let read = match in_earnest || !asks {
-                true => None,
-                false => Some(bodies_of::<S>(group, &values, sizes.clone())?),
-            };
-            let bodies = read.as_ref().or(self.settings.bodies.as_ref().get(group))?;
-            let model = model_of::<S>(group, bodies, &values);
-            let [rate] = load_numbers(&mut words)?;
-            if f64::abs(rate) > FASTEST {
+            let model = model_of::<S>(group, self.settings.bodies.as_ref().get(group)?, &self.settings.values);
+            [*rate] = load_numbers(&mut words)?;
+            if f64::abs(*rate) > FASTEST {
                 return None;
             }
-            let history = S::Contact::load(&mut words, &model)?;
+            *history = S::Contact::load(&mut words, &model)?;
             for direction in 0..S::Contact::DIRECTIONS {
                 if f64::abs(history.tangential_course(direction).rate) > FASTEST {
                     return None;
                 }
             }
-            let curve = Curve::load(Self::CURVE, &mut words)?;
-            let momentum = Momentum::load(Self::MOMENTUM, &mut words)?;
-            if in_earnest {
-                (*history_slot, *rate_slot) = (history, rate);
-                curves.next().into_iter().for_each(|slot| *slot = curve);
-                momenta.next().into_iter().for_each(|slot| *slot = momentum);
-            }
-            put(masses.next(), in_earnest, || {
+            let curve = Curve::load(Self::kept_of_curve(), &mut words)?;
+            curves.next().into_iter().for_each(|slot| *slot = curve);
+            let momentum = Momentum::load(Self::kept_of_momentum(), &mut words)?;
+            momenta.next().into_iter().for_each(|slot| *slot = momentum);
+            put(masses.next(), || {
                 let [mass] = load_numbers(&mut words)?;
                 is_mass(mass).then_some(mass)
             })?;
         }
-        for row in 0..S::ROWS {
-            put(endings.as_mut().get_mut(row), in_earnest, || Ending::load(&mut words))?;
-            put(accounts.as_mut().get_mut(row), in_earnest, || Account::load(&mut words))?;
-            put(accelerations.as_mut().get_mut(row), in_earnest, || load_numbers(&mut words).map(|[value]| value))?;
-            put(moments.as_mut().get_mut(row), in_earnest, || load_numbers(&mut words).map(|[moment]| moment))?;
+        for row in 0..S::rows() {
+            put(endings.as_mut().get_mut(row), || Ending::load(&mut words))?;
+            put(accounts.as_mut().get_mut(row), || Account::load(&mut words))?;
+            put(accelerations.as_mut().get_mut(row), || load_numbers(&mut words).map(|[value]| value))?;
+            put(moments.as_mut().get_mut(row), || load_numbers(&mut words).map(|[moment]| moment))?;
         }
-        if in_earnest {
-            self.contacts.checked = false;
-            self.settings.values = values;
-            self.stamp_parameters();
-            self.clock = clock;
-            self.clock.set_phase(phase, self.settings.largest_rate);
-            self.clock.curved = flags & 2 != 0;
-            self.contacts.last_step.as_mut().fill(last_step);
-            // the earlier warnings are not known here
-            self.look();
-            self.note_forces();
-        }
+        self.contacts.checked = false;
+        self.stamp_parameters();
+        self.clock = clock;
+        self.clock.set_phase(phase, self.settings.largest_rate);
+        self.clock.curved = flags & 2 != 0;
+        self.contacts.last_step.as_mut().fill(last_step);
+        // the earlier warnings are not known here
+        self.look();
+        self.note_forces();
         Some(())
     }
 
@@ -244,23 +232,18 @@ impl<S: Scene> Instance<S> {
     }
 }
 
-/// The bodies of `group` with these parameters; where they do not fit together, of the radius and the modulus in `sizes`, the
-/// words of all groups.
-fn bodies_of<S: Scene>(group: usize, values: &S::Values, sizes: impl Iterator<Item = u64>) -> Option<BodiesOf<S>> {
-    let [radius, modulus] = match pair_of::<S>(group, values) {
-        Ok(pair) => [pair.radius, pair.modulus],
-        Err(_) => load_numbers(&mut sizes.skip(2 * group))?,
-    };
-    Some(Bodies { radius, modulus, ..Bodies::default() })
+/// Copies `values` to as many slots.
+#[inline(always)]
+fn put_all<T: Copy>(slots: &mut [T], values: &[T]) {
+    if slots.len() == values.len() {
+        slots.copy_from_slice(values);
+    }
 }
 
-/// Writes the result of `load` to its slot, if the scene has one and this is `in_earnest`; `None` if `load` fails.
-fn put<T>(slot: Option<&mut T>, in_earnest: bool, load: impl FnOnce() -> Option<T>) -> Option<()> {
+/// Writes the result of `load` to its slot, if the scene has one; `None` if `load` fails.
+fn put<T>(slot: Option<&mut T>, load: impl FnOnce() -> Option<T>) -> Option<()> {
     if let Some(slot) = slot {
-        let value = load()?;
-        if in_earnest {
-            *slot = value;
-        }
+        *slot = load()?;
     }
     Some(())
 }

@@ -33,7 +33,7 @@ const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 /// The first contact of a group.
 fn first_of<S: Scene>(group: usize) -> usize {
     // without several groups there is nothing to search
-    group.checked_sub(1).filter(|_| S::GROUPS > 1).map_or(0, S::end)
+    group.checked_sub(1).filter(|_| S::groups() > 1).map_or(0, S::end)
 }
 
 /// The pair of bodies of `group` for these `values`.
@@ -91,7 +91,7 @@ impl<S: Scene> Contacts<S> {
         }
         let force = history.force(0.0);
         self.momenta.as_mut().get_mut(contact).into_iter().for_each(|momentum| *momentum = Momentum::start(force));
-        let endings = self.endings.as_mut().iter_mut().skip(contact).step_by(S::CONTACTS);
+        let endings = self.endings.as_mut().iter_mut().skip(contact).step_by(S::contacts().max(1));
         // the springs start without tangential displacement
         endings.zip([force, 0.0, 0.0]).for_each(|(ending, force)| *ending = Ending::start(force));
     }
@@ -103,7 +103,8 @@ impl<S: Scene> Instance<S> {
     /// # Errors
     /// As for [`Instance::reset`].
     pub fn new() -> Result<Instance<S>, Fault> {
-        let values = S::start_values();
+        let mut values = <S::Values as Store<f64>>::filled(0.0);
+        S::set_start_values(&mut values);
         let (_, history) = start_of::<S>(0, &values)?;
         let mut instance = Instance {
             clock: Clock::START,
@@ -127,6 +128,7 @@ impl<S: Scene> Instance<S> {
                 scratch: Store::filled(0.0),
                 checked: false,
                 works: Store::filled(Work::new(history)),
+                numbers: core::array::from_fn(|_| Store::filled(0.0)),
             },
             settings: Settings { largest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
             deep: Deep { contact: 0, indentation: 0.0 },
@@ -140,7 +142,7 @@ impl<S: Scene> Instance<S> {
     /// # Errors
     /// [`Fault::NoPointContact`] if the start values of the scene do not fit together.
     pub fn reset(&mut self) -> Result<(), Fault> {
-        self.settings.values = S::start_values();
+        S::set_start_values(&mut self.settings.values);
         self.contacts.rates.as_mut().fill(0.0);
         self.forget_tangential_rates();
         self.contacts.last_step.as_mut().fill(0.0);
@@ -188,8 +190,8 @@ impl<S: Scene> Instance<S> {
 
     fn start_contacts(&mut self) -> Result<(), Fault> {
         let Settings { bodies, values, .. } = &mut self.settings;
-        if S::GROUPS > 1 {
-            for group in 0..S::GROUPS {
+        if S::groups() > 1 {
+            for group in 0..S::groups() {
                 start_of::<S>(group, values)?;
             }
         }

@@ -38,14 +38,14 @@ impl<S: Scene> Instance<S> {
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
     /// [`Fault::TooLong`], [`Fault::InputOutOfRange`]; no contact changes then.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
-        self.clock.check(time, step, Self::SHORTEST)?;
+        self.clock.check(time, step, Self::shortest())?;
         self.check_tangential_rates(step)?;
         self.advance(time + step, step)?;
         // it may have been asked to look
         if !self.clock.curved && !self.is_watching() {
             self.clock.release();
         }
-        if S::CONTACTS > 1 && !self.is_deep() {
+        if S::contacts() > 1 && !self.is_deep() {
             self.find_deep();
         }
         Ok(())
@@ -57,21 +57,21 @@ impl<S: Scene> Instance<S> {
     #[inline(always)]
     pub fn do_plain_step(&mut self, time: f64, step: f64) -> Plain {
         let end = time + step;
-        let in_order = self.clock.takes(time, end, step, Self::SHORTEST);
-        if S::CONTACTS > 1 {
-            let plain = in_order && Self::PLAIN;
+        let in_order = self.clock.takes(time, end, step, Self::shortest());
+        if S::contacts() > 1 {
+            let plain = in_order && Self::is_plain();
             return if plain && self.advance(end, step).is_ok() { Plain::Done } else { Plain::Other };
         }
         let Contacts { histories, rates, momenta, last_step, .. } = &mut self.contacts;
         let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
             return Plain::Other;
         };
-        let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
-        if !(Self::PLAIN && in_order) {
+        let from = if S::has_momentum() { history.indentation() } else { 0.0 };
+        if !(Self::is_plain() && in_order) {
             return Plain::Other;
         }
         if !history.short_step(rate * step) {
-            return if Self::SIMPLE { Plain::OffBranch } else { Plain::Other };
+            return if Self::is_simple() { Plain::OffBranch } else { Plain::Other };
         }
         for momentum in momenta.as_mut() {
             momentum.add(history.mean_force_of_short_step(from), step);
@@ -83,7 +83,10 @@ impl<S: Scene> Instance<S> {
 
     /// Whether a step concerns a single contact with a constant rate, and needs no other check than that of the indentation up
     /// to which the law is valid.
-    const SIMPLE: bool = S::CONTACTS == 1 && Self::PLAIN && !S::Momentum::IS_PRESENT && S::GUARD.is_none();
+    #[inline(always)]
+    fn is_simple() -> bool {
+        S::contacts() == 1 && Self::is_plain() && !S::has_momentum() && S::guard().is_none()
+    }
 
     /// A step that [`Instance::do_plain_step`] has found to be plain except that it [leaves its branch](Plain::OffBranch). The
     /// result is the same as that of [`Instance::do_step`]. If that would fail, it changes nothing and returns false.
@@ -141,16 +144,16 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts for `step` \[s\], to the time `end` \[s\], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        if Self::ALONE && self.clock.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
+        if Self::is_alone() && self.clock.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
             return self.advance_on_course(end, step);
         }
         // only with friction a single contact gets here with derivatives of its inputs
-        match Self::SIMPLE && !(S::Contact::HAS_FRICTION && self.clock.curved) {
+        match Self::is_simple() && !(S::Contact::HAS_FRICTION && self.clock.curved) {
             true => self.advance_one(end, step).map_err(|deep| too_deep(0, deep))?,
             false => self.advance_all(end, step)?,
         }
         // the end of a step with derivatives stays known until the next step, which is not plain for this reason
-        if Self::ALONE && self.clock.curved {
+        if Self::is_alone() && self.clock.curved {
             self.straighten();
         }
         Ok(())
@@ -159,23 +162,22 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts of an instance that is not simple, or none of them.
     #[inline]
     fn advance_all(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        if S::Shared::IS_PRESENT {
+        if S::is_shared() {
             self.advance_together(step)?;
             self.contacts.last_step.as_mut().fill(step);
             self.clock.time = end;
             return Ok(());
         }
-        if S::CONTACTS > 1 {
+        if S::contacts() > 1 {
             // within the limits of rate and time, a law with segments cannot fail
-            let looks_ahead = self.clock.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
+            let looks_ahead = self.clock.curved || !Self::is_plain() || S::Contact::may_refuse(&self.model(0));
             if looks_ahead {
-                for contact in 0..S::CONTACTS {
+                for contact in 0..S::contacts() {
                     self.moved(contact, step)?;
                 }
             }
         }
-        let any =
-            self.clock.curved && !Self::ALONE || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
+        let any = self.clock.curved && !Self::is_alone() || !Self::is_plain() || S::follows_rate() && S::has_momentum();
         if any {
             self.advance_any(step)?;
         } else {
@@ -196,10 +198,10 @@ impl<S: Scene> Instance<S> {
         let settings = &mut self.settings;
         let (forces, momenta) = (forces.as_mut(), momenta.as_mut());
         for (contact, (history, &rate)) in histories.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
-            let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
+            let from = if S::has_momentum() { history.indentation() } else { 0.0 };
             let before = *history;
             // a single contact has been tried before; when its momentum is an output, it is computed as in a plain step
-            let short = (S::CONTACTS > 1 || S::Momentum::IS_PRESENT) && history.short_step(rate * step);
+            let short = (S::contacts() > 1 || S::has_momentum()) && history.short_step(rate * step);
             let group = S::group(contact);
             let kept = || settings.bodies.as_ref().get(group).map(|bodies| bodies.kept).unwrap_or_default();
             let mut long = None;
@@ -213,14 +215,14 @@ impl<S: Scene> Instance<S> {
                     .step_held(rate, step, &kept(), || settings.model_at_once(group))
                     .map_err(|deep| too_deep(contact, deep))?;
                 // on a branch it neither begins nor ceases to act
-                if let Some(guard) = S::GUARD
+                if let Some(guard) = S::guard()
                     && *guarded == Guarded::Unseen
                     && (guard.acts)(history, &settings.model_at_once(group))
                 {
                     *guarded = Guarded::Seen;
                 }
             }
-            if (S::CONTACTS == 1 || !short) && !history.stays_within(settings.valid_depth(group)) {
+            if (S::contacts() == 1 || !short) && !history.stays_within(settings.valid_depth(group)) {
                 self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };
             }
             self.deep = long.unwrap_or(self.deep);
@@ -244,10 +246,10 @@ impl<S: Scene> Instance<S> {
     #[cold]
     fn advance_any(&mut self, step: f64) -> Result<(), Fault> {
         let any_curve = self.contacts.curves.as_ref().iter().any(Curve::is_curved);
-        let curved = !Self::PLAIN || any_curve || self.any_tangential_curve();
-        self.clock.curved |= !Self::PLAIN;
+        let curved = !Self::is_plain() || any_curve || self.any_tangential_curve();
+        self.clock.curved |= !Self::is_plain();
         self.check_sharing();
-        for contact in 0..S::CONTACTS {
+        for contact in 0..S::contacts() {
             self.check_wiring(contact);
             let Moved { mut history, course, mean_force, speed, deepest } = self.moved(contact, step)?;
             self.end_step(contact, speed, mean_force, step);
@@ -280,13 +282,13 @@ impl<S: Scene> Instance<S> {
     /// The state of `contact` after `step` \[s\].
     fn moved(&self, contact: usize, step: f64) -> Result<Moved<S::Contact>, Fault> {
         let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
-            return Err(Fault::StepSize { step, shortest: Self::SHORTEST });
+            return Err(Fault::StepSize { step, shortest: Self::shortest() });
         };
         let mut history = *history;
         let mut course = self.contacts.curves.as_ref().get(contact).copied().unwrap_or_default().course(rate);
         let model = self.model(contact);
         let failed = |deep| too_deep(contact, deep);
-        if let Some(follow) = S::FOLLOW {
+        if let Some(follow) = S::follow() {
             let mass = self.mass(contact);
             let drive = Drive { mass, acceleration: self.acceleration(contact, course.slope) };
             let speed = rate - self.owed(contact);
@@ -300,7 +302,7 @@ impl<S: Scene> Instance<S> {
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
             return Ok(Moved { history, course, mean_force, speed: outcome.speed, deepest: outcome.deepest });
         }
-        let (deepest, mean_force) = match S::Momentum::IS_PRESENT {
+        let (deepest, mean_force) = match S::has_momentum() {
             true => history.step_with_mean_force(&course, step, || model).map_err(failed)?,
             false => (history.step(&course, step, || model).map_err(failed)?, 0.0),
         };

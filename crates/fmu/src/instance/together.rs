@@ -8,8 +8,21 @@ use brinell_contact::tangential::Quantity;
 
 /// The inverse effective masses of contacts that share bodies \[1/kg\]: the constants of the scene, or these `inputs`.
 fn masses_of<S: Scene>(inputs: &S::InverseMasses) -> InverseMasses<'_> {
-    let entries = if S::InverseMasses::LENGTH > 0 { inputs.as_ref() } else { S::inverse_masses() };
-    InverseMasses::new(S::ROWS, entries).unwrap_or(InverseMasses::NONE)
+    let entries = if S::inverse_mass_inputs() > 0 { inputs.as_ref() } else { S::inverse_masses() };
+    InverseMasses::new(S::rows(), entries).unwrap_or(InverseMasses::NONE)
+}
+
+/// A number of a row in the working memory of a step.
+#[derive(Clone, Copy)]
+pub(super) enum Number {
+    /// Rate at the start of the step, then at its end \[m/s\].
+    Rate,
+    /// Acceleration by all forces but those of the contacts \[m/s^2\].
+    Acceleration,
+    /// Change of the impulse of a step \[N.s\].
+    Change,
+    /// Force at the end \[N\].
+    Force,
 }
 
 /// The part of a step that could just be computed that is named instead of it.
@@ -24,7 +37,7 @@ impl<S: Scene> Instance<S> {
     /// Checks the inverse masses that are inputs, if they have changed.
     fn check_inverse_masses(&mut self) -> Result<(), Fault> {
         let Contacts { inverse_masses, scratch, checked, .. } = &mut self.contacts;
-        if S::InverseMasses::LENGTH == 0 || *checked {
+        if S::inverse_mass_inputs() == 0 || *checked {
             return Ok(());
         }
         masses_of::<S>(inverse_masses).check(scratch.as_mut()).map_err(Fault::InverseMasses)?;
@@ -38,9 +51,7 @@ impl<S: Scene> Instance<S> {
     pub(super) fn advance_together(&mut self, step: f64) -> Result<(), Fault> {
         self.check_inverse_masses()?;
         self.check_sharing();
-        let mut rates = <S::Rows<f64>>::filled(0.0);
-        let mut accelerations = <S::Rows<f64>>::filled(0.0);
-        for (row, (rate, acceleration)) in rates.as_mut().iter_mut().zip(accelerations.as_mut()).enumerate() {
+        for row in 0..S::rows() {
             let (contact, direction) = Self::place_of(row);
             let slope = match direction {
                 None => {
@@ -52,31 +63,35 @@ impl<S: Scene> Instance<S> {
                     history.map_or(0.0, |history| history.tangential_course(direction).slope)
                 }
             };
-            *rate = self.given_rate(row) - self.owed(row);
-            *acceleration = self.acceleration(row, slope);
+            let rate = self.given_rate(row) - self.owed(row);
+            self.note(Number::Rate, row, rate);
+            self.note(Number::Acceleration, row, self.acceleration(row, slope));
         }
-        self.follow(&accelerations, &mut rates, step)?;
+        self.follow(step)?;
         self.clock.curved = true;
-        let mut changes = <S::Rows<f64>>::filled(0.0);
-        for (row, (change, &rate)) in changes.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
+        for row in 0..S::rows() {
+            let rate = self.number(Number::Rate, row);
             let (contact, direction) = Self::place_of(row);
             let Some(work) = self.contacts.works.as_ref().get(contact) else { continue };
             let (impulse, moment) = match direction {
                 None => (work.impulse(), work.moment()),
                 Some(direction) => (work.tangential_impulse(direction), work.tangential_moment(direction)),
             };
-            *change = self.book(row, rate, impulse / step, step);
+            let change = self.book(row, rate, impulse / step, step);
+            self.note(Number::Change, row, change);
             self.contacts.moments.as_mut().get_mut(row).into_iter().for_each(|slot| *slot = moment);
             if direction.is_none() {
                 self.note_normal(contact, impulse / step, step);
             }
         }
-        let forces = self.forces_of_rows(rates.as_ref());
-        let force = |other: usize| forces.as_ref().get(other).copied().unwrap_or(0.0);
-        for (row, &rate) in rates.as_ref().iter().enumerate() {
-            let jump = self.response(row, |other| changes.as_ref().get(other).copied().unwrap_or(0.0));
-            let acceleration = accelerations.as_ref().get(row).copied().unwrap_or(0.0);
-            let slope = acceleration - self.response(row, force);
+        for row in 0..S::rows() {
+            self.note(Number::Force, row, self.force_at_end(row));
+        }
+        for row in 0..S::rows() {
+            let jump = self.response(row, |other| self.number(Number::Change, other));
+            let acceleration = self.number(Number::Acceleration, row);
+            let slope = acceleration - self.response(row, |other| self.number(Number::Force, other));
+            let [rate, force] = [Number::Rate, Number::Force].map(|number| self.number(number, row));
             let (contact, direction) = Self::place_of(row);
             let Contacts { histories, endings, curves, forces, .. } = &mut self.contacts;
             endings.as_mut().get_mut(row).into_iter().for_each(|ending| ending.jump = jump);
@@ -89,7 +104,7 @@ impl<S: Scene> Instance<S> {
             // as if the rate had changed linearly to this value
             let course = Course { rate: rate - slope * step, slope, bend: 0.0 };
             curves.as_mut().get_mut(contact).into_iter().for_each(|curve| curve.end_of(&course, step));
-            forces.as_mut().get_mut(contact).into_iter().for_each(|slot| *slot = force(row));
+            forces.as_mut().get_mut(contact).into_iter().for_each(|slot| *slot = force);
         }
         Ok(())
     }
@@ -109,23 +124,32 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// The forces of all rows at these speeds \[m/s\], in N.
-    fn forces_of_rows(&self, speeds: &[f64]) -> S::Rows<f64> {
-        let mut forces = <S::Rows<f64>>::filled(0.0);
-        for (row, (force, &speed)) in forces.as_mut().iter_mut().zip(speeds).enumerate() {
-            let (contact, direction) = Self::place_of(row);
-            let Some(history) = self.histories().get(contact) else { continue };
-            *force = match direction {
-                None => history.force(speed),
-                Some(direction) => history.tangential(&self.model(contact), Quantity::Force(direction)),
-            };
-        }
-        forces
+    /// Notes a number of a row in the working memory of a step.
+    fn note(&mut self, number: Number, row: usize, value: f64) {
+        let slots = self.contacts.numbers.get_mut(number as usize).into_iter();
+        slots.filter_map(|slots| slots.as_mut().get_mut(row)).for_each(|slot| *slot = value);
     }
 
-    /// Moves the histories. `rates` are those at the start \[m/s\], and then at the end.
-    fn follow(&mut self, accelerations: &S::Rows<f64>, rates: &mut S::Rows<f64>, step: f64) -> Result<(), Fault> {
-        let Instance { contacts: Contacts { histories, works, inverse_masses, .. }, settings, .. } = self;
+    /// The number that has been noted; zero if there is none.
+    fn number(&self, number: Number, row: usize) -> f64 {
+        let slots = self.contacts.numbers.get(number as usize);
+        slots.and_then(|slots| slots.as_ref().get(row)).copied().unwrap_or(0.0)
+    }
+
+    /// The force of a row at its noted rate \[N\].
+    fn force_at_end(&self, row: usize) -> f64 {
+        let (contact, direction) = Self::place_of(row);
+        let Some(history) = self.histories().get(contact) else { return 0.0 };
+        match direction {
+            None => history.force(self.number(Number::Rate, row)),
+            Some(direction) => history.tangential(&self.model(contact), Quantity::Force(direction)),
+        }
+    }
+
+    /// Moves the histories. The noted rates are those at the start, and then at the end.
+    fn follow(&mut self, step: f64) -> Result<(), Fault> {
+        let Instance { contacts: Contacts { histories, works, inverse_masses, numbers, .. }, settings, .. } = self;
+        let [rates, accelerations, ..] = numbers;
         let masses = masses_of::<S>(inverse_masses);
         // not kept for all contacts: the stack of an importer may be small
         let model = |contact: usize| settings.model(S::group(contact));
@@ -136,7 +160,7 @@ impl<S: Scene> Instance<S> {
             Refused::TooDeep(contact, deep) => too_deep(contact, deep),
             Refused::TooLong { left } => Fault::TooLongTogether { step, possible: SAFE * (step - left) },
             // there is one of each for every contact
-            Refused::Sizes => Fault::StepSize { step, shortest: Self::SHORTEST },
+            Refused::Sizes => Fault::StepSize { step, shortest: Self::shortest() },
         })
     }
 }

@@ -12,7 +12,7 @@ fn largest_speed<S: Scene>(group: usize, values: &S::Values) -> f64 {
 
 /// The rate up to which an input needs no further check in any group \[m/s\].
 pub(super) fn largest_rate<S: Scene>(values: &S::Values) -> f64 {
-    let speeds = (0..S::GROUPS).map(|group| largest_speed::<S>(group, values));
+    let speeds = (0..S::groups()).map(|group| largest_speed::<S>(group, values));
     speeds.fold(FASTEST, |least, speed| if speed < least { speed } else { least })
 }
 
@@ -70,12 +70,12 @@ impl<S: Scene> Instance<S> {
     /// Whether the passivity guard has begun to act in a plain step, and that has not been [taken](Instance::take_guard) yet.
     #[inline(always)]
     pub fn is_guard_seen(&self) -> bool {
-        S::GUARD.is_some() && self.clock.guard == Guarded::Seen
+        S::guard().is_some() && self.clock.guard == Guarded::Seen
     }
 
     /// The warning, once, that the passivity guard shortens the unloading path of the present dent of a contact.
     pub fn take_guard(&mut self) -> Option<Warning> {
-        let guard = S::GUARD?;
+        let guard = S::guard()?;
         let acts = match self.clock.guard {
             Guarded::Told => false,
             Guarded::Seen => true,
@@ -98,7 +98,7 @@ impl<S: Scene> Instance<S> {
                 return None;
             }
             // with a single group, the limit is known
-            let only = S::GROUPS == 1;
+            let only = S::groups() == 1;
             let values = &self.settings.values;
             let allowed = if only { self.settings.largest_rate } else { largest_speed::<S>(S::group(contact), values) };
             (rate > allowed).then_some(Warning::Fast { contact, rate, allowed })

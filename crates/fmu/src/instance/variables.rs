@@ -17,7 +17,9 @@ impl<S: Scene> Instance<S> {
         match variable {
             Real::IndentationRate if !value.is_finite() => Err(Fault::NotFinite { name: "indentation_rate", value }),
             Real::IndentationRate if value.abs() > FASTEST => Err(Fault::RateOutOfRange { rate: value }),
-            Real::IndentationRate => self.histories().get(contact).map_or(Ok(()), |history| check_rate(history, value)),
+            Real::IndentationRate => {
+                self.histories().get(contact).map_or(Ok(()), |history| check_rate::<S>(history, value))
+            }
             Real::Parameter(index) => self.check_parameter(index, value),
             // instead of a contact, it has a place in the matrix
             Real::InverseMass if S::has_input(variable) && !value.is_finite() => {
@@ -60,7 +62,7 @@ impl<S: Scene> Instance<S> {
             Real::Parameter(index) => self.settings.values.as_mut().get_mut(index),
             _ => variable
                 .external_acceleration()
-                .and_then(|row| self.contacts.accelerations.as_mut().get_mut(row * S::CONTACTS + contact)),
+                .and_then(|row| self.contacts.accelerations.as_mut().get_mut(row * S::contacts() + contact)),
         };
         if let Some(slot) = slot {
             *slot = value;
@@ -72,7 +74,7 @@ impl<S: Scene> Instance<S> {
     /// is detected only at the end of initialization, because other parameters may still follow. Parameters set between steps
     /// apply to the next steps.
     pub fn parameters_are_set(&mut self) {
-        if S::FOLLOW.is_some() && self.phase() == Phase::StepComplete {
+        if S::moves() && self.phase() == Phase::StepComplete {
             self.stamp_parameters();
             return;
         }
@@ -86,7 +88,7 @@ impl<S: Scene> Instance<S> {
         let (Some(history), Some(slot)) = (histories.as_ref().get(contact), rates.as_mut().get_mut(contact)) else {
             return false;
         };
-        let plain = self.clock.takes_rate(rate) && is_finite_at(history, rate);
+        let plain = self.clock.takes_rate(rate) && (!S::follows_rate() || is_finite_at(history, rate));
         if plain {
             *slot = rate;
         }
@@ -103,7 +105,7 @@ impl<S: Scene> Instance<S> {
         };
         let mut plain = true;
         for (history, &rate) in histories.iter().zip(rates) {
-            plain &= self.clock.takes_rate(rate) && is_finite_at(history, rate);
+            plain &= self.clock.takes_rate(rate) && (!S::follows_rate() || is_finite_at(history, rate));
         }
         if plain {
             for (slot, &rate) in slots.iter_mut().zip(rates) {
@@ -151,7 +153,7 @@ impl<S: Scene> Instance<S> {
     /// The rate at which outputs that follow it are shown \[m/s\]: the speed of bodies that the FMU moves, otherwise the input.
     #[inline(always)]
     pub(super) fn shown_rate(&self, contact: usize) -> Option<f64> {
-        let own = if Self::MOVES && S::Contact::FOLLOWS_RATE { self.own_speed(contact) } else { None };
+        let own = if S::moves() && S::follows_rate() { self.own_speed(contact) } else { None };
         own.or_else(|| self.rates().get(contact).copied())
     }
 
@@ -164,29 +166,31 @@ impl<S: Scene> Instance<S> {
             return f64::NAN;
         };
         let momentum = || self.contacts.momenta.as_ref().get(contact);
-        let model = self.model(contact);
+        // only some outputs need it
+        let model = || self.model(contact);
         let shown = self.shown_rate(contact).unwrap_or(rate);
         match variable {
             Real::IndentationRate => rate,
             Real::Force => history.force(shown),
             Real::Indentation => history.indentation(),
             Real::MaxIndentation => history.max_indentation(),
-            Real::Work => history.work(&model),
+            Real::Work => history.work(&model()),
+            Real::Stiffness => history.stiffness(shown),
             Real::Impulse => momentum().map_or(f64::NAN, Momentum::impulse),
             Real::MeanForce => match self.contacts.endings.as_ref().get(contact) {
                 Some(ending) => ending.force,
                 None => momentum().map_or(f64::NAN, |momentum| momentum.mean_force),
             },
             Real::ImpulseMoment => self.moment(contact),
-            Real::TangentialImpulseMoment => self.moment(S::CONTACTS + contact),
-            Real::SecondTangentialImpulseMoment => self.moment(2 * S::CONTACTS + contact),
-            Real::TangentialSpeed => self.speed_of_row(S::CONTACTS + contact),
-            Real::SecondTangentialSpeed => self.speed_of_row(2 * S::CONTACTS + contact),
+            Real::TangentialImpulseMoment => self.moment(S::contacts() + contact),
+            Real::SecondTangentialImpulseMoment => self.moment(2 * S::contacts() + contact),
+            Real::TangentialSpeed => self.speed_of_row(S::contacts() + contact),
+            Real::SecondTangentialSpeed => self.speed_of_row(2 * S::contacts() + contact),
             // of bodies that the FMU moves, the force that the importer applies
-            Real::MeanTangentialForce if S::Shared::IS_PRESENT => self.force_of_row(S::CONTACTS + contact),
-            Real::SecondMeanTangentialForce if S::Shared::IS_PRESENT => self.force_of_row(2 * S::CONTACTS + contact),
+            Real::MeanTangentialForce if S::is_shared() => self.force_of_row(S::contacts() + contact),
+            Real::SecondMeanTangentialForce if S::is_shared() => self.force_of_row(2 * S::contacts() + contact),
             Real::PredictedForce => self.predicted_force(contact, history),
-            Real::ClosingSpeed if Self::MOVES => self.speed_of_row(contact),
+            Real::ClosingSpeed if S::moves() => self.speed_of_row(contact),
             Real::RegimeNumber => self.integer((Integer::Regime, contact)).into(),
             Real::SlidingNumber => self.integer((Integer::Sliding, contact)).into(),
             Real::EffectiveMass if S::has_input(variable) => self.mass(contact),
@@ -195,7 +199,7 @@ impl<S: Scene> Instance<S> {
             Real::PredictedTangentialForce | Real::SecondPredictedTangentialForce => {
                 match variable.predicted_direction() {
                     Some(direction) if S::Contact::HAS_FRICTION => {
-                        self.predicted_tangential_force(contact, direction, &model, rate)
+                        self.predicted_tangential_force(contact, direction, &model(), rate)
                     }
                     _ => f64::NAN,
                 }
@@ -204,13 +208,13 @@ impl<S: Scene> Instance<S> {
             Real::ExternalAcceleration
             | Real::ExternalTangentialAcceleration
             | Real::SecondExternalTangentialAcceleration => match variable.external_acceleration() {
-                Some(row) if S::has_input(variable) => self.acceleration(row * S::CONTACTS + contact, f64::NAN),
+                Some(row) if S::has_input(variable) => self.acceleration(row * S::contacts() + contact, f64::NAN),
                 _ => f64::NAN,
             },
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
             output => match output.quantity() {
-                Some(quantity) => history.tangential(&model, quantity),
-                None => of_state::<S>(output, history, &model, shown),
+                Some(quantity) => history.tangential(&model(), quantity),
+                None => of_state::<S>(output, history, &model(), shown),
             },
         }
     }

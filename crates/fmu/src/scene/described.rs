@@ -1,4 +1,4 @@
-//! A scene from its data: the macros `scene!` and `kind!`, which the files that the exporter writes call.
+//! A scene from its data: the macro `scene!`, which the file that the exporter writes calls.
 //!
 //! The exporter writes data alone: numbers, names and lists. The code that they select is here, where the compiler, the
 //! formatter and the reader see it. Conditions on the number of contacts and tables are constants, and cost nothing.
@@ -134,7 +134,7 @@ macro_rules! __laws {
     (follow (loss $loss:ident)) => { $crate::__laws!(follow_by $crate::contact::losses::follow) };
     (follow (rate $($rates:tt)+)) => { $crate::__laws!(follow_by $crate::contact::rate::follow) };
     (follow_by $follow:path) => {
-        if <<Self::Coupling as $crate::scene::Coupling>::Ending as $crate::scene::Presence>::IS_PRESENT {
+        if Self::moves() {
             Some($follow)
         } else {
             None
@@ -302,7 +302,7 @@ macro_rules! __scene {
         const TABLES: usize = [$($end),+].len();
 
         /// The name of each table, and whether its contacts are counted.
-        const NAMES: [(&str, bool); TABLES] = [$(($name, $counted)),+];
+        const NAMES: [(&[u8], bool); TABLES] = [$(($name.as_bytes(), $counted)),+];
 
         /// The parameters that can be set.
         static SETTABLE: [Settable; SETTABLES] = [$(
@@ -341,10 +341,15 @@ macro_rules! __scene {
 
             $(type $part = $presence;)+
 
-            const FOLLOW: Option<$crate::contact::motion::Follow<Self::Contact, Self::Model>> =
-                $crate::__laws!(follow $kind);
-            $(const GUARD: Option<$crate::scene::Guard<Self>> =
-                Some($crate::scene::Guard { words: $guard, acts: <Self::Contact>::is_held_back });)?
+            #[inline(always)]
+            fn follow() -> Option<$crate::contact::motion::Follow<Self::Contact, Self::Model>> {
+                $crate::__laws!(follow $kind)
+            }
+
+            $(#[inline(always)]
+            fn guard() -> Option<$crate::scene::Guard<Self>> {
+                Some($crate::scene::Guard { words: $guard.as_bytes(), acts: <Self::Contact>::is_held_back })
+            })?
 
             $crate::__laws!(together $kind);
 
@@ -376,10 +381,10 @@ macro_rules! __scene {
                 }
             }
 
-            fn contact_name(contact: usize) -> (&'static str, usize) {
+            fn contact_name(contact: usize) -> (&'static [u8], usize) {
                 match TABLES {
                     1 => (NAMES[0].0, if NAMES[0].1 { contact + 1 } else { 0 }),
-                    CONTACTS => NAMES.get(contact).map_or(("", 0), |&(name, counted)| (name, usize::from(counted))),
+                    CONTACTS => NAMES.get(contact).map_or((&[], 0), |&(name, counted)| (name, usize::from(counted))),
                     _ => name_in(&NAMES, &ENDS, table_of_contact(contact), contact),
                 }
             }
@@ -396,8 +401,8 @@ macro_rules! __scene {
                 false $($(|| ($range).contains(&index))+)?
             }
 
-            fn start_values() -> Self::Values {
-                if RUNS.is_empty() { const { one_each(&STARTS) } } else { spread(RUNS, &STARTS) }
+            fn set_start_values(values: &mut Self::Values) {
+                if RUNS.is_empty() { *values = const { one_each(&STARTS) } } else { spread(RUNS, &STARTS, values) }
             }
 
             fn parameter(parameter: Parameter, group: usize, values: &Self::Values) -> f64 {
@@ -451,59 +456,4 @@ macro_rules! __scene {
     };
 }
 
-/// The kind of a prebuilt library, `Library`, from its data; `crates/unit/src/kind.rs` has an example. `library` is a hash of the
-/// sources; the places of variables are those in the table of variables.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! __kind {
-    (
-        library: $made_from:literal,
-        two_strengths: $two_strengths:literal,
-        laws: $kind:tt { $($laws:tt)+ },
-        parts: { $($part:ident = $presence:ty),+ },
-        reals: { $($place_of_real:literal: $real:ident),* },
-        integers: { $($place_of_integer:literal: $integer:ident),* },
-    ) => {
-        #[allow(unused_imports)]
-        use $crate::scene::{Absent, Coupled, Present};
-        use $crate::contact::{Pair, Surface};
-        use $crate::scene::prebuilt::Kind;
-        use $crate::scene::{Integer, Parameter, Real, identity_of};
-
-        /// A library that the exporter fills in with a scene.
-        pub struct Library;
-
-        #[allow(unused_variables, unreachable_code)]
-        impl Kind for Library {
-            $crate::__laws!(types $kind $($laws)+);
-
-            $(type $part = $presence;)+
-
-            const FOLLOW: Option<$crate::contact::motion::Follow<Self::Contact, Self::Model>> =
-                $crate::__laws!(follow $kind);
-            const TWO_STRENGTHS: bool = $two_strengths;
-            const LIBRARY: u64 = identity_of($made_from);
-
-            fn model(pair: Pair, surface: Surface, value: impl Fn(Parameter) -> f64) -> Self::Model {
-                let density = f64::NAN;
-                $crate::__laws!(model pair surface value density; $kind $($laws)+)
-            }
-
-            fn real(place: u8) -> Option<Real> {
-                Some(match place {
-                    $($place_of_real => Real::$real,)*
-                    _ => return None,
-                })
-            }
-
-            fn integer(place: u8) -> Option<Integer> {
-                Some(match place {
-                    $($place_of_integer => Integer::$integer,)*
-                    _ => return None,
-                })
-            }
-        }
-    };
-}
-
-pub use crate::{__kind as kind, __scene as scene};
+pub use crate::__scene as scene;

@@ -11,7 +11,7 @@ pub mod storage;
 pub mod variable;
 
 pub use coupling::{Coupled, Coupling};
-pub use described::{kind, scene};
+pub use described::scene;
 pub use storage::{Absent, Presence, Present, Store};
 pub use variable::{Integer, Parameter, Real, Settable};
 
@@ -20,7 +20,7 @@ use brinell_contact::shared::{InverseMasses, Outcome, Refused, Work};
 use brinell_contact::tangential::{Friction, RoughModel};
 use brinell_contact::{Body, Contact, Model, OtherBody, Pair, TwoBodies};
 
-/// A scene: `CONTACTS` contacts in groups of equal contacts, with their parameters and variables.
+/// A scene: contacts in groups of equal contacts, with their parameters and variables.
 ///
 /// Contacts and groups are counted from 0. The contacts of a group are consecutive. Functions that depend on parameters get
 /// their present values, in the order of [`Scene::Values`].
@@ -38,7 +38,7 @@ pub trait Scene: Sized {
     /// One value for each group of contacts.
     type Groups<T: Copy>: Store<T>;
     /// The values of the parameters that can be set, and possibly of others.
-    type Values: Store<f64> + Copy;
+    type Values: Store<f64>;
 
     /// Whether forces are stored. With many contacts, the step stores the forces because it has them at hand. A single contact,
     /// or one whose force depends on the rate, computes its force on request.
@@ -62,16 +62,154 @@ pub trait Scene: Sized {
     type InverseMasses: Store<f64>;
 
     /// The function that moves the bodies through a step, if the scene knows their mass.
-    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
+    #[inline(always)]
+    fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
+        None
+    }
+
     /// The passivity guard, if there is one.
-    const GUARD: Option<Guard<Self>> = None;
+    #[inline(always)]
+    fn guard() -> Option<Guard<Self>> {
+        None
+    }
+
+    /// Whether the FMU moves the bodies.
+    #[inline(always)]
+    fn moves() -> bool {
+        <Self::Coupling as Coupling>::Ending::IS_PRESENT
+    }
+
+    /// Whether the scene is for an importer that steps all FMUs at once.
+    #[inline(always)]
+    fn is_parallel() -> bool {
+        <Self::Coupling as Coupling>::Account::IS_PRESENT
+    }
+
+    /// Whether the force depends on the rate at the same instant.
+    #[inline(always)]
+    fn follows_rate() -> bool {
+        Self::Contact::FOLLOWS_RATE
+    }
+
+    /// The highest order of the time derivative of the force.
+    #[inline(always)]
+    fn derivatives() -> i32 {
+        Self::Contact::DERIVATIVES
+    }
+
+    /// Whether the input may have derivatives.
+    #[inline(always)]
+    fn has_course() -> bool {
+        Self::Course::IS_PRESENT
+    }
+
+    /// Whether an output needs the momentum of a step.
+    #[inline(always)]
+    fn has_momentum() -> bool {
+        Self::Momentum::IS_PRESENT
+    }
+
+    /// Whether contacts share bodies.
+    #[inline(always)]
+    fn is_shared() -> bool {
+        Self::Shared::IS_PRESENT
+    }
 
     /// The number of contacts.
-    const CONTACTS: usize = <Self::Contacts<u8> as Store<u8>>::LENGTH;
+    #[inline(always)]
+    fn contacts() -> usize {
+        <Self::Contacts<u8> as Store<u8>>::LENGTH
+    }
+
     /// The number of rows.
-    const ROWS: usize = <Self::Rows<u8> as Store<u8>>::LENGTH;
+    #[inline(always)]
+    fn rows() -> usize {
+        <Self::Rows<u8> as Store<u8>>::LENGTH
+    }
+
     /// The number of groups.
-    const GROUPS: usize = <Self::Groups<u8> as Store<u8>>::LENGTH;
+    #[inline(always)]
+    fn groups() -> usize {
+        <Self::Groups<u8> as Store<u8>>::LENGTH
+    }
+
+    /// The number of [values](Self::Values).
+    #[inline(always)]
+    fn values() -> usize {
+        <Self::Values as Store<f64>>::LENGTH
+    }
+
+    /// The number of inverse masses that are inputs.
+    #[inline(always)]
+    fn inverse_mass_inputs() -> usize {
+        Self::InverseMasses::LENGTH
+    }
+
+    /// The number of forces that are stored.
+    #[inline(always)]
+    fn stored_forces() -> usize {
+        if Self::Forces::IS_PRESENT { Self::contacts() } else { 0 }
+    }
+
+    /// The number of contacts whose momentum is computed.
+    #[inline(always)]
+    fn momenta() -> usize {
+        if Self::has_momentum() { Self::contacts() } else { 0 }
+    }
+
+    /// The number of contacts with a course of the input.
+    #[inline(always)]
+    fn curves() -> usize {
+        if Self::has_course() { Self::contacts() } else { 0 }
+    }
+
+    /// The number of contacts that the FMU moves.
+    #[inline(always)]
+    fn moved_contacts() -> usize {
+        if Self::moves() { Self::contacts() } else { 0 }
+    }
+
+    /// The number of rows that the FMU moves.
+    #[inline(always)]
+    fn moved_rows() -> usize {
+        if Self::moves() { Self::rows() } else { 0 }
+    }
+
+    /// The number of rows with an account of momentum.
+    #[inline(always)]
+    fn accounts() -> usize {
+        if Self::is_parallel() { Self::rows() } else { 0 }
+    }
+
+    /// The number of accelerations that are inputs.
+    #[inline(always)]
+    fn accelerations() -> usize {
+        if Self::has_input(Real::ExternalAcceleration) { Self::rows() } else { 0 }
+    }
+
+    /// The number of effective masses that are inputs.
+    #[inline(always)]
+    fn masses() -> usize {
+        if Self::has_input(Real::EffectiveMass) { Self::contacts() } else { 0 }
+    }
+
+    /// The number of contacts whose steps are examined.
+    #[inline(always)]
+    fn watched() -> usize {
+        if Self::Watch::IS_PRESENT { Self::contacts() } else { 0 }
+    }
+
+    /// The number of contacts that share bodies.
+    #[inline(always)]
+    fn shared_contacts() -> usize {
+        if Self::is_shared() { Self::contacts() } else { 0 }
+    }
+
+    /// The number of rows of contacts that share bodies.
+    #[inline(always)]
+    fn shared_rows() -> usize {
+        if Self::is_shared() { Self::rows() } else { 0 }
+    }
 
     /// The GUID of the model description of the scene, in UTF-8.
     fn guid() -> &'static [u8];
@@ -86,7 +224,7 @@ pub trait Scene: Sized {
     fn end(group: usize) -> usize;
 
     /// The name of a contact, with its number counted from 1 if contacts of that name are counted, otherwise 0.
-    fn contact_name(contact: usize) -> (&'static str, usize);
+    fn contact_name(contact: usize) -> (&'static [u8], usize);
 
     /// The parameter with this `index` among [`Scene::Values`] and its limits, if it can be set; also the contact, if each
     /// contact has its own value.
@@ -97,8 +235,8 @@ pub trait Scene: Sized {
         false
     }
 
-    /// The initial values of the parameters.
-    fn start_values() -> Self::Values;
+    /// Sets `values` to the initial values of the parameters.
+    fn set_start_values(values: &mut Self::Values);
 
     /// The value of any parameter for the contacts of a group: a set value, or a constant of the scene. For a parameter that
     /// the scene does not have, it is the value without effect.
@@ -151,10 +289,10 @@ pub trait Scene: Sized {
     fn has_input(variable: Real) -> bool {
         match variable {
             Real::EffectiveMass => <Self::Coupling as Coupling>::Mass::IS_PRESENT,
-            Real::InverseMass => Self::InverseMasses::LENGTH > 0,
+            Real::InverseMass => Self::inverse_mass_inputs() > 0,
             _ => match variable.external_acceleration() {
                 Some(row) => {
-                    <Self::Coupling as Coupling>::Acceleration::IS_PRESENT && row * Self::CONTACTS < Self::ROWS
+                    <Self::Coupling as Coupling>::Acceleration::IS_PRESENT && row * Self::contacts() < Self::rows()
                 }
                 None => variable.tangential_rate().is_some_and(|direction| direction < Self::Contact::DIRECTIONS),
             },
@@ -234,13 +372,16 @@ pub fn two_bodies(value: impl Fn(Parameter) -> f64) -> TwoBodies {
     }
 }
 
+/// A function that tells whether the passivity guard shortens the unloading path of a contact.
+pub type Acts<C, M> = fn(&C, &M) -> bool;
+
 /// The passivity guard of a scene.
 #[derive(Clone, Copy)]
 pub struct Guard<S: Scene> {
-    /// Description of where it acts, for the log.
-    pub words: &'static str,
+    /// Description of where it acts, for the log, in UTF-8.
+    pub words: &'static [u8],
     /// Whether it shortens the unloading path of a contact.
-    pub acts: fn(&S::Contact, &S::Model) -> bool,
+    pub acts: Acts<S::Contact, S::Model>,
 }
 
 /// The identity of a scene with this GUID: its 64-bit FNV-1a hash.

@@ -1,14 +1,26 @@
 //! Memory whose size the scene determines: arrays of a length that it specifies, and values that may be absent.
 
+use crate::c::span::Free;
+
 /// An array of [`Store::LENGTH`] values.
 pub trait Store<T>: AsRef<[T]> + AsMut<[T]> {
-    /// The number of values.
+    /// The number of values that lie in the array itself.
     const LENGTH: usize;
 
     /// The array with every element equal to `value`.
     fn filled(value: T) -> Self
     where
         T: Copy;
+
+    /// The memory that `count` values take outside of the array \[bytes\].
+    #[inline(always)]
+    fn outside(_count: usize) -> usize {
+        0
+    }
+
+    /// Places `count` values in memory outside of the array, if it has a length of its own only there.
+    #[inline(always)]
+    fn place(&mut self, _count: usize, _free: &mut Free) {}
 }
 
 impl<T, const LENGTH: usize> Store<T> for [T; LENGTH] {

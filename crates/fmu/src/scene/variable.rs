@@ -20,6 +20,12 @@ macro_rules! variables {
         impl $kind {
             /// All that the table has, with their names.
             pub const ALL: [(&'static str, $kind); [$($name),+].len()] = [$(($name, $kind::$variant)),+];
+
+            /// The variable with this place among all of them.
+            pub fn of_number(place: u8) -> Option<$kind> {
+                const KINDS: [$kind; [$($name),+].len()] = [$($kind::$variant),+];
+                KINDS.get(usize::from(place)).copied()
+            }
         }
     };
 }
@@ -63,9 +69,6 @@ variables! {
 }
 
 impl Parameter {
-    /// The number of those that prebuilt libraries have, which come first.
-    pub const PREBUILT: usize = Parameter::InitialGap as usize + 1;
-
     /// The value in a scene that does not have the parameter: a rigid impactor, a flat and thick target, bodies that never yield
     /// or do not harden, no damping, no loss below yield, no friction. NaN for a parameter that every scene has.
     #[inline(always)]
@@ -120,22 +123,25 @@ pub fn run_of(runs: &[Run], index: usize) -> Option<(usize, Option<usize>)> {
     Some((place, first.map(|first| first + (index - begin))))
 }
 
-/// The values of all `runs`. All values of a run are equal to its element of `starts`.
-pub fn spread<const VALUES: usize>(runs: &[Run], starts: &[f64]) -> [f64; VALUES] {
-    let mut values = [0.0; VALUES];
+/// Sets the `values` of all `runs`. All values of a run are equal to its element of `starts`.
+pub fn spread(runs: &[Run], starts: &[f64], values: &mut [f64]) {
     let mut slots = values.iter_mut();
     let mut begin = 0;
     for (run, &start) in runs.iter().zip(starts) {
         slots.by_ref().take(run.end - begin).for_each(|value| *value = start);
         begin = run.end;
     }
-    values
 }
 
 /// The name of a contact and its number, as for [`Scene::contact_name`](super::Scene::contact_name). `names` and `ends` have
 /// one element for each group; the flag in `names` is true if contacts are counted.
-pub fn name_in(names: &[(&'static str, bool)], ends: &[usize], group: usize, contact: usize) -> (&'static str, usize) {
-    let (name, counted) = names.get(group).copied().unwrap_or(("", false));
+pub fn name_in(
+    names: &[(&'static [u8], bool)],
+    ends: &[usize],
+    group: usize,
+    contact: usize,
+) -> (&'static [u8], usize) {
+    let (name, counted) = names.get(group).copied().unwrap_or((&[], false));
     let first = group.checked_sub(1).and_then(|before| ends.get(before)).copied().unwrap_or(0);
     (name, if counted { contact + 1 - first } else { 0 })
 }

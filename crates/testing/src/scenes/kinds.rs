@@ -88,7 +88,7 @@ impl<C: Coupling> Kind for Rated<C> {
 
 impl<const MEAN: bool> Kind for Rough<MEAN> {
     type Model = RoughModel<AnyLoading, AnyUnloading>;
-    type Contact = RoughContact<12, MEAN>;
+    type Contact = RoughContact<16, MEAN>;
     type Course = Present;
     type Coupling = Absent;
     type Watch = Present;

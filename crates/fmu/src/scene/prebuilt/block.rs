@@ -3,28 +3,33 @@
 //! The exporter fills it in; the library only reads it. All numbers are 64-bit words, little-endian as on every supported
 //! platform.
 
+use crate::c::words::{bytes_of, numbers_of};
 use crate::scene::Parameter;
+use crate::scene::variable::Source;
+use brinell_contact::LawNumbers;
+use brinell_contact::rate::Rate;
 
 /// First word of every block ("brinell" and a zero).
 pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 
 /// Version of the layout.
-pub const VERSION: u64 = 4;
+pub const VERSION: u64 = 5;
 
-/// Capacity for variables.
-pub const VARIABLES: usize = 64;
+/// Capacity for kinds of variables of a contact.
+pub const KINDS: usize = 64;
 
-/// Capacity for texts \[bytes\].
-pub const TEXTS: usize = 512;
+/// Capacity for the [lists](List) \[words\].
+pub const POOL: usize = 4096;
 
 /// Length of a GUID \[bytes\].
 pub const GUID: usize = 32;
 
-/// The code of a value reference without a variable.
-pub const NO_VARIABLE: u8 = u8::MAX;
+/// The first code of a kind of variable that denotes an Integer. The codes follow the order of [`Real`](crate::scene::Real), then
+/// of [`Integer`](crate::scene::Integer).
+pub const FIRST_INTEGER: u8 = 128;
 
-/// The first code that denotes a parameter. The codes follow the order of [`Parameter`].
-pub const FIRST_PARAMETER: u8 = 128;
+/// The code of no kind.
+pub const NO_KIND: u8 = u8::MAX;
 
 /// The block: a header, and the data.
 #[derive(Clone, Copy, Debug)]
@@ -52,36 +57,236 @@ pub struct Data {
     pub identity: u64,
     /// The [flags](Flag) of the scene.
     pub flags: u64,
-    /// The parameters that can be set, one bit each.
-    pub settable: u64,
+    /// Number of contacts.
+    pub contacts: u64,
+    /// Number of groups of equal contacts.
+    pub groups: u64,
+    /// Number of values of parameters that can be set.
+    pub values: u64,
+    /// Number of kinds of variables of a contact.
+    pub kinds: u64,
     /// Effective mass of the scene's impact \[kg\] if the step size is to be checked, otherwise NaN.
     pub impact_mass: f64,
-    /// Density of the target \[kg/m^3\]; NaN if unknown.
-    pub density: f64,
-    /// The values of all parameters, in the order of [`Parameter`].
-    pub starts: [f64; Parameter::PREBUILT],
-    /// The smallest value of each parameter that can be set.
-    pub minima: [f64; Parameter::PREBUILT],
-    /// The largest value of each parameter that can be set.
-    pub maxima: [f64; Parameter::PREBUILT],
-    /// The meaning of each value reference: the index of a variable in the table of variables, or a parameter.
-    pub variables: [u8; VARIABLES],
+    /// The loading law, or the rate-dependent law.
+    pub loading: LawNumbers,
+    /// The unloading law.
+    pub unloading: LawNumbers,
+    /// The [loss](Loss) below yield.
+    pub loss: u64,
+    /// The strain rate of the target, and of the impactor.
+    pub rates: [RateNumbers; 2],
+    /// Where the value of each parameter comes from; of [tables that differ](List::Sources), each has its own sources instead.
+    pub sources: [[u64; SOURCE_WORDS]; Parameter::ALL.len()],
     /// The GUID.
     pub guid: [u8; GUID],
-    /// Name and unit of each parameter that can be set, or two empty texts; each text ends with 0.
-    pub texts: [u8; TEXTS],
+    /// The kind of variable that each kind of value reference denotes.
+    pub codes: [u8; KINDS],
+    /// The words of each [`List`]: where they begin, and how many there are.
+    pub lists: [[u32; 2]; List::COUNT],
+    /// The words of all lists.
+    pub pool: [u64; POOL],
+}
+
+/// A list of words in the pool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum List {
+    /// A row for each [`Table`].
+    Tables = 0,
+    /// A row for each [`Run`] of values.
+    Runs = 1,
+    /// A row for each parameter of each table, if they differ: where its value comes from.
+    Sources = 2,
+    /// The inverse masses \[1/kg\].
+    InverseMasses = 3,
+    /// Where the passivity guard acts, in UTF-8 with zeros at the end.
+    Guard = 4,
+    /// Texts in UTF-8.
+    Texts = 5,
+}
+
+impl List {
+    /// The number of lists.
+    pub const COUNT: usize = 6;
+}
+
+/// A table of the scene: contacts with the same properties.
+#[derive(Clone, Copy, Debug)]
+pub struct Table {
+    /// The contact after the last one.
+    pub end: u64,
+    /// Whether its contacts are counted.
+    pub is_counted: bool,
+    /// Whether a new contact meets a fresh surface.
+    pub is_fresh: bool,
+    /// Density of the target \[kg/m^3\]; NaN if unknown.
+    pub density: f64,
+    /// Its name.
+    pub name: Text,
+}
+
+impl Table {
+    /// Words of a row.
+    pub const WORDS: usize = 5;
+
+    /// As words.
+    pub fn words(&self) -> [u64; Table::WORDS] {
+        [self.end, self.is_counted.into(), self.is_fresh.into(), self.density.to_bits(), self.name.word()]
+    }
+
+    /// The table with these words.
+    fn of(&[end, is_counted, is_fresh, density, name]: &[u64; Table::WORDS]) -> Table {
+        Table {
+            end,
+            is_counted: is_counted != 0,
+            is_fresh: is_fresh != 0,
+            density: f64::from_bits(density),
+            name: Text::of(name),
+        }
+    }
+}
+
+/// Consecutive values of one settable parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// The index after the last value.
+    pub end: u64,
+    /// The contact of the first value, if each contact has its own, and there are several; otherwise `u64::MAX`.
+    pub first_contact: u64,
+    /// Whether it may be set between steps.
+    pub is_tunable: bool,
+    /// Start value.
+    pub start: f64,
+    /// Smallest value allowed.
+    pub minimum: f64,
+    /// Largest value allowed.
+    pub maximum: f64,
+    /// Name of the variable.
+    pub name: Text,
+    /// Unit; empty if there is none.
+    pub unit: Text,
+}
+
+impl Run {
+    /// Words of a row.
+    pub const WORDS: usize = 8;
+
+    /// As words.
+    pub fn words(&self) -> [u64; Run::WORDS] {
+        let numbers = [self.start, self.minimum, self.maximum].map(f64::to_bits);
+        let [start, minimum, maximum] = numbers;
+        let (name, unit) = (self.name.word(), self.unit.word());
+        [self.end, self.first_contact, self.is_tunable.into(), start, minimum, maximum, name, unit]
+    }
+
+    /// The run with these words.
+    fn of(&[end, first_contact, is_tunable, start, minimum, maximum, name, unit]: &[u64; Run::WORDS]) -> Run {
+        let [start, minimum, maximum] = [start, minimum, maximum].map(f64::from_bits);
+        let (name, unit) = (Text::of(name), Text::of(unit));
+        Run { end, first_contact, is_tunable: is_tunable != 0, start, minimum, maximum, name, unit }
+    }
+}
+
+/// Words of a source of a parameter.
+pub const SOURCE_WORDS: usize = 2;
+
+/// A source of a parameter as words.
+pub fn source_words(source: &Source) -> [u64; SOURCE_WORDS] {
+    match *source {
+        Source::Constant(value) => [0, value.to_bits()],
+        Source::Settable(index) => [1, index as u64],
+        Source::PerContact(index) => [2, index as i64 as u64],
+    }
+}
+
+/// A part of [`List::Texts`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Text {
+    /// First byte.
+    pub start: u32,
+    /// Number of bytes.
+    pub length: u32,
+}
+
+impl Text {
+    fn word(self) -> u64 {
+        u64::from(self.start) << 32 | u64::from(self.length)
+    }
+
+    fn of(word: u64) -> Text {
+        Text { start: (word >> 32) as u32, length: word as u32 }
+    }
+}
+
+/// A model of the strain rate as numbers.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct RateNumbers {
+    /// 0 for Johnson and Cook, 1 for Cowper and Symonds.
+    pub form: u64,
+    /// Its two constants.
+    pub constants: [f64; 2],
+}
+
+impl RateNumbers {
+    /// The numbers of this model.
+    pub const fn of(rate: Rate) -> RateNumbers {
+        match rate {
+            Rate::JohnsonCook { c, reference_rate } => RateNumbers { form: 0, constants: [c, reference_rate] },
+            Rate::CowperSymonds { d, q } => RateNumbers { form: 1, constants: [d, q] },
+        }
+    }
+
+    /// The model with these numbers.
+    pub fn rate(&self) -> Rate {
+        let [first, second] = self.constants;
+        match self.form {
+            0 => Rate::JohnsonCook { c: first, reference_rate: second },
+            _ => Rate::CowperSymonds { d: first, q: second },
+        }
+    }
+}
+
+/// A loss below yield.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Loss {
+    /// [`Fitted`](brinell_contact::losses::Fitted).
+    Fitted = 0,
+    /// [`Waves`](brinell_contact::losses::Waves).
+    Waves = 1,
+    /// [`Plate`](brinell_contact::losses::Plate).
+    Plate = 2,
 }
 
 /// A feature of a scene, as a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Flag {
-    /// A new contact meets a fresh surface.
-    Fresh = 0,
-    /// The acceleration by all forces except the contact force is an input.
-    Acceleration = 1,
+    /// Accelerations by all forces except those of the contacts are inputs.
+    Acceleration = 0,
     /// The effective mass is an input.
-    Mass = 2,
+    Mass = 1,
+    /// The FMU moves the bodies.
+    Moves = 2,
+    /// For an importer that steps all FMUs at once.
+    Parallel = 3,
+    /// Contacts share bodies.
+    Shared = 4,
+    /// Their inverse masses are inputs.
+    InverseMassInputs = 5,
+    /// An output needs the momentum of a step.
+    Momentum = 6,
+    /// The input may have derivatives.
+    Course = 7,
+    /// Forces are stored.
+    Forces = 8,
+    /// The laws take each of two bodies for itself.
+    Paired = 9,
+    /// The force depends on the rate.
+    FollowsRate = 10,
+    /// The sources of parameters differ between tables.
+    TablesDiffer = 11,
 }
 
 impl Flag {
@@ -98,13 +303,6 @@ impl Block {
     /// The block of a library that has not been filled in.
     pub const fn unfilled(library: u64) -> Block {
         Block { magic: MAGIC, version: VERSION, library, length: 0, checksum: 0, data: Data::EMPTY }
-    }
-
-    /// A block with these `data` for a `library`.
-    pub fn filled(library: u64, data: Data) -> Block {
-        let mut block = Block { length: Data::WORDS as u64, data, ..Block::unfilled(library) };
-        block.checksum = checksum(block.data.words());
-        block
     }
 
     /// Checks that the block, which consists of these `words`, is intact and for this `library`.
@@ -124,6 +322,15 @@ impl Block {
             Ok(())
         }
     }
+}
+
+impl Block {
+    /// A block with these `data` for a `library`.
+    pub fn filled(library: u64, data: Data) -> Block {
+        let mut block = Block { length: Data::WORDS as u64, data, ..Block::unfilled(library) };
+        block.checksum = checksum(block.data.words());
+        block
+    }
 
     /// The words of the block as they lie in memory.
     pub fn words(&self) -> impl Iterator<Item = u64> {
@@ -132,22 +339,48 @@ impl Block {
 }
 
 impl Data {
+    /// The words of the data as they lie in memory.
+    fn words(&self) -> impl Iterator<Item = u64> {
+        let Data { identity, flags, contacts, groups, values, kinds, .. } = *self;
+        let law = |law: LawNumbers| core::iter::once(law.law).chain(law.constants.map(f64::to_bits));
+        let rate = |rate: RateNumbers| core::iter::once(rate.form).chain(rate.constants.map(f64::to_bits));
+        let (guid, _) = self.guid.as_chunks();
+        let (codes, _) = self.codes.as_chunks();
+        let bytes = guid.iter().chain(codes).map(|bytes| u64::from_le_bytes(*bytes));
+        let lists = self.lists.map(|[start, length]| u64::from(start) | u64::from(length) << 32);
+        [identity, flags, contacts, groups, values, kinds, self.impact_mass.to_bits()]
+            .into_iter()
+            .chain(law(self.loading))
+            .chain(law(self.unloading))
+            .chain([self.loss])
+            .chain(self.rates.into_iter().flat_map(rate))
+            .chain(self.sources.into_iter().flatten())
+            .chain(bytes)
+            .chain(lists)
+            .chain(self.pool)
+    }
+
     /// Length of the data \[words\].
-    const WORDS: usize = size_of::<Data>() / 8;
+    pub const WORDS: usize = size_of::<Data>() / 8;
 
     /// The data of no scene.
     pub const EMPTY: Data = Data {
         identity: 0,
         flags: 0,
-        settable: 0,
+        contacts: 0,
+        groups: 0,
+        values: 0,
+        kinds: 0,
         impact_mass: f64::NAN,
-        density: f64::NAN,
-        starts: [0.0; Parameter::PREBUILT],
-        minima: [0.0; Parameter::PREBUILT],
-        maxima: [0.0; Parameter::PREBUILT],
-        variables: [NO_VARIABLE; VARIABLES],
+        loading: LawNumbers::NONE,
+        unloading: LawNumbers::NONE,
+        loss: 0,
+        rates: [RateNumbers::of(Rate::NONE); 2],
+        sources: [[0; SOURCE_WORDS]; Parameter::ALL.len()],
         guid: [0; GUID],
-        texts: [0; TEXTS],
+        codes: [NO_KIND; KINDS],
+        lists: [[0; 2]; List::COUNT],
+        pool: [0; POOL],
     };
 
     /// Whether the scene has this feature.
@@ -156,26 +389,76 @@ impl Data {
         self.flags & flag.bit() != 0
     }
 
-    /// Whether this parameter can be set.
-    pub fn is_settable(&self, parameter: usize) -> bool {
-        parameter < Parameter::PREBUILT && self.settable >> parameter & 1 != 0
+    /// The words of a list.
+    #[inline(always)]
+    pub fn list(&self, list: List) -> &[u64] {
+        let [start, length] = self.lists.get(list as usize).copied().unwrap_or_default();
+        let end = (start as usize).wrapping_add(length as usize);
+        self.pool.get(start as usize..end).unwrap_or_default()
     }
 
-    /// The text with this index; empty after the last one.
-    #[inline(never)]
-    pub fn text(&self, place: usize) -> &[u8] {
-        self.texts.split(|&byte| byte == 0).nth(place).unwrap_or_default()
+    /// The rows of a list.
+    #[inline(always)]
+    fn rows<const WORDS: usize>(&self, list: List) -> &[[u64; WORDS]] {
+        self.list(list).as_chunks().0
     }
 
-    /// The words of the data as they lie in memory.
-    fn words(&self) -> impl Iterator<Item = u64> {
-        let numbers = [self.impact_mass, self.density].into_iter().chain(self.starts).chain(self.minima);
-        let (variables, _) = self.variables.as_chunks();
-        let (texts, _) = self.texts.as_chunks();
-        let (guid, _) = self.guid.as_chunks();
-        let bytes = variables.iter().chain(guid).chain(texts).map(|bytes| u64::from_le_bytes(*bytes));
-        let numbers = numbers.chain(self.maxima).map(f64::to_bits);
-        [self.identity, self.flags, self.settable].into_iter().chain(numbers).chain(bytes)
+    /// The table with this index.
+    pub fn table(&self, index: usize) -> Option<Table> {
+        self.rows(List::Tables).get(index).map(Table::of)
+    }
+
+    /// Number of tables.
+    #[inline(always)]
+    pub fn tables(&self) -> usize {
+        self.rows::<{ Table::WORDS }>(List::Tables).len()
+    }
+
+    /// The index of the table of a contact.
+    pub fn table_of_contact(&self, contact: usize) -> usize {
+        self.rows(List::Tables).partition_point(|&[end, _, _, _, _]: &[u64; Table::WORDS]| end as usize <= contact)
+    }
+
+    /// The run of the value with this index, and the index after the last value of the run before.
+    pub fn run(&self, index: usize) -> Option<(Run, usize)> {
+        let runs: &[[u64; Run::WORDS]] = self.rows(List::Runs);
+        let place = runs.partition_point(|&[end, ..]| end as usize <= index);
+        let begin = place.checked_sub(1).and_then(|before| runs.get(before)).map_or(0, |&[end, ..]| end as usize);
+        Some((Run::of(runs.get(place)?), begin))
+    }
+
+    /// All runs.
+    pub fn runs(&self) -> impl Iterator<Item = Run> {
+        self.rows(List::Runs).iter().map(Run::of)
+    }
+
+    /// The source of a parameter of the `table` with this index.
+    #[inline(always)]
+    pub fn source(&self, parameter: Parameter, table: impl FnOnce() -> usize) -> Option<Source> {
+        let &[kind, word] = match self.has(Flag::TablesDiffer) {
+            false => self.sources.get(parameter as usize)?,
+            true => {
+                let sources: &[[u64; SOURCE_WORDS]] = self.rows(List::Sources);
+                let first = table().wrapping_mul(Parameter::ALL.len());
+                sources.get(first.wrapping_add(parameter as usize))?
+            }
+        };
+        Some(match kind {
+            0 => Source::Constant(f64::from_bits(word)),
+            1 => Source::Settable(word as usize),
+            _ => Source::PerContact(word as isize),
+        })
+    }
+
+    /// A text.
+    pub fn text(&self, text: Text) -> &[u8] {
+        let end = (text.start as usize).wrapping_add(text.length as usize);
+        bytes_of(self.list(List::Texts)).get(text.start as usize..end).unwrap_or_default()
+    }
+
+    /// The inverse masses \[1/kg\].
+    pub fn inverse_masses(&self) -> &[f64] {
+        numbers_of(self.list(List::InverseMasses))
     }
 }
 
@@ -188,5 +471,3 @@ const HEAD: usize = 5;
 fn checksum(data: impl Iterator<Item = u64>) -> u64 {
     data.fold(0xcbf2_9ce4_8422_2325, |sum, word| (sum ^ word).wrapping_mul(0x100_0000_01b3))
 }
-
-const _: () = assert!(size_of::<Block>() == 8 * (HEAD + 5 + 3 * Parameter::PREBUILT + (VARIABLES + GUID + TEXTS) / 8));
