@@ -60,18 +60,32 @@ fn worker() {
     }
 }
 
+/// An FMU to check.
+struct Target {
+    name: String,
+    file: PathBuf,
+    /// Whether its law never returns energy.
+    passive: bool,
+}
+
+impl Target {
+    fn of_scene(scene: &Path, passive: bool) -> Target {
+        let name = scene.file_stem().expect("a name").to_string_lossy().into_owned();
+        Target { name, file: unit::export(scene), passive }
+    }
+}
+
 /// Makes all checks of one FMU; returns the number of calls, and what fails.
-fn conform_one(scene: &Path, passive: bool) -> (u64, Vec<String>) {
+fn conform_one(Target { name, file, passive }: &Target) -> (u64, Vec<String>) {
     let program = env::current_exe().expect("a test program");
     let scratch = tempfile::tempdir().expect("a folder for temporary files");
     let (log, count) = (scratch.path().join("log"), scratch.path().join("count"));
-    let name = scene.file_stem().expect("a name").to_string_lossy();
-    let library = unit::library(&unit::export(scene));
+    let library = unit::library(file);
     let (mut made, mut wrong) = (0, Vec::new());
     for check in CHECKS {
         let mut command: Command = child::worker(&program);
         command.env(LIBRARY, &library).env(CHECK, check.name).env(COUNT, &count);
-        if !passive {
+        if !*passive {
             command.env(ACTIVE, "1");
         }
         match child::run(&mut command, &log, LIMIT) {
@@ -83,24 +97,28 @@ fn conform_one(scene: &Path, passive: bool) -> (u64, Vec<String>) {
     (made, wrong)
 }
 
-/// Makes all checks of the FMU of each scene, with the passivity of its law; returns the number of calls.
+/// Makes all checks of each FMU; returns the number of calls.
 ///
 /// # Panics
 /// If any of them fails, with all failures.
-fn conform(scenes: &[(PathBuf, bool)]) -> u64 {
-    let of_one = |(scene, passive): &(PathBuf, bool)| Ok::<_, Infallible>(conform_one(scene, *passive));
-    let Ok(results) = parallel::each(scenes, of_one);
+fn conform<T: Sync>(targets: &[T], target: impl Fn(&T) -> Target + Sync) -> u64 {
+    let Ok(results) = parallel::each(targets, |each| Ok::<_, Infallible>(conform_one(&target(each))));
     let all = results.iter().map(|(made, _)| made).sum();
     let wrong: Vec<_> = results.into_iter().flat_map(|(_, wrong)| wrong).collect();
     assert!(wrong.is_empty(), "{} checks fail:\n{}", wrong.len(), wrong.join("\n"));
-    println!("{all} calls, {} FMUs, {} checks", scenes.len(), CHECKS.len());
+    println!("{all} calls, {} FMUs, {} checks", targets.len(), CHECKS.len());
     all
 }
 
 #[test]
 fn every_kind_of_fmu_does_what_the_standard_says() {
-    let scenes: Vec<_> = targets::scenes().into_iter().map(|scene| (scene, true)).collect();
-    assert!(conform(&scenes) > 100_000);
+    assert!(conform(&targets::scenes(), |scene| Target::of_scene(scene, true)) > 100_000);
+}
+
+#[test]
+fn every_kind_of_prebuilt_library_does_what_the_standard_says() {
+    let target = |(name, file): &(String, PathBuf)| Target { name: name.clone(), file: file.clone(), passive: true };
+    assert!(conform(&targets::prebuilt(), target) > 100_000);
 }
 
 /// Every function is in the table once.
@@ -140,7 +158,5 @@ fn the_fmu_of_every_law_does_what_the_standard_says() {
     let laws = laws();
     assert!(laws.len() >= 35, "{} laws", laws.len());
     assert!(laws.iter().filter(|law| law.passive).count() >= 20, "most laws are passive");
-    let scene = |law: &Law| (targets::scene_of_law(&law.name, law.unloading.as_deref()), law.passive);
-    let scenes: Vec<_> = laws.iter().map(scene).collect();
-    conform(&scenes);
+    conform(&laws, |law| Target::of_scene(&targets::scene_of_law(&law.name, law.unloading.as_deref()), law.passive));
 }

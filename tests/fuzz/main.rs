@@ -156,16 +156,20 @@ impl Target {
     }
 }
 
-/// All FMUs: those of the project's own scenes, and of additional laws and keys.
+/// All FMUs: those of the project's own scenes, of additional laws and keys, and of each kind of prebuilt library.
 fn targets() -> Vec<Target> {
     // a thousand contacts show no more than two, and take longer
     let scenes = targets::scenes().into_iter().filter(|scene| !scene.ends_with("many_contacts.toml"));
-    let target = |scene: PathBuf| Target {
-        name: scene.file_stem().expect("a name").to_string_lossy().into_owned(),
-        library: unit::library(&unit::export(&scene)),
+    let compiled = scenes.map(|scene| {
+        let name = scene.file_stem().expect("a name").to_string_lossy().into_owned();
+        (name, unit::export(&scene))
+    });
+    let target = |(name, fmu): (String, PathBuf)| Target {
+        name,
+        library: unit::library(&fmu),
         scratch: tempfile::tempdir().expect("a folder for temporary files"),
     };
-    scenes.map(target).collect()
+    compiled.chain(targets::prebuilt()).map(target).collect()
 }
 
 #[test]

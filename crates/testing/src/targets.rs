@@ -1,6 +1,6 @@
 //! The FMUs that the conformance suite and the random calls are made of: every kind that there is.
 
-use super::unit;
+use super::{kinds, prebuilt, unit};
 use std::path::PathBuf;
 
 /// Scenes of laws and keys that the project's own scenes lack: name, loading law, unloading law, additional lines of the
@@ -52,6 +52,15 @@ pub fn scenes() -> Vec<PathBuf> {
     });
     let more = MORE.map(|(name, text)| unit::write_scene(name, &format!("name = \"{name}\"\n{BODIES}{text}")));
     unit::scenes().into_iter().chain(further).chain(more).collect()
+}
+
+/// An FMU of each kind of prebuilt library, by the name of the kind.
+pub fn prebuilt() -> Vec<(String, PathBuf)> {
+    let mut scenes = kinds::of_each_kind();
+    scenes.dedup_by_key(|(kind, _)| *kind);
+    let fmu =
+        |(kind, text): (&str, String)| (format!("prebuilt {kind}"), prebuilt::export(&text, Some(prebuilt::store())));
+    scenes.into_iter().map(fmu).collect()
 }
 
 /// The scene of an FMU of the law `loading`, or of the rate-dependent law `LAW/DAMPING`; `unloading` is the law that it was
