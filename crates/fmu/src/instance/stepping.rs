@@ -197,13 +197,15 @@ impl<S: Scene> Instance<S> {
         let Contacts { histories, rates, forces, momenta, watched, looks, .. } = &mut self.contacts;
         let settings = &mut self.settings;
         let (forces, momenta) = (forces.as_mut(), momenta.as_mut());
+        // asked once, since a scene that is data would be asked for each contact
+        let (is_one, has_momentum) = (S::contacts() == 1, S::has_momentum());
         for (contact, (history, &rate)) in histories.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
-            let from = if S::has_momentum() { history.indentation() } else { 0.0 };
+            let from = if has_momentum { history.indentation() } else { 0.0 };
             let before = *history;
             // a single contact has been tried before; when its momentum is an output, it is computed as in a plain step
-            let short = (S::contacts() > 1 || S::has_momentum()) && history.short_step(rate * step);
-            let group = S::group(contact);
-            let kept = || settings.bodies.as_ref().get(group).map(|bodies| bodies.kept).unwrap_or_default();
+            let short = (!is_one || has_momentum) && history.short_step(rate * step);
+            let group = || S::group(contact);
+            let kept = |group: usize| settings.bodies.as_ref().get(group).map(|bodies| bodies.kept).unwrap_or_default();
             let mut long = None;
             if watches || !short {
                 let mean_force = momenta.get(contact).map_or(0.0, |momentum| momentum.mean_force);
@@ -211,8 +213,9 @@ impl<S: Scene> Instance<S> {
                 long = watch::<S>(watched, looks, contact, &ahead);
             }
             if !short {
+                let group = group();
                 history
-                    .step_held(rate, step, &kept(), || settings.model_at_once(group))
+                    .step_held(rate, step, &kept(group), || settings.model_at_once(group))
                     .map_err(|deep| too_deep(contact, deep))?;
                 // on a branch it neither begins nor ceases to act
                 if let Some(guard) = S::guard()
@@ -222,7 +225,7 @@ impl<S: Scene> Instance<S> {
                     *guarded = Guarded::Seen;
                 }
             }
-            if (S::contacts() == 1 || !short) && !history.stays_within(settings.valid_depth(group)) {
+            if (is_one || !short) && !history.stays_within(settings.valid_depth(group())) {
                 self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };
             }
             self.deep = long.unwrap_or(self.deep);
@@ -233,7 +236,7 @@ impl<S: Scene> Instance<S> {
                 let mean = match short {
                     true => history.mean_force_of_short_step(from),
                     false => before
-                        .mean_force(&settings.model_at_once(group), rate, step)
+                        .mean_force(&settings.model_at_once(group()), rate, step)
                         .map_err(|deep| too_deep(contact, deep))?,
                 };
                 momentum.add(mean, step);
