@@ -73,7 +73,7 @@ fn an_invalid_name_is_refused_and_nothing_is_written() {
         ("a\"b", "letters, digits and `_`"),
         ("../ball", "letters, digits and `_`"),
         ("con", "a device on Windows"),
-        ("int", "a word of the language C"),
+        ("int", "a keyword of C or C++"),
     ] {
         let refused = run(folder.path(), ["new", name]).with_status(2);
         assert!(refused.err.contains(&format!("name = {name:?} is")) && refused.err.contains(why), "{refused:#?}");

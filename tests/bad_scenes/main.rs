@@ -126,6 +126,14 @@ fn a_name_that_is_no_identifier_is_refused() {
     }
 }
 
+/// FMI asks for a C identifier, which importers may compile into their own code, in C or C++.
+#[test]
+fn a_name_that_is_a_keyword_of_c_or_cpp_is_refused() {
+    for name in ["double", "restrict", "_Bool", "class", "xor"] {
+        refused("\"ball\"", &format!("§{name:?}"), &["name = ", name, "a keyword of C or C++", "call it otherwise"]);
+    }
+}
+
 /// `nul.dll` can't be unpacked on Windows.
 #[test]
 fn a_name_reserved_for_a_device_on_windows_is_refused() {

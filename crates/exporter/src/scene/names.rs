@@ -12,35 +12,38 @@ pub fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
     let lower = text.to_ascii_lowercase();
     let port = lower.strip_prefix("com").or(lower.strip_prefix("lpt"));
     let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|digit| digit.is_ascii_digit()));
-    if is_port || ["con", "prn", "aux", "nul"].contains(&lower.as_str()) {
-        let message =
-            format!("name = {text:?} is that of a device on Windows, where no library can have it: call it otherwise");
-        return Err(Mistake(name.span(), message));
-    }
-    Ok(text)
+    let reason = if is_port || ["con", "prn", "aux", "nul"].contains(&lower.as_str()) {
+        "is that of a device on Windows, where no library can have it"
+    } else if KEYWORDS.split_whitespace().any(|keyword| keyword == text) {
+        "is a keyword of C or C++, and FMI asks for an identifier"
+    } else {
+        return Ok(text);
+    };
+    Err(Mistake(name.span(), format!("name = {text:?} {reason}: call it otherwise")))
 }
 
-/// The keywords of C, which are no identifiers. FMI asks that a modelIdentifier is one.
+/// The keywords of C and C++, which are no identifiers. FMI asks for one of C, since importers may compile the name of an FMU into
+/// their own code; many of them are written in C++.
 ///
-/// Reference: C11, section 6.4.1, without those that begin with `_`.
-const C_KEYWORDS: [&str; 34] = [
-    "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else", "enum", "extern", "float",
-    "for", "goto", "if", "inline", "int", "long", "register", "restrict", "return", "short", "signed", "sizeof",
-    "static", "struct", "switch", "typedef", "union", "unsigned", "void", "volatile", "while",
-];
+/// Reference: ISO C23, section 6.4.1, with those of C99; ISO C++20, sections 5.11 and 5.5 (operators that are words).
+const KEYWORDS: &str = "
+    auto break case char const continue default do double else enum extern float for goto if inline int long register restrict
+    return short signed sizeof static struct switch typedef union unsigned void volatile while
+    _Alignas _Alignof _Atomic _BitInt _Bool _Complex _Decimal128 _Decimal32 _Decimal64 _Generic _Imaginary _Noreturn
+    _Static_assert _Thread_local
+    alignas alignof bool constexpr false nullptr static_assert thread_local true typeof typeof_unqual
+    asm catch char16_t char32_t char8_t class co_await co_return co_yield concept const_cast consteval constinit decltype delete
+    dynamic_cast explicit export friend mutable namespace new noexcept operator private protected public reinterpret_cast requires
+    static_cast template this throw try typeid typename using virtual wchar_t
+    and and_eq bitand bitor compl not not_eq or or_eq xor xor_eq";
 
-/// Text that is a C identifier.
+/// Text that is a C identifier, or a keyword.
 pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
     let text = name.get_ref();
     let mut characters = text.chars();
     let begins = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
     // the name is also used for a file
     let short = text.len() <= 100;
-    if C_KEYWORDS.contains(&text.as_str()) {
-        let message =
-            format!("name = {text:?} is a word of the language C, where no variable can have it: call it otherwise");
-        return Err(Mistake(name.span(), message));
-    }
     if short && begins && characters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
         return Ok(text.clone());
     }
@@ -53,16 +56,21 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
 
 #[cfg(test)]
 mod tests {
-    use super::{C_KEYWORDS, check_identifier};
+    use super::{KEYWORDS, check_identifier, check_name};
     use toml::Spanned;
 
     #[test]
-    fn a_keyword_of_c_is_no_name_and_what_resembles_one_is() {
-        for keyword in C_KEYWORDS {
-            let refused = check_identifier(&Spanned::new(0..1, keyword.into())).map_err(|mistake| mistake.1);
-            assert!(refused.is_err_and(|said| said.contains("a word of the language C")), "{keyword}");
-            let near = format!("{keyword}_1");
-            assert!(check_identifier(&Spanned::new(0..1, near.clone())).is_ok_and(|name| name == near));
+    fn a_keyword_is_no_name_of_an_fmu_and_what_resembles_one_is() {
+        assert_eq!(KEYWORDS.split_whitespace().count(), 109);
+        for keyword in KEYWORDS.split_whitespace() {
+            let named = |name: &str| Spanned::new(0..1, name.to_string());
+            let refused = check_name(&named(keyword)).map_err(|mistake| mistake.1);
+            assert!(refused.is_err_and(|said| said.contains("a keyword of C or C++")), "{keyword}");
+            for near in [format!("{keyword}_1"), keyword.to_ascii_uppercase()] {
+                assert!(check_name(&named(&near)).is_ok_and(|name| name == near), "{near}");
+            }
+            // of a contact, which is no name of a file or function
+            assert!(check_identifier(&named(keyword)).is_ok());
         }
     }
 }
