@@ -200,6 +200,18 @@ fn a_number_out_of_range_is_refused_with_the_range() {
     }
     refused_with("[fmu]\ninitial_gap = §nan", &["initial_gap = NaN", "allowed is", "to"]);
     refused_with("[fmu]\ninitial_gap = §1e7", &["initial_gap = 10000000", "allowed is", "to"]);
+    for (value, said) in [("0", "0"), ("-1e-3", "-0.001"), ("nan", "NaN"), ("inf", "inf"), ("1e31", "1e31")] {
+        for key in ["step_size", "stop_time"] {
+            let said = format!("fmu.{key} = {said} is out of range");
+            refused_with(&format!("[fmu]\n{key} = §{value}"), &[&said, "allowed is 1e-30 to 1e30 s"]);
+        }
+    }
+}
+
+#[test]
+fn a_stop_time_before_the_end_of_the_first_step_is_refused() {
+    let parts = ["fmu.stop_time = 0.001 s", "before the end of the first step", "fmu.step_size = 0.01 s"];
+    refused_with("[fmu]\nstep_size = 0.01\nstop_time = §1e-3", &parts);
 }
 
 #[test]

@@ -251,3 +251,42 @@ fn the_author_of_a_scene_is_that_of_its_fmu_and_without_one_there_is_none() {
     assert_eq!(author(&write_scene("with_author", text)).as_deref(), Some("Zoë &amp; Co."));
     assert_eq!(author(&scene("without_author", "")), None);
 }
+
+/// Step size and stop time \[s\] that the model description of the FMU of `scene` suggests.
+fn experiment(scene: &Path) -> (f64, f64) {
+    let xml = texts(scene).0;
+    let (_, element) = xml.split_once("<DefaultExperiment").expect("each FMU suggests times");
+    let value = |name: &str| {
+        let (_, rest) = element.split_once(&format!(" {name}=\"")).expect(name);
+        rest.split('"').next().unwrap().parse().expect("a number")
+    };
+    assert_eq!(value("startTime"), 0.0);
+    (value("stepSize"), value("stopTime"))
+}
+
+/// A unit that is right at any step suggested 1e-7 s, too.
+#[test]
+fn the_suggested_step_divides_the_contact_unless_the_fmu_knows_the_mass() {
+    assert_eq!(experiment(&scene("plain_words", "")), (1e-7, 6e-5));
+    // 5 mm at 1 m/s: a tenth of the radius
+    assert_eq!(experiment(&scene("mass_words", MASS_KNOWN)), (5e-4, 0.3));
+    let impact = "impact = { mass = 4e-3, speed = SPEED }\ncoupling = { effective_mass = 4e-3 }\n";
+    assert_eq!(experiment(&scene("mass_fast", &impact.replace("SPEED", "20"))), (2e-5, 1e-2));
+    assert_eq!(experiment(&scene("mass_slow", &impact.replace("SPEED", "1e-3"))), (1e-3, 0.5));
+    assert_eq!(experiment(&unit::scene("stack")), (1e-3, 0.5));
+}
+
+#[test]
+fn the_scene_may_give_the_suggested_step_and_stop_time() {
+    let mass = "coupling = { effective_mass = 4e-3 }\n";
+    for (name, keys, coupling, expected) in [
+        ("both_times", "step_size = 2e-3, stop_time = 10", mass, (2e-3, 10.0)),
+        ("one_step", "step_size = 0.25, stop_time = 0.25", "", (0.25, 0.25)),
+        ("own_step", "step_size = 3e-6", "", (3e-6, 2e-3)),
+        ("own_stop", "stop_time = 0.7", "", (1e-7, 0.7)),
+        // not more than a five-hundredth
+        ("short_stop", "stop_time = 1e-3", mass, (2e-6, 1e-3)),
+    ] {
+        assert_eq!(experiment(&scene(name, &format!("fmu = {{ {keys} }}\n{coupling}"))), expected, "{name}");
+    }
+}

@@ -66,5 +66,8 @@ def test_parameters_can_be_given():
 def test_every_recorded_output_is_there():
     for name in paths():
         names = unit(name).outputs
-        result = fmpy.simulate_fmu(paths()[name], output=names, start_values={"indentation_rate": 1e-3})
+        # a constant rate is a wrong coupling of some units, which warn; without a logger of this call, fmpy calls one that is gone
+        result = fmpy.simulate_fmu(
+            paths()[name], output=names, start_values={"indentation_rate": 1e-3}, logger=lambda *message: None
+        )
         assert set(names) <= set(result.dtype.names)

@@ -30,6 +30,7 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let name = check_name(&file.name)?;
     let description = check_text("description", file.description.as_ref())?;
     let author = check_text("author", file.author.as_ref())?;
+    let (step_size, stop_time) = fmu::check_experiment(&file.fmu)?;
     let mut contacts = Contacts::of(&file)?;
     let laws = SceneLaws::of(&file.law, &contacts)?;
     let SceneLaws { damped, loading, unloading, passivity_guard } = laws;
@@ -118,6 +119,8 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         // a name with an index is a structured one
         structured_names: directions > 1
             || file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
+        step_size,
+        stop_time,
         standalone: file.fmu.standalone == Some(true),
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),

@@ -129,6 +129,8 @@ pub struct Fmu {
     pub names: Option<NamesName>,
     pub parameters: Option<Vec<Spanned<String>>>,
     pub initial_gap: Option<Spanned<f64>>,
+    pub step_size: Option<Spanned<f64>>,
+    pub stop_time: Option<Spanned<f64>>,
     pub standalone: Option<bool>,
     pub input_derivatives: Option<Spanned<bool>>,
 }

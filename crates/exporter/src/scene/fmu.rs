@@ -1,10 +1,11 @@
 //! The FMU: its description, the mass that it moves, and what the table `[fmu]` asks for.
 
 use super::contacts::Parameter;
-use super::file::{CouplingTable, MasterName};
+use super::file::{CouplingTable, Fmu, MasterName};
 use super::{Coupling, Scene};
-use crate::mistake::{Mistake, positive};
+use crate::mistake::{Mistake, check_range, positive};
 use crate::nearest::unknown;
+use crate::numbers::in_message;
 use crate::table::{self, Causality, VARIABLES};
 use crate::xml;
 use std::collections::HashSet;
@@ -149,4 +150,22 @@ pub fn check_input_derivatives(
         wanted => return Ok(wanted),
     };
     Err(Mistake(asked.span(), format!("fmu.input_derivatives = {}: {reason}", asked.get_ref())))
+}
+
+/// Step size and stop time that the scene suggests to importers \[s\], as far as it gives them.
+pub fn check_experiment(given: &Fmu) -> Result<(Option<f64>, Option<f64>), Mistake> {
+    for (name, time) in [("fmu.step_size", &given.step_size), ("fmu.stop_time", &given.stop_time)] {
+        time.as_ref().map(|time| check_range((name, "s"), "", time, 1e-30..=1e30)).transpose()?;
+    }
+    let value = |time: &Option<Spanned<f64>>| time.as_ref().map(|time| *time.get_ref());
+    let (step, stop) = (value(&given.step_size), value(&given.stop_time));
+    match (step, stop, &given.stop_time) {
+        (Some(step), Some(stop), Some(place)) if stop < step => {
+            let [stop, step] = [stop, step].map(in_message);
+            let message =
+                format!("fmu.stop_time = {stop} s is before the end of the first step of fmu.step_size = {step} s");
+            Err(Mistake(place.span(), message))
+        }
+        _ => Ok((step, stop)),
+    }
 }

@@ -98,6 +98,9 @@ pub struct Scene {
     pub input_derivatives: bool,
     /// Whether the names of variables are declared as structured instead of flat.
     pub structured_names: bool,
+    /// Step size and stop time that the FMU suggests \[s\], if the scene gives them.
+    pub step_size: Option<f64>,
+    pub stop_time: Option<f64>,
     /// Whether the library needs nothing from its process, and takes memory from its importer.
     pub standalone: bool,
     /// The text of the file.
