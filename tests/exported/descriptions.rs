@@ -174,10 +174,10 @@ fn the_page_of_an_fmu_knows_the_bodies_and_constants_of_each_contact() {
                 [[contact]]\nname = \"bead\"\ncount = 3\nimpactor = { radius = 2e-3 }\ntarget = { radius = -0.5 }\n";
     let (_, page) = texts(&write_scene("own_bodies", text));
     let rows = [
-        "<code>left</code></td><td>an elastic sphere and a half-space</td><td>impactor.radius = 0.004 m",
-        "<code>bead[1..3]</code></td><td>a rigid sphere and a spherical socket</td><td>impactor.radius = 0.002 m",
-        "<code>left.impactor.youngs_modulus</code></td><td class=\"n\">7e10</td><td>Pa",
-        "<code>bead.target.radius</code></td><td class=\"n\">-0.5</td><td>m",
+        "<code>left</code></td><td>an elastic sphere and a half-space</td><td>impactor.radius = 4 mm",
+        "<code>bead[1..3]</code></td><td>a rigid sphere and a spherical socket</td><td>impactor.radius = 2 mm",
+        "<code>left.impactor.youngs_modulus</code></td><td class=\"n\">70 GPa</td>",
+        "<code>bead.target.radius</code></td><td class=\"n\">-500 mm</td>",
         "on the first contact, <code>left</code>",
     ];
     for row in rows {
@@ -250,6 +250,53 @@ fn the_author_of_a_scene_is_that_of_its_fmu_and_without_one_there_is_none() {
     let text = "author = \"Zoë & Co.\"\nname = \"with_author\"\nimpactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
     assert_eq!(author(&write_scene("with_author", text)).as_deref(), Some("Zoë &amp; Co."));
     assert_eq!(author(&scene("without_author", "")), None);
+}
+
+/// Pages had 1.25606e-5 m, a white picture in the dark, corners in the curves, and names of files of the sources.
+#[test]
+fn the_page_of_an_fmu_is_written_for_readers() {
+    for name in ["steel_ball", "mass_known", "damped", "slope", "everything"] {
+        let (_, page) = texts(&unit::scene(name));
+        let (text, style) = (page.split("<svg").next().unwrap(), page.split("</style>").next().unwrap());
+        let (_, rest) = page.split_once("</svg>").expect("a picture");
+        for numbers in [text, rest] {
+            let exponent = |word: &str| word.contains('e') && word.parse::<f64>().is_ok();
+            let plain = numbers.replace(['<', '>', '(', ')'], " ");
+            assert_eq!(
+                plain.split_whitespace().find(|word| exponent(word.trim_end_matches([',', '.']))),
+                None,
+                "{name}"
+            );
+            for path in ["crates/", "data/", ".rs", ".toml"] {
+                assert!(!numbers.contains(path), "{name}: {path} in {numbers}");
+            }
+        }
+        assert!(style.contains("prefers-color-scheme: dark") && !page.contains("[um]") && page.contains("[\u{b5}m]"));
+        for line in page.split(" points=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
+            let number = |text: &str| text.parse::<f64>().expect("a number");
+            let points = line.split_whitespace().map(|point| point.split_once(',').expect("x and y"));
+            let points: Vec<_> = points.map(|(x, y)| (number(x), number(y))).collect();
+            for [a, b, c] in points.array_windows() {
+                let (x, y) = (c.0 - a.0, c.1 - a.1);
+                // the picture is drawn eight times as large
+                let corner = (x * (b.1 - a.1) - y * (b.0 - a.0)).abs() / x.hypot(y).max(1.0) / 8.0;
+                assert!(corner < 0.5, "{name}: a corner of {corner} pixels");
+            }
+        }
+    }
+    let (_, page) = texts(&unit::scene("steel_ball"));
+    for cell in [
+        "330.7 N",
+        "12.56 \u{b5}m",
+        "29.85 \u{b5}s",
+        "0.4463",
+        "206 GPa",
+        "5 mm",
+        "10<sup>\u{2212}12</sup> to 10<sup>9</sup>",
+    ] {
+        assert!(page.contains(&format!("<td class=\"n\">{cell}</td>")), "nothing of {cell} in {page}");
+    }
+    assert!(page.contains("<p>4.11 g at 1 m/s;"), "{page}");
 }
 
 /// Step size and stop time \[s\] that the model description of the FMU of `scene` suggests.

@@ -131,5 +131,5 @@ fn export_and_its_page_say_what_predict_says() {
         assert!(said.contains(&format!("warning {warning}")), "{said}");
         assert!(page.contains(&format!("<strong>Beyond the validity of the law:</strong> {warning}.")), "{warning}");
     }
-    assert!(page.contains("here an indentation of 2.250e-4 m") && page.contains("here 51.227 m/s"));
+    assert!(page.contains("here an indentation of 225 \u{b5}m") && page.contains("here 51.23 m/s"));
 }

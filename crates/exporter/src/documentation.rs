@@ -4,10 +4,10 @@ use crate::accuracy::accuracy;
 use crate::bodies;
 use crate::energy;
 use crate::friction_text;
-use crate::html::{TEXT_STYLE, begin, escape};
+use crate::html::{TEXT_STYLE, begin, escape, number, prose, quantity, unit};
 use crate::interface::Entry;
 use crate::law_text::{self, LawText};
-use crate::numbers::{digits, in_message};
+use crate::numbers::{self, digits};
 use crate::parameters::{self, LawConstant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
@@ -59,11 +59,11 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
         law_constants(page, &text, &parameters::constants(&unloading, text.law))?;
     }
     if let Some(loss) = scene.loss {
-        writeln!(page, "<h3>Loss below yield</h3>\n<p>{}</p>", escape(&loss.words()))?;
+        writeln!(page, "<h3>Loss below yield</h3>\n<p>{}</p>", prose(&loss.words()))?;
     }
     strength_text::section(page, scene)?;
     if scene.unloading.is_some() {
-        writeln!(page, "<p>{}</p>", escape(&energy::words(scene)))?;
+        writeln!(page, "<p>{}</p>", prose(&energy::words(scene)))?;
     }
     if let Some(guard) = &plan.guard {
         writeln!(
@@ -71,7 +71,7 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
             "<h3>Passivity guard</h3>\n<ul>\n<li><code>d_e &lt;= 2.5 W/F_m</code></li>\n</ul>\n<p>Unloading returns no \
              more energy than loading took: where it would, the elastic recovery is shortened, and the dent is deeper than \
              the law says. The guard {}. The FMU logs when it first acts (category logStatusWarning).</p>",
-            escape(&guard.words())
+            prose(&guard.words())
         )?;
     }
     friction_text::section(page, scene)?;
@@ -110,11 +110,10 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
     writeln!(page, "<h2>Contacts</h2>\n<table>\n<tr><th>Name</th><th>Bodies</th><th>Own values</th></tr>")?;
     for (index, group) in scene.contacts.iter().enumerate() {
         let (impactor, target) = bodies::words(scene, index);
-        let unit =
-            |name: &str| table::variable(name).unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
+        let unit = |name: &str| table::variable(name).unit.as_deref().unwrap_or("");
         let each = |own: &Parameter| if own.per_contact { " for each" } else { "" };
         let own =
-            group.own.iter().map(|own| format!("{} = {}{}{}", own.name, digits(own.value), unit(own.name), each(own)));
+            group.own.iter().map(|own| format!("{} = {}{}", own.name, quantity(own.value, unit(own.name)), each(own)));
         let own = own.collect::<Vec<_>>().join(", ");
         writeln!(
             page,
@@ -228,35 +227,42 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     let assumed = if scene.impact_is_assumed { assumption.as_str() } else { "" };
     writeln!(
         page,
-        "<p>{} kg at {} m/s{assumed}{}; {}:</p>\n<table>",
-        in_message(scene.impact_of(0).mass),
-        in_message(scene.impact.speed),
+        "<p>{} at {}{}{}; {}:</p>\n<table>",
+        quantity(scene.impact_of(0).mass, "kg"),
+        quantity(scene.impact.speed, "m/s"),
+        prose(assumed),
         bodies::first_contact(scene).map(|contact| format!(" on {contact}")).unwrap_or_default(),
         scene.any_model().method()
     )?;
-    let stiffness = scene.any_model().stiffness(prediction.max_indentation);
-    let rows = [
+    let mut rows = vec![
         ("Largest force", prediction.max_force, "N"),
         ("Largest indentation", prediction.max_indentation, "m"),
         ("Dent", prediction.residual_indentation, "m"),
         ("Largest contact radius", prediction.max_contact_radius, "m"),
         ("Coefficient of restitution", prediction.restitution, ""),
         ("Contact time", prediction.contact_time(), "s"),
-        ("Suitable step, explicit coupling", experiment.step, "s"),
-        ("Largest stable step, 2 sqrt(m/K)", 2.0 * (scene.impact_of(0).mass / stiffness).sqrt(), "s"),
     ];
-    for (quantity, value, unit) in rows {
-        writeln!(page, "<tr><td>{quantity}</td><td class=\"n\">{}</td><td>{unit}</td></tr>", digits(value))?;
+    if scene.coupling.is_some() {
+        rows.push(("Suggested step; the contact is right at any", experiment.step, "s"));
+    } else {
+        let stiffness = scene.any_model().stiffness(prediction.max_indentation);
+        let stable = 2.0 * (scene.impact_of(0).mass / stiffness).sqrt();
+        rows.push(("Suggested step, explicit coupling", experiment.step, "s"));
+        rows.push(("Largest stable step, 2 &radic;(m/K)", stable, "s"));
+    }
+    for (name, value, unit) in rows {
+        let value = prose(&numbers::quantity(value, unit));
+        writeln!(page, "<tr><td>{name}</td><td class=\"n\">{value}</td></tr>")?;
     }
     writeln!(page, "</table>")?;
     for warning in &plan.warnings {
-        writeln!(page, "<p><strong>Beyond the validity of the law:</strong> {warning}.</p>")?;
+        writeln!(page, "<p><strong>Beyond the validity of the law:</strong> {}.</p>", prose(warning))?;
     }
     if let Some(accuracy) = accuracy(scene, prediction) {
-        writeln!(page, "<p>{}</p>", escape(&accuracy))?;
+        writeln!(page, "<p>{}</p>", prose(&accuracy))?;
     }
     if let Some(note) = plan.waves_note() {
-        writeln!(page, "<p>{note}</p>")?;
+        writeln!(page, "<p>{}</p>", prose(&note))?;
     }
     if let Some(shared) = plan.shared_bodies {
         writeln!(page, "<p><strong>Bodies:</strong> {shared}.</p>")?;
@@ -264,7 +270,7 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(
         page,
         "<p>The law is valid {}. Leaving the valid range logs one warning (category logStatusWarning); the simulation continues.</p>",
-        plan.valid
+        prose(&plan.valid)
     )
 }
 
@@ -273,7 +279,7 @@ fn law(page: &mut String, heading: &str, text: &LawText) -> std::fmt::Result {
     for formula in &text.formulas {
         writeln!(page, "<li><code>{}</code></li>", escape(formula))?;
     }
-    writeln!(page, "</ul>\n<p>{} Reference: {}.</p>", escape(&text.notes), escape(&text.law.reference))
+    writeln!(page, "</ul>\n<p>{} Reference: {}.</p>", prose(&text.notes), escape(&text.law.reference))
 }
 
 /// The constants of a law in this FMU.
@@ -287,7 +293,7 @@ fn law_constants(page: &mut String, text: &LawText, constants: &[LawConstant]) -
         writeln!(
             page,
             "<tr><td><code>{name}</code></td><td class=\"n\">{}</td><td>{unit}</td><td>{}</td></tr>",
-            digits(*value),
+            number(&digits(*value)),
             escape(description)
         )?;
     }
@@ -306,19 +312,20 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
             Causality::Output => "output",
             Causality::Parameter => "parameter",
         };
-        let start = start.map(digits).unwrap_or_default();
+        let measured = variable.unit.as_deref().unwrap_or("");
+        let start = start.map(|start| quantity(start, measured)).unwrap_or_default();
         let allowed = match (variable.causality, variable.minimum, variable.maximum) {
             (Causality::Parameter | Causality::Input, Some(low), Some(high)) => {
-                format!("{} to {}", digits(low), digits(high))
+                format!("{} to {}", number(&digits(low)), number(&digits(high)))
             }
             _ => String::new(),
         };
-        let unit = variable.unit.as_deref().unwrap_or("");
         writeln!(
             page,
             "<tr><td><code>{}</code></td><td>{causality}</td><td class=\"n\">{start}</td><td class=\"n\">{allowed}</td>\
-             <td>{unit}</td><td>{}</td></tr>",
+             <td>{}</td><td>{}</td></tr>",
             entry.label(),
+            unit(measured),
             escape(description)
         )?;
     }
@@ -332,15 +339,16 @@ fn constants(page: &mut String, constants: &[plan::FixedParameter]) -> std::fmt:
     }
     writeln!(page, "<p>Constants of this FMU:</p>\n<table>")?;
     for plan::FixedParameter { name, value, unit, .. } in constants {
-        let value = digits(*value);
-        writeln!(page, "<tr><td><code>{name}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>")?;
+        let value = quantity(*value, unit);
+        writeln!(page, "<tr><td><code>{name}</code></td><td class=\"n\">{value}</td></tr>")?;
     }
     writeln!(page, "</table>")
 }
 
 /// Force against indentation over the scene's impact.
 fn curve(plan: &Plan) -> String {
-    force_over_indentation(plan.scene, plan.prediction()).svg(640, 400)
+    let picture = force_over_indentation(plan.scene, plan.prediction());
+    Picture { x_title: picture.x_title.replace("um", &unit("um")), ..picture }.svg(480, 340)
 }
 
 /// Force over indentation in the impact of `scene`, with this `prediction`.

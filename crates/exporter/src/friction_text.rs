@@ -1,6 +1,6 @@
 //! What the page in an FMU says about its friction.
 
-use crate::html::escape;
+use crate::html::prose;
 use crate::scene::Scene;
 use crate::table;
 use brinell_contact::Body;
@@ -13,15 +13,9 @@ pub fn section(page: &mut String, scene: &Scene) -> std::fmt::Result {
         return Ok(());
     }
     let directions = if scene.directions > 1 { TWO } else { ONE };
-    writeln!(
-        page,
-        "<h2>Friction</h2>\n<p>{} {}</p>\n<p>{}</p>\n<ul>",
-        escape(SIGNS),
-        escape(directions),
-        escape(THEORY)
-    )?;
+    writeln!(page, "<h2>Friction</h2>\n<p>{} {}</p>\n<p>{}</p>\n<ul>", prose(SIGNS), prose(directions), prose(THEORY))?;
     for item in accuracy(scene) {
-        writeln!(page, "<li>{}</li>", escape(&item))?;
+        writeln!(page, "<li>{}</li>", prose(&item))?;
     }
     writeln!(page, "</ul>")
 }

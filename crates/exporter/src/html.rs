@@ -1,5 +1,7 @@
-//! The common parts of all HTML pages: the head, and escaped text.
+//! The common parts of all HTML pages: the head, escaped text, and numbers with their units.
 
+use crate::numbers;
+use crate::table::UNITS;
 use std::fmt::Write;
 
 /// The style of a page of text.
@@ -8,9 +10,10 @@ pub const TEXT_STYLE: &str = "\
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 50rem; margin: 0 auto; padding: 1rem; }
 table { border-collapse: collapse; display: block; overflow-x: auto; }
 th, td { text-align: left; padding: .25rem .75rem .25rem 0; border-bottom: 1px solid #8886; vertical-align: top; }
-td.n { text-align: right; white-space: nowrap; }
-figure { margin: 1rem 0; } svg { max-width: 100%; height: auto; background: #fff; }
-code { font-size: .95em; }";
+td.n { text-align: right; white-space: nowrap; } td:last-child:not(.n) { min-width: 12rem; }
+figure { margin: 1rem 0; } svg { max-width: 100%; height: auto; }
+code { font-size: .95em; } p code, li code { overflow-wrap: anywhere; } sup { line-height: 0; }
+@media (prefers-color-scheme: dark) { svg { filter: invert(.9) hue-rotate(180deg); } }";
 
 /// The beginning of a page, up to its heading.
 pub fn begin(page: &mut String, title: &str, style: &str) -> std::fmt::Result {
@@ -22,4 +25,76 @@ pub fn begin(page: &mut String, title: &str, style: &str) -> std::fmt::Result {
 /// `text`, escaped for HTML.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// `text` of a terminal for a page: escaped, and its numbers and units with the signs that a terminal may lack.
+pub fn prose(text: &str) -> String {
+    let text = escape(text);
+    let mut after_number = false;
+    let words = text.split(' ').map(|word| {
+        let core = word.trim_start_matches('(').trim_end_matches([',', '.', ';', ':', ')']);
+        let shown = if after_number && is_unit(core) { unit(core) } else { number(core) };
+        after_number = core.parse::<f64>().is_ok();
+        word.replacen(core, &shown, 1)
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// A number of at most six digits with its unit and an SI prefix: `206 GPa`, `12.5606 µm`.
+pub fn quantity(value: f64, unit: &'static str) -> String {
+    prose(&numbers::precise(value, unit))
+}
+
+/// A number without `e`: `1e-12` becomes the twelfth negative power of ten.
+pub fn number(text: &str) -> String {
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if text.parse::<f64>().is_ok() => {
+            let times = match mantissa {
+                "1" => String::new(),
+                "-1" => "-".into(),
+                _ => format!("{mantissa}\u{b7}"),
+            };
+            format!("{times}10<sup>{}</sup>", exponent.replace('-', "\u{2212}"))
+        }
+        _ => text.into(),
+    }
+}
+
+/// A unit as it is printed: `um` becomes `µm`, and `m/s2` has a raised 2.
+pub fn unit(text: &str) -> String {
+    let text = text.strip_prefix('u').map_or_else(|| text.into(), |rest| format!("\u{b5}{rest}"));
+    text.replace('^', "").replace('2', "\u{b2}").replace('3', "\u{b3}").replace('.', "\u{b7}")
+}
+
+/// Whether `text` is a unit, which may have the prefix `u`.
+fn is_unit(text: &str) -> bool {
+    let base = text.strip_prefix('u').unwrap_or(text);
+    ["s", "g", "kg/m^3"].contains(&base) || UNITS.iter().any(|unit| unit.name == base)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_units_have_the_signs_of_print_and_words_stay() {
+        for (text, printed) in [
+            ("here an indentation of 225 um, and", "here an indentation of 225 \u{b5}m, and"),
+            ("a contact of 2e-15 s (3 us).", "a contact of 2\u{b7}10<sup>\u{2212}15</sup> s (3 \u{b5}s)."),
+            ("-1e6 N & 7850 kg/m^3", "-10<sup>6</sup> N &amp; 7850 kg/m\u{b3}"),
+            ("the 2 use a ball of us, 1 use", "the 2 use a ball of us, 1 use"),
+            ("a factor of 0.3 effective radii", "a factor of 0.3 effective radii"),
+        ] {
+            assert_eq!(prose(text), printed);
+        }
+        for (value, unit, printed) in [
+            (1.25606e-5, "m", "12.5606 \u{b5}m"),
+            (206e9, "Pa", "206 GPa"),
+            (9.81, "m/s2", "9.81 m/s\u{b2}"),
+            (1e-40, "N.s2", "10<sup>\u{2212}40</sup> N\u{b7}s\u{b2}"),
+            (0.3, "", "0.3"),
+        ] {
+            assert_eq!(quantity(value, unit), printed);
+        }
+    }
 }

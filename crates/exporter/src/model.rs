@@ -203,8 +203,8 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     (0..=POINTS).map(|point| points[last * point as usize / POINTS as usize]).collect()
 }
 
-/// Number of points of a branch.
-const POINTS: u32 = 60;
+/// Number of points of a branch: a picture of some hundred pixels shows a smooth curve.
+const POINTS: u32 = 120;
 
 /// The damping variants of a rate-dependent law, by name.
 pub trait Dampings: Sized {

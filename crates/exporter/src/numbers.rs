@@ -65,8 +65,17 @@ pub fn prefixed(value: f64, unit: &'static str) -> Prefixed {
 
 /// A number with its unit, four significant digits and an SI prefix: `330.7 N`, `12.56 um`.
 pub fn quantity(value: f64, unit: &'static str) -> String {
+    with_unit(value, unit, DIGITS)
+}
+
+/// The same with six significant digits.
+pub fn precise(value: f64, unit: &'static str) -> String {
+    with_unit(value, unit, 6)
+}
+
+fn with_unit(value: f64, unit: &'static str, digits: usize) -> String {
     let Prefixed { unit, size } = prefixed(value, unit);
-    format!("{} {unit}", significant(value / size, DIGITS)).trim_end().into()
+    format!("{} {unit}", significant(value / size, digits)).trim_end().into()
 }
 
 /// A number in a table, in units of this size; a dash if there is none.

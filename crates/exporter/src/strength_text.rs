@@ -1,6 +1,6 @@
 //! What the page in an FMU says about a strength that depends on the impact.
 
-use crate::html::escape;
+use crate::html::prose;
 use crate::numbers::{cell, quantity};
 use crate::scene::{Rate, Scene};
 use std::fmt::Write;
@@ -23,7 +23,7 @@ pub fn section(page: &mut String, scene: &Scene) -> std::fmt::Result {
          radius of the rigid sphere that would press the {body} in the same way. In the impact of the scene the factor is \
          {found}."
     );
-    writeln!(page, "<h3>Strain rate</h3>\n<p>{}</p>\n<p>{}</p>", escape(&what), escape(use_of(scene)))
+    writeln!(page, "<h3>Strain rate</h3>\n<p>{}</p>\n<p>{}</p>", prose(&what), prose(use_of(scene)))
 }
 
 /// What the FMU does with the strength.

@@ -128,12 +128,13 @@ pub fn words(beyond: Beyond) -> String {
 /// logs a warning.
 pub fn limits(pair: &Pair, density: Option<f64>, depth: f64) -> String {
     let radius = format!(
-        "up to a contact radius of {LARGEST_RADIUS_RATIO} effective radii, here an indentation of {depth:.3e} m"
+        "up to a contact radius of {LARGEST_RADIUS_RATIO} effective radii, here an indentation of {}",
+        quantity(depth, "m")
     );
     match density {
         Some(density) => format!(
-            "{radius}, and up to a closing speed of {LARGEST_SPEED_RATIO} of the wave speed, here {:.3} m/s",
-            LARGEST_SPEED_RATIO * wave_speed(pair.youngs_modulus, density)
+            "{radius}, and up to a closing speed of {LARGEST_SPEED_RATIO} of the wave speed, here {}",
+            quantity(LARGEST_SPEED_RATIO * wave_speed(pair.youngs_modulus, density), "m/s")
         ),
         None => format!("{radius}, and slow against elastic waves (the scene gives no density of the target)"),
     }
