@@ -1,6 +1,7 @@
 """The model description conforms to the schema and to the further rules of the standard."""
 
 import re
+import struct
 import zipfile
 from pathlib import Path
 
@@ -51,6 +52,15 @@ def test_the_library_is_where_the_model_identifier_says(name):
     with zipfile.ZipFile(paths()[name]) as archive:
         libraries = [entry for entry in archive.namelist() if entry.startswith("binaries/")]
     assert libraries and all(Path(library).stem == identifier for library in libraries)
+
+
+@every_unit
+def test_it_has_an_icon_where_importers_look_for_it(name):
+    with zipfile.ZipFile(paths()[name]) as archive:
+        icon = archive.read("model.png")
+    assert icon[:8] == b"\x89PNG\r\n\x1a\n" and icon[12:16] == b"IHDR" and icon[-8:-4] == b"IEND"
+    width, height = struct.unpack(">II", icon[16:24])
+    assert width == height == 128 and len(icon) < 2000
 
 
 @every_unit
