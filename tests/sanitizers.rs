@@ -8,7 +8,9 @@
 //! the C compiler's libraries for them; what is missing is skipped with a message.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
-use brinell_testing::{child, driver, rebuilt, skips, suites, targets, unit};
+use brinell_exporter::prebuilt::LIBRARIES;
+use brinell_fmu::scene::prebuilt::block::{Block, MAGIC, VERSION};
+use brinell_testing::{child, driver, prebuilt, rebuilt, skips, suites, targets, unit};
 use driver::{arguments, has_valgrind, valgrind};
 use rebuilt::{Sources, TRIPLE, Way};
 use std::fs;
@@ -36,7 +38,7 @@ const STEPPING: &str = "crates/fmu/src/instance/stepping.rs";
 const LIFECYCLE: &str = "crates/fmu/src/fmi2/lifecycle.rs";
 
 /// A line of every step.
-const STEP: &str = "        let in_order = self.clock.takes(time, end, step, Self::SHORTEST);\n";
+const STEP: &str = "        let in_order = self.clock.takes(time, end, step, Self::shortest());\n";
 
 const OVERFLOW: Mistake =
     (STEPPING, STEP, "~let _ = core::hint::black_box(core::hint::black_box(255u8) + core::hint::black_box(1u8));\n");
@@ -44,7 +46,7 @@ const OVERFLOW: Mistake =
 const ASSERTION: Mistake = (STEPPING, STEP, "~debug_assert!(core::hint::black_box(false));\n");
 
 /// The end of the name is written behind the memory of the component.
-const SHORT: Mistake = (LIFECYCLE, "size_of::<Component<S>>() + length", "~ - 2");
+const SHORT: Mistake = (LIFECYCLE, "size_of::<Component<S>>() + outside + length", "~ - 2");
 
 const LEAK: Mistake = (LIFECYCLE, "            memory.release(c);\n", "            let _ = memory;\n");
 
@@ -101,6 +103,32 @@ fn examine(name: &str, way: &Way, environment: &[(&str, String)], mistakes: &[(M
         SUITES.fuzz(&subject, scripts).unwrap_or_else(|said| panic!("{}: {said}", scene.display()));
         println!("{name}: {} passes", scene.file_stem().expect("a name").display());
     }
+    for (kind, fmu) in targets::prebuilt() {
+        let (library, place) = (build_prebuilt(&sources, &kind, &fmu, way), unit::library(&fmu));
+        let subject = Subject { library: &library, place: &place, environment, limit: LIMIT };
+        SUITES.conform(&subject, None).unwrap_or_else(|said| panic!("{kind}: {said}"));
+        SUITES.fuzz(&subject, SCRIPTS).unwrap_or_else(|said| panic!("{kind}: {said}"));
+        println!("{name}: prebuilt {kind} passes");
+    }
+}
+
+/// Builds the prebuilt library of a `kind` in a `way`, with the scene of `fmu`.
+fn build_prebuilt(sources: &Sources, kind: &str, fmu: &Path, way: &Way) -> PathBuf {
+    let list = prebuilt::list(prebuilt::store());
+    let kind = LIBRARIES.iter().find(|library| library.name == kind).expect("a kind");
+    sources.use_kind(&kind.source(list["sources"].as_str().expect("a hash")).0);
+    let library = sources.library(kind.name, &Way { prebuilt: true, ..*way }).unwrap_or_else(|said| panic!("{said}"));
+    // the block of the FMU, which begins with magic, version and library, replaces the empty one
+    let filled = fs::read(unit::library(fmu)).expect("an unpacked library");
+    let mut bytes = fs::read(&library).expect("a library");
+    let head: Vec<u8> = [MAGIC, VERSION].into_iter().flat_map(u64::to_le_bytes).collect();
+    let find = |bytes: &[u8]| bytes.windows(head.len()).position(|part| part == head).expect("a block");
+    let (from, to) = (find(&filled), find(&bytes));
+    let block = &filled[from..from + size_of::<Block>()];
+    assert_eq!(block[..24], bytes[to..to + 24], "another library than that of the FMU");
+    bytes[to..to + block.len()].copy_from_slice(block);
+    fs::write(&library, bytes).expect("the target folder can be written to");
+    library
 }
 
 /// Standard output of a command, if it succeeds.

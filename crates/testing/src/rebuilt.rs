@@ -23,6 +23,8 @@ pub struct Way<'a> {
     pub flags: &'a str,
     /// Objects that are linked with the library.
     pub objects: &'a [&'a Path],
+    /// Whether it is a prebuilt library.
+    pub prebuilt: bool,
 }
 
 /// The platform of the tests, for cargo.
@@ -81,6 +83,11 @@ impl Sources {
         place
     }
 
+    /// Makes the library a prebuilt one by the source file of its kind.
+    pub fn use_kind(&self, text: &str) {
+        self.write("crates/unit/src/kind.rs", text);
+    }
+
     fn write(&self, file: &str, text: &str) {
         let path = self.folder.join(file);
         // an unchanged file isn't compiled again
@@ -128,7 +135,8 @@ impl Sources {
     /// The messages of the compiler.
     pub fn library(&self, name: &str, way: &Way) -> Result<PathBuf, String> {
         let mut cargo = self.cargo(way.toolchain);
-        cargo.args(["rustc", "--release", "--package", "brinell-unit", "--locked", "--features", "cdylib"]);
+        cargo.args(["rustc", "--release", "--package", "brinell-unit", "--locked", "--features"]);
+        cargo.arg(if way.prebuilt { "cdylib,prebuilt" } else { "cdylib" });
         for setting in PROFILE.iter().chain(way.profile) {
             cargo.arg("--config").arg(format!("profile.release.{setting}"));
         }

@@ -58,8 +58,7 @@ pub fn scenes() -> Vec<PathBuf> {
 pub fn prebuilt() -> Vec<(String, PathBuf)> {
     let mut scenes = kinds::of_each_kind();
     scenes.dedup_by_key(|(kind, _)| *kind);
-    let fmu =
-        |(kind, text): (&str, String)| (format!("prebuilt {kind}"), prebuilt::export(&text, Some(prebuilt::store())));
+    let fmu = |(kind, text): (&str, String)| (kind.into(), prebuilt::export(&text, Some(prebuilt::store())));
     scenes.into_iter().map(fmu).collect()
 }
 
