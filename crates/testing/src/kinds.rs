@@ -92,7 +92,7 @@ pub fn of_each_kind() -> Vec<(&'static str, String)> {
         ("moved", coupled(law, &known, SOFT_IMPACTOR.replace("hardening_modulus = 0.0\n", "").as_str())),
         ("moved", coupled(law, &known, inputs)),
         ("moved", scene(law, &["indentation", "closing_speed", "impulse_moment"], &bodies(STACK, ""))),
-        ("lossy", with(coupled(law, &["work", "closing_speed"], ""), "elastic_restitution = 0.9")),
+        ("lossy", with(coupled(law, &["indentation", "work", "closing_speed"], ""), "elastic_restitution = 0.9")),
         ("lossy", with(scene(law, &momentum[..], ""), "elastic_restitution = \"waves\"")),
         ("rate", scene(law, &["indentation", "closing_speed"], &format!("{rate}[coupling]\neffective_mass = 4e-3\n"))),
         ("damped", scene("hunt-crossley/flores", &momentum, IMPACT)),
@@ -103,6 +103,13 @@ pub fn of_each_kind() -> Vec<(&'static str, String)> {
             "lossy-friction",
             with(
                 scene(law, &["mean_force", "tangential_speed"], &bodies(CRATE, &friction(""))),
+                "elastic_restitution = 0.9",
+            ),
+        ),
+        (
+            "lossy-friction-2",
+            with(
+                scene(law, &["friction_work"], &bodies(CRATE, &friction("directions = 2\n"))),
                 "elastic_restitution = 0.9",
             ),
         ),

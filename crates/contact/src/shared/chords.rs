@@ -285,6 +285,8 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                     let ([own, beside], [start, start_beside]) = (row.stiffness, row.stiffness_before);
                     let [end, end_beside] = after;
                     let force = row.found - bent * own * row.curved;
+                    // a contact that parts presses by rounding at most
+                    let force = if index == 0 { largest(force, 0.0) } else { force };
                     let off = time * sqrt(row.inverse_mass) * fabs(force - row.force);
                     change = if off > change || off.is_nan() { off } else { change };
                     // for the next turn
