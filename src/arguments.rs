@@ -88,6 +88,9 @@ pub enum Command {
     /// Print the Rust constants of a scene, as they are compiled into its FMU
     #[command(hide = true)]
     Constants { scene: PathBuf },
+    /// Print a scene with all numbers in SI units, for programs that read TOML and know no units
+    #[command(hide = true)]
+    Si { scene: PathBuf },
     /// Prints the Rust source of the prebuilt library that a scene fits into
     #[command(hide = true)]
     Kind { scene: PathBuf },

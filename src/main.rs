@@ -146,6 +146,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             let scene = scene_file::read(scene)?;
             print!("{}", constants::write(&Plan::of(&scene), "unpacked"));
         }
+        Some(Command::Si { scene }) => print!("{}", scene_file::in_si(scene)?),
         Some(Command::Kind { scene }) => {
             let library = Library::of(&scene_file::read(scene)?);
             print!("{}", library.source_with("unpacked"));

@@ -1,8 +1,8 @@
 //! Scene files: reading them, and warnings about what is in them.
 
 use crate::messages::warn;
-use brinell_exporter::mistake::{Mistake, SceneError};
-use brinell_exporter::scene::Scene;
+use brinell_exporter::mistake::{self, Mistake, SceneError};
+use brinell_exporter::scene::{self, Scene};
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -40,16 +40,26 @@ pub fn read_aloud(path: &Path) -> Result<Scene, SceneError> {
 }
 
 fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
-    let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
-    Scene::of_bytes(bytes(path).map_err(unreadable)?, path)
+    Scene::of_bytes(bytes(path)?, path)
+}
+
+/// The text of the scene at `path` with all numbers in SI units.
+///
+/// # Errors
+/// As for [`read`].
+pub fn in_si(path: &Path) -> Result<String, SceneError> {
+    scene::in_si(&mistake::text(bytes(path)?, path)?, path)
 }
 
 /// The contents of the file at `path`, which may be a device that never ends.
-fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+fn bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
+    let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
     let mut bytes = Vec::new();
-    std::fs::File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > LARGEST {
-        return Err(io::Error::other(format!("it is larger than {} MB, which no scene needs", LARGEST >> 20)));
+        let message = format!("it is larger than {} MB, which no scene needs", LARGEST >> 20);
+        return Err(unreadable(io::Error::other(message)));
     }
     Ok(bytes)
 }

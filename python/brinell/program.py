@@ -7,12 +7,13 @@ import os
 import re
 import shutil
 import subprocess
+import tomllib
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from importlib import metadata
 from pathlib import Path
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,10 +131,10 @@ def predict(
     scene: str | Path,
     *,
     laws: None = None,
-    mass: float | None = None,
-    speed: float | None = None,
-    energy: float | None = None,
-    drop_height: float | None = None,
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    energy: float | str | None = None,
+    drop_height: float | str | None = None,
 ) -> Prediction: ...
 
 
@@ -142,10 +143,10 @@ def predict(
     scene: str | Path,
     *,
     laws: Sequence[str],
-    mass: float | None = None,
-    speed: float | None = None,
-    energy: float | None = None,
-    drop_height: float | None = None,
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    energy: float | str | None = None,
+    drop_height: float | str | None = None,
 ) -> list[Prediction]: ...
 
 
@@ -153,15 +154,15 @@ def predict(
     scene: str | Path,
     *,
     laws: Sequence[str] | None = None,
-    mass: float | None = None,
-    speed: float | None = None,
-    energy: float | None = None,
-    drop_height: float | None = None,
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    energy: float | str | None = None,
+    drop_height: float | str | None = None,
 ) -> Prediction | list[Prediction]:
     """Predict an impact on the first contact of a scene file.
 
     `mass` [kg] and one of `speed` [m/s], `energy` [J] and `drop_height` [m] replace those of the
-    scene. With `laws` (names "LOADING" or "LOADING/UNLOADING", or "all"), the result is a list with
+    scene; texts such as "4 g" have another unit. With `laws` (names "LOADING" or "LOADING/UNLOADING", or "all"), the result is a list with
     a prediction for each law.
     """
     given = {"mass": mass, "speed": speed, "energy": energy, "drop-height": drop_height}
@@ -183,12 +184,12 @@ def sweep(
     vary: Mapping[str, str],
     *,
     laws: None = None,
-    mass: float | None = None,
-    speed: float | None = None,
-    angle: float | None = None,
-    spin: float | None = None,
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    angle: float | str | None = None,
+    spin: float | str | None = None,
     friction: float | None = None,
-    inertia: float | None = None,
+    inertia: float | str | None = None,
 ) -> Columns: ...
 
 
@@ -198,12 +199,12 @@ def sweep(
     vary: Mapping[str, str],
     *,
     laws: Sequence[str],
-    mass: float | None = None,
-    speed: float | None = None,
-    angle: float | None = None,
-    spin: float | None = None,
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    angle: float | str | None = None,
+    spin: float | str | None = None,
     friction: float | None = None,
-    inertia: float | None = None,
+    inertia: float | str | None = None,
 ) -> dict[str, Columns]: ...
 
 
@@ -212,17 +213,17 @@ def sweep(
     vary: Mapping[str, str],
     *,
     laws: Sequence[str] | None = None,
-    mass: float | None = None,
-    speed: float | None = None,
-    angle: float | None = None,
-    spin: float | None = None,
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    angle: float | str | None = None,
+    spin: float | str | None = None,
     friction: float | None = None,
-    inertia: float | None = None,
+    inertia: float | str | None = None,
 ) -> Columns | dict[str, Columns]:
     """Predictions over ranges of quantities, as columns: those that vary, `restitution`, `dent` ...;
     `valid` is 0 where the impact is outside the validity of the law.
 
-    `vary` maps the names of quantities to ranges "FROM:TO" or "FROM:TO:COUNT" in SI units: "speed",
+    `vary` maps the names of quantities to ranges "FROM:TO" or "FROM:TO:COUNT" in SI units or with a unit ("10 mm/s:5 m/s"): "speed",
     "mass", "energy", "drop_height", parameters of the scene, constants of its laws. Several give
     every combination. `mass` [kg] and `speed` [m/s] replace those of the scene.
 
@@ -246,17 +247,17 @@ def sweep(
 
 
 @overload
-def curve(scene: str | Path, *, laws: None = None, to: float | None = None) -> Columns: ...
+def curve(scene: str | Path, *, laws: None = None, to: float | str | None = None) -> Columns: ...
 
 
 @overload
 def curve(
-    scene: str | Path, *, laws: Sequence[str], to: float | None = None
+    scene: str | Path, *, laws: Sequence[str], to: float | str | None = None
 ) -> dict[str, Columns]: ...
 
 
 def curve(
-    scene: str | Path, *, laws: Sequence[str] | None = None, to: float | None = None
+    scene: str | Path, *, laws: Sequence[str] | None = None, to: float | str | None = None
 ) -> Columns | dict[str, Columns]:
     """One cycle of loading, unloading and reloading up to the indentation `to` [m], as columns:
     `indentation`, `force`, `contact_radius`, `stiffness`, `work` ...; with `laws` those of each law
@@ -265,13 +266,19 @@ def curve(
     return tables if laws is not None else next(iter(tables.values()))
 
 
-def _options(values: Mapping[str, float | None], laws: Sequence[str] | None) -> list[str]:
+def tables(scene: str | Path) -> dict[str, Any]:
+    """The tables of a scene file, with all numbers in SI units."""
+    return tomllib.loads(_run("si", scene))
+
+
+def _options(values: Mapping[str, float | str | None], laws: Sequence[str] | None) -> list[str]:
     options = []
     for name, value in values.items():
         if value is not None:
-            if isinstance(value, str | bytes | bool):
+            if isinstance(value, bytes | bool):
                 raise TypeError(f"{name} = {value!r}: a number is needed")
-            options += [f"--{name}={float(value)!r}"]
+            # the program knows units
+            options += [f"--{name}={value if isinstance(value, str) else repr(float(value))}"]
     if laws is not None:
         if isinstance(laws, str):
             raise TypeError(f"laws = {laws!r}: a list of names is needed")

@@ -47,7 +47,7 @@ pub struct Arguments {
     /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
-    /// Vary a quantity, such as speed=0.01:10 or impactor.radius=1e-3:5e-3:8; again: every combination
+    /// Vary a quantity, such as speed=0.01:10 or "impactor.radius=1 mm:5 mm:8"; again: every combination
     #[arg(long, value_name = "NAME=FROM:TO[:COUNT]")]
     pub sweep: Vec<String>,
     /// Write the sweep with all digits [default: print a short table]
@@ -57,16 +57,16 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["sweep", "dent", "restitution"])]
     pub time_history: Option<PathBuf>,
     /// Angle of incidence from the normal [degrees], for an oblique impact; the speed is then that along the path
-    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
+    #[arg(long, value_name = "DEGREES", value_parser = units::angles, allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
     pub angle: Option<f64>,
     /// Spin of the ball before an oblique impact [rad/s]; positive like that of its contact point
-    #[arg(long, value_name = "RAD/S", allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
+    #[arg(long, value_name = "RAD/S", value_parser = units::spins, allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
     pub spin: Option<f64>,
     /// Coefficient of friction of an oblique impact [default: the scene's]
     #[arg(long, allow_hyphen_values = true)]
     pub friction: Option<f64>,
     /// Moment of inertia of the ball in an oblique impact [kg.m^2] [default: that of a solid sphere]
-    #[arg(long, allow_hyphen_values = true)]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::inertias)]
     pub inertia: Option<f64>,
     /// A measured dent [m]: print the speed and the yield strength that explain it
     #[arg(long, allow_hyphen_values = true, value_parser = units::lengths, conflicts_with = "sweep")]

@@ -125,15 +125,47 @@ fn with_impact() -> String {
 }
 
 #[test]
-fn the_message_about_a_number_with_a_unit_gives_the_number_in_si() {
+fn a_wrong_unit_is_told_with_its_place_and_the_units_that_are_allowed() {
     for (from, to, hint) in [
-        ("radius = 5e-3", "radius = 5mm", "scene.toml:3:10: radius = 5mm: metres, a number without unit: 5e-3"),
-        ("radius = 5e-3", "radius = \"5 mm\"", "radius = \"5 mm\": metres, a number without unit: 5e-3"),
-        ("206e9", "\"206 GPa\"", "pascals, a number without unit: 206e9"),
-        ("206e9", "206GPa # stiff", "pascals, a number without unit: 206e9"),
-        ("4e-3", "\"4 g\"", "mass = \"4 g\": kilograms, a number without unit: 4e-3"),
-        ("1.0", "\"3.6 km/h\"", "metres per second, a number without unit: 1"),
-        ("[impactor]\nradius = 5e-3", "impactor = { radius = \"5 mm\" }", "radius = \"5 mm\": metres"),
+        ("radius = 5e-3", "radius = 5mm", "scene.toml:3:10: radius = 5mm: a number with a unit is in quotes: \"5 mm\""),
+        ("206e9", "206GPa # stiff", "youngs_modulus = 206GPa: a number with a unit is in quotes: \"206 GPa\""),
+        (
+            "radius = 5e-3",
+            "radius = \"5 MPa\"",
+            "scene.toml:3:10: impactor.radius = \"5 MPa\": MPa is a pressure; a length has a unit like one of `nm`, `um`, `mm`",
+        ),
+        ("206e9", "\"206 Gpa\"", "target.youngs_modulus = \"206 Gpa\": there is no unit `Gpa`; did you mean `GPa`? A"),
+        ("4e-3", "\"4 gram\"", "impact.mass = \"4 gram\": there is no unit `gram`"),
+        (
+            "4e-3",
+            "\"4e-3\"",
+            "impact.mass = \"4e-3\": in quotes a number needs its unit: \"4e-3 kg\"; without quotes it is in",
+        ),
+        (
+            "1.0",
+            "\"3.6 km\"",
+            "impact.speed = \"3.6 km\": km is a length; a speed has a unit like one of `mm/s`, `cm/s`, `m/s`",
+        ),
+        ("1.0", "\"1e400 m/s\"", "impact.speed = \"1e400 m/s\": the number is too large"),
+        ("206e9", "\"-206 GPa\"", "target.youngs_modulus = -2.06e11 is out of range"),
+        ("[impactor]\nradius = 5e-3", "impactor = { radius = \"5 kg\" }", "impactor.radius = \"5 kg\": kg is a mass"),
+        (
+            "yield_strength = 300e6",
+            "power_law = { coefficient = \"400 mm\", exponent = 0.2 }",
+            "target.power_law.coefficient = \"400 mm\": mm is a length; a pressure has",
+        ),
+        (
+            "300e6",
+            "300e6\nrate = { model = \"cowper-symonds\", d = \"40 s\", q = 5 }",
+            "target.rate.d = \"40 s\": s is a time; a rate has a unit like",
+        ),
+        (
+            "speed = 1.0",
+            "speed = 1.0\n[law]\nloading = \"kuwabara-kono\"\nloading_parameters = { relaxation_time = \"1 mm\" }",
+            "law.loading_parameters.relaxation_time = \"1 mm\": mm is a length; a time has",
+        ),
+        // a word of a law, and numbers without dimension
+        ("0.3", "\"0.3 m\"", "this is text, expected a number in `poissons_ratio"),
     ] {
         let text = with_impact().replacen(from, to, 1);
         // one line for a table comes before the others
@@ -221,7 +253,7 @@ fn a_decimal_comma_is_called_so_wherever_it_is() {
     for (from, to, hint) in [
         ("5e-3", "5,3", "scene.toml:3:11: radius = 5,3: this is a decimal comma; write 5.3"),
         ("5e-3", "5,3e-3 # mm", "radius = 5,3e-3: this is a decimal comma; write 5.3e-3"),
-        ("5e-3", "\"5,3 mm\"", "radius = 5,3 mm: metres, a number without unit: 5.3e-3"),
+        ("5e-3", "\"5,3 mm\"", "impactor.radius = \"5,3 mm\": this is a decimal comma; write 5.3 mm"),
         ("0.3", "0,3", "scene.toml:6:19: poissons_ratio = 0,3: this is a decimal comma; write 0.3"),
         ("0.3", "\"0,3\"", "poissons_ratio = 0,3: this is a decimal comma; write 0.3"),
         ("206e9", "206,000", "write 206.000, or 206000 if it separates thousands"),

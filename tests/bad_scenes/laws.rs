@@ -120,8 +120,8 @@ fn half_a_rod_and_a_rod_without_a_wave_are_refused() {
         let key = format!("impactor.area = {said} ");
         refused("5e-3", &format!("{steel}length = 0.1\narea = §{value}"), &[&key, "allowed is 1e-18 to 1e12 m^2"]);
     }
-    refused("5e-3", &format!("{steel}area = §\"5 mm2\""), &["area", "a number"]);
-    refused("5e-3", &format!("{steel}length = §5mm"), &["length = 5mm: metres, a number without unit: 5e-3"]);
+    refused("5e-3", &format!("{steel}area = §\"5 mm\""), &["area", "mm is a length; an area has a unit like"]);
+    refused("5e-3", &format!("{steel}length = §5mm"), &["length = 5mm: a number with a unit is in quotes: \"5 mm\""]);
 }
 
 #[test]

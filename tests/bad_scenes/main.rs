@@ -95,17 +95,17 @@ fn a_parameter_that_the_scene_has_not_got_cannot_be_settable() {
 #[test]
 fn a_wrong_type_is_refused_with_its_key() {
     refused("\"ball\"", "§3", &["name", "a whole number", "text in quotes"]);
-    refused("5e-3", "§\"5 mm\"", &["radius", "\"5 mm\""]);
+    refused("5e-3", "§\"wide\"", &["radius", "\"wide\"", "expected a number"]);
     refused("300e6", "§true", &["yield_strength", "true or false"]);
     refused_with("[fmu]\noutputs = §\"force\"", &["outputs", "\"force\""]);
     refused_with("[fmu]\noutputs = [§1]", &["outputs", "a whole number", "text in quotes"]);
-    refused_with("[impact]\nmass = §\"4 g\"\nspeed = 1", &["mass", "\"4 g\""]);
+    refused_with("[impact]\nmass = §\"heavy\"\nspeed = 1", &["mass", "\"heavy\""]);
 }
 
 /// `f64` is a term of Rust, not of scene files.
 #[test]
 fn a_wrong_type_is_refused_in_the_words_of_the_user() {
-    let message = message_of(SCENE.replacen("5e-3", "\"5 mm\"", 1).as_bytes());
+    let message = message_of(SCENE.replacen("5e-3", "\"wide\"", 1).as_bytes());
     assert!(message.contains("number") && !message.contains("f64"), "{message}");
 }
 

@@ -104,7 +104,7 @@ fn a_curve_goes_in_out_in_again_and_out_and_its_energies_add_up() {
 fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let cases: [(&[&str], &[&str]); 30] = [
+    let cases: [(&[&str], &[&str]); 31] = [
         (&["predict", &scene, "--mass", "0"], &["mass = 0", "positive"]),
         (&["predict", &scene, "--speed", "NaN"], &["speed = NaN", "positive"]),
         (&["predict", &scene, "--energy=-1"], &["energy = -1", "positive"]),
@@ -120,7 +120,11 @@ fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
             &["predict", &scene, "--sweep", "law.loading_parameters.exponent=1.1:1.4"],
             &["--sweep law.loading_parameters.exponent: unknown parameter", "big-alabo"],
         ),
-        (&["predict", &scene, "--drop-height", "5mm"], &["--drop-height", "metres, a number without unit: 5e-3"]),
+        (
+            &["predict", &scene, "--drop-height", "5kg"],
+            &["--drop-height", "kg is a mass; a length has a unit like one of `nm`"],
+        ),
+        (&["predict", &scene, "--sweep", "speed=1 mm:2 m/s"], &["`1 mm`: mm is a length; a speed has a unit like"]),
         (&["predict", &scene, "--mass", "heavy"], &["--mass", "a number in kilograms"]),
         (&["predict", &scene, "--laws", "hooke"], &["unknown loading law `hooke`", "big-alabo"]),
         (&["predict", &scene, "--laws", "brinel"], &["unknown loading law `brinel`", "did you mean `brinell`?"]),
@@ -385,4 +389,27 @@ fn a_mass_that_holds_a_ball_which_may_be_free_is_called_so() {
         let notes = notes(steel, &target, more);
         assert!(!notes.contains("effective mass"), "{target}{more}: {notes}");
     }
+}
+
+/// What is printed for readers that know no units is the scene in SI, and both make the same library.
+#[test]
+fn a_scene_with_units_is_the_scene_in_si_to_the_last_bit() {
+    let folder = empty_folder();
+    let with = "name = \"box\"  # 5 mm\n[impactor]\nradius = \"5 mm\"\n[target]\nyoungs_modulus = \"206 GPa\"\npoissons_ratio = 0.3\n\
+                yield_strength = \"40.8 kgf/mm2\"\ndensity = \"7.85 g/cm3\"\n\
+                [impact]\nspeed = \"36 km/h\"\n\
+                [[body]]\nname = \"box\"\nmass = \"300 g\"\ninertia = [\"1.2 kg cm^2\", 2.6e-4, \"350 kg mm^2\"]\n\
+                [[contact]]\nname = \"left\"\nbetween = [\"box\", \"ground\"]\nnormal = [0, 0, -1]\n\
+                arms = [[\"-40 mm\", 0, \"-25 mm\"], []]\ninitial_gap = \"30 um\"\n";
+    let plain = "name = \"box\"  # 5 mm\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 2.06e11\npoissons_ratio = 0.3\n\
+                 yield_strength = 4.0011132e8\ndensity = 7.85e3\n\
+                 [impact]\nspeed = 1e1\n\
+                 [[body]]\nname = \"box\"\nmass = 3e-1\ninertia = [1.2e-4, 2.6e-4, 3.5e-4]\n\
+                 [[contact]]\nname = \"left\"\nbetween = [\"box\", \"ground\"]\nnormal = [0, 0, -1]\n\
+                 arms = [[-4e-2, 0, -2.5e-2], []]\ninitial_gap = 3e-5\n";
+    fs::write(folder.path().join("with.toml"), with).unwrap();
+    fs::write(folder.path().join("plain.toml"), plain).unwrap();
+    assert_eq!(run(folder.path(), ["si", "with.toml"]).with_status(0).out, plain);
+    let constants = |name: &str| run(folder.path(), ["constants", name]).with_status(0).out;
+    assert_eq!(constants("with.toml"), constants("plain.toml"));
 }

@@ -176,9 +176,21 @@ def test_what_the_program_doubts_is_a_warning_of_python_where_it_was_called(tmp_
     assert told[0].filename == __file__
 
 
+def test_numbers_with_a_unit(tmp_path):
+    plain = brinell.predict(SCENE, mass=4e-3, drop_height=0.05)
+    assert brinell.predict(SCENE, mass="4 g", drop_height="5 cm") == plain
+    swept = brinell.sweep(SCENE, {"speed": "10 mm/s:3.6 km/h:3"}, mass="4 g")
+    assert swept["speed"].tolist() == brinell.sweep(SCENE, {"speed": "0.01:1:3"})["speed"].tolist()
+    with pytest.raises(ProgramError, match="kg is a mass; a speed has a unit like"):
+        brinell.predict(SCENE, speed="1 kg")
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE.read_text().replace("radius = 5e-3", 'radius = "5 mm"'))
+    assert brinell.predict(scene) == brinell.predict(SCENE)
+
+
 def test_wrong_types():
     with pytest.raises(TypeError, match="speed"):
-        brinell.predict(SCENE, speed="1")
+        brinell.predict(SCENE, speed=True)
     with pytest.raises(TypeError, match="list of names"):
         brinell.predict(SCENE, laws="hertz")
     with pytest.raises(TypeError, match="FROM:TO"):

@@ -4,6 +4,7 @@ use crate::mistake::Mistake;
 use crate::nearest::unknown;
 use crate::numbers::{in_message, out_of_range};
 use crate::table;
+use crate::units;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
@@ -130,8 +131,10 @@ fn check_one(
         toml::Value::Float(number) => *number,
         toml::Value::Integer(number) => *number as f64,
         other => {
-            let message = format!("{key}_parameters.{asked} = {other} is not a number");
-            return Err(Mistake(value.span(), message));
+            let wrong = |why: &str| Mistake(value.span(), format!("{key}_parameters.{asked} = {other}{why}"));
+            let with_unit = other.as_str().and_then(|text| units::with_unit(text, &parameter.unit));
+            let with_unit = with_unit.ok_or_else(|| wrong(" is not a number"))?;
+            with_unit.map_err(|why| wrong(&format!(": {why}")))?
         }
     };
     let table::LawParameter { minimum, maximum, unit, .. } = parameter;

@@ -1,99 +1,245 @@
-//! Numbers of the command line that are written with a unit, such as `5mm`.
+//! Numbers with a unit, as people write them: `5 mm`, `240 MPa`, `7.85 g/cm3`.
+//!
+//! Inside there is SI alone. A unit is a product of symbols with prefixes and powers, so that its dimension is known: a length where
+//! a pressure belongs is a mistake, not a factor.
 
-/// A kind of quantity: its SI unit, its name, and other units with their sizes.
-struct Dimension {
-    unit: &'static str,
-    name: &'static str,
-    others: &'static [(&'static str, f64)],
+use crate::layout::shortened;
+use crate::nearest::{nearest, one_of};
+
+/// The size of a unit: `numerator/denominator * 10^power` of the SI unit. Powers of ten are kept apart, since a number is read with
+/// its exponent: `0.3 mm` is the very number that `0.3e-3` is.
+#[derive(Clone, Copy)]
+struct Unit {
+    numerator: f64,
+    denominator: f64,
+    power: i32,
+    /// Exponents of kg, m, s and rad.
+    dimension: [i32; 4],
 }
 
-const KINDS: [Dimension; 7] = [
-    Dimension {
-        unit: "m",
-        name: "metres",
-        others: &[
-            ("m", 1.0),
-            ("mm", 1e-3),
-            ("cm", 1e-2),
-            ("um", 1e-6),
-            ("\u{b5}m", 1e-6),
-            ("\u{3bc}m", 1e-6),
-            ("nm", 1e-9),
-            ("km", 1e3),
-            ("in", 0.0254),
-        ],
-    },
-    Dimension {
-        unit: "Pa",
-        name: "pascals",
-        others: &[
-            ("Pa", 1.0),
-            ("kPa", 1e3),
-            ("MPa", 1e6),
-            ("GPa", 1e9),
-            ("N/mm2", 1e6),
-            ("N/mm^2", 1e6),
-            ("psi", 6_894.757_293_168),
-            ("ksi", 6_894_757.293_168),
-        ],
-    },
-    Dimension {
-        unit: "kg",
-        name: "kilograms",
-        others: &[("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("t", 1e3), ("lb", 0.453_592_37)],
-    },
-    Dimension {
-        unit: "m/s",
-        name: "metres per second",
-        others: &[("m/s", 1.0), ("mm/s", 1e-3), ("cm/s", 1e-2), ("km/s", 1e3), ("km/h", 1.0 / 3.6)],
-    },
-    Dimension {
-        unit: "kg/m^3",
-        name: "kilograms per cubic metre",
-        others: &[("kg/m^3", 1.0), ("kg/m3", 1.0), ("g/cm^3", 1e3), ("g/cm3", 1e3), ("kg/dm3", 1e3)],
-    },
-    Dimension { unit: "J", name: "joules", others: &[("J", 1.0), ("mJ", 1e-3), ("uJ", 1e-6), ("kJ", 1e3)] },
-    Dimension {
-        unit: "N",
-        name: "newtons",
-        others: &[
-            ("N", 1.0),
-            ("kN", 1e3),
-            ("MN", 1e6),
-            ("mN", 1e-3),
-            ("uN", 1e-6),
-            ("kgf", 9.806_65),
-            ("kp", 9.806_65),
-            ("lbf", 4.448_221_615_260_5),
-        ],
-    },
+const ONE: Unit = Unit { numerator: 1.0, denominator: 1.0, power: 0, dimension: [0; 4] };
+
+/// A symbol, its size with a power of ten apart, and its dimension.
+type Symbol = (&'static str, f64, i32, [i32; 4]);
+
+/// The symbols that take a prefix.
+const METRIC: [Symbol; 8] = [
+    ("g", 1.0, -3, [1, 0, 0, 0]),
+    ("m", 1.0, 0, [0, 1, 0, 0]),
+    ("s", 1.0, 0, [0, 0, 1, 0]),
+    ("N", 1.0, 0, [1, 1, -2, 0]),
+    ("Pa", 1.0, 0, [1, -1, -2, 0]),
+    ("J", 1.0, 0, [1, 2, -2, 0]),
+    ("Hz", 1.0, 0, [0, 0, -1, 0]),
+    ("bar", 1.0, 5, [1, -1, -2, 0]),
 ];
 
-fn kind(unit: &str) -> &'static Dimension {
-    KINDS.iter().find(|kind| kind.unit == unit).expect("a unit of the program")
+/// The symbols that take none. `kp` and `kgf` are the weight of a kilogram.
+const OTHERS: [Symbol; 21] = [
+    ("1", 1.0, 0, [0; 4]),
+    ("t", 1.0, 3, [1, 0, 0, 0]),
+    ("lb", 0.453_592_37, 0, [1, 0, 0, 0]),
+    ("oz", 0.028_349_523_125, 0, [1, 0, 0, 0]),
+    ("in", 0.0254, 0, [0, 1, 0, 0]),
+    ("ft", 0.3048, 0, [0, 1, 0, 0]),
+    ("mil", 25.4, -6, [0, 1, 0, 0]),
+    ("min", 60.0, 0, [0, 0, 1, 0]),
+    ("h", 3600.0, 0, [0, 0, 1, 0]),
+    ("mph", 0.447_04, 0, [0, 1, -1, 0]),
+    ("kgf", 9.806_65, 0, [1, 1, -2, 0]),
+    ("kp", 9.806_65, 0, [1, 1, -2, 0]),
+    ("lbf", 4.448_221_615_260_5, 0, [1, 1, -2, 0]),
+    // lbf/in^2
+    ("psi", 6_894.757_293_168_361, 0, [1, -1, -2, 0]),
+    ("ksi", 6_894.757_293_168_361, 3, [1, -1, -2, 0]),
+    ("Mpsi", 6_894.757_293_168_361, 6, [1, -1, -2, 0]),
+    ("rad", 1.0, 0, [0, 0, 0, 1]),
+    ("mrad", 1.0, -3, [0, 0, 0, 1]),
+    ("deg", std::f64::consts::PI / 180.0, 0, [0, 0, 0, 1]),
+    ("\u{b0}", std::f64::consts::PI / 180.0, 0, [0, 0, 0, 1]),
+    ("rpm", std::f64::consts::PI / 30.0, 0, [0, 0, -1, 1]),
+];
+
+/// The prefixes; micro has two signs, and a letter that stands for them.
+const PREFIXES: [(&str, i32); 12] = [
+    ("p", -12),
+    ("n", -9),
+    ("u", -6),
+    ("\u{b5}", -6),
+    ("\u{3bc}", -6),
+    ("m", -3),
+    ("c", -2),
+    ("d", -1),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+    ("T", 12),
+];
+
+impl Unit {
+    /// The unit that `text` names: symbols with powers, such as `kg/m^3`, `N/mm2`, `kg m^2`, `1/s`. Each `/` divides by what follows it
+    /// directly.
+    fn parse(text: &str) -> Option<Unit> {
+        let text = text.replace("**", "^").replace(['\u{b7}', '*'], ".").replace('\u{b2}', "2").replace('\u{b3}', "3");
+        let mut unit = ONE;
+        for (index, factors) in text.split('/').enumerate() {
+            let mut factors = factors.split(['.', ' ']).filter(|factor| !factor.is_empty());
+            // "/s" has nothing to divide
+            let first = power_of(factors.next()?)?;
+            unit = unit.times(first, if index == 0 { 1 } else { -1 });
+            for factor in factors {
+                unit = unit.times(power_of(factor)?, 1);
+            }
+        }
+        Some(unit)
+    }
+
+    /// This unit times the `power` of another, which is a symbol to a small power.
+    fn times(self, (other, exponent): (Unit, i32), sign: i32) -> Unit {
+        let exponent = sign * exponent;
+        let size = other.numerator.powi(exponent.abs());
+        let (up, down) = if exponent > 0 { (size, 1.0) } else { (1.0, size) };
+        let mut dimension = self.dimension;
+        dimension.iter_mut().zip(other.dimension).for_each(|(own, other)| *own += exponent * other);
+        Unit {
+            numerator: self.numerator * up,
+            denominator: self.denominator * down,
+            power: self.power + exponent * other.power,
+            dimension,
+        }
+    }
+
+    /// The `number`, a decimal text, of this unit in another of the same dimension.
+    fn number(self, number: &str, other: Unit) -> f64 {
+        let (digits, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+        let beyond = if exponent.starts_with('-') { i32::MIN / 2 } else { i32::MAX / 2 };
+        let exponent = exponent.parse().unwrap_or(beyond).saturating_add(self.power - other.power);
+        let decimal: f64 = format!("{digits}e{exponent}").parse().unwrap_or(f64::NAN);
+        decimal * (self.numerator * other.denominator) / (self.denominator * other.numerator)
+    }
+
+    /// What a number of this dimension is.
+    fn kind(self) -> Option<&'static Kind> {
+        KINDS.iter().find(|kind| Unit::parse(kind.unit).is_some_and(|unit| unit.dimension == self.dimension))
+    }
 }
 
-/// The number in `text` and the unit after it, if there is one.
-fn split(text: &str) -> Option<(f64, &str)> {
+/// A symbol with its prefix, and its power: `mm2` or `s^-1`.
+fn power_of(factor: &str) -> Option<(Unit, i32)> {
+    let (symbol, exponent) = match factor.find(|c: char| c == '^' || c == '-' || c.is_ascii_digit()) {
+        Some(end) if end > 0 => (&factor[..end], factor[end..].trim_start_matches('^').parse().ok()?),
+        _ => (factor, 1),
+    };
+    let is_power = exponent != 0_i32 && exponent.abs() <= 4;
+    let of = |(_, size, power, dimension): &Symbol, prefix: i32| Unit {
+        numerator: *size,
+        denominator: 1.0,
+        power: power + prefix,
+        dimension: *dimension,
+    };
+    let alone = OTHERS.iter().chain(&METRIC).find(|(name, ..)| *name == symbol).map(|found| of(found, 0));
+    let prefixed = || {
+        PREFIXES.iter().find_map(|(prefix, power)| {
+            let name = symbol.strip_prefix(prefix)?;
+            METRIC.iter().find(|(known, ..)| *known == name).map(|found| of(found, *power))
+        })
+    };
+    Some((alone.or_else(prefixed).filter(|_| is_power)?, exponent))
+}
+
+/// A kind of quantity: its SI unit, what a number of it is, the unit in words, and the units that messages name.
+struct Kind {
+    unit: &'static str,
+    is: &'static str,
+    name: &'static str,
+    usual: &'static [&'static str],
+}
+
+const KINDS: [Kind; 13] = [
+    Kind { unit: "m", is: "a length", name: "metres", usual: &["nm", "um", "mm", "cm", "m", "km", "in", "ft"] },
+    Kind {
+        unit: "Pa",
+        is: "a pressure",
+        name: "pascals",
+        usual: &["Pa", "kPa", "MPa", "GPa", "N/mm^2", "kgf/mm^2", "psi", "ksi"],
+    },
+    Kind { unit: "kg", is: "a mass", name: "kilograms", usual: &["mg", "g", "kg", "t", "oz", "lb"] },
+    Kind {
+        unit: "m/s",
+        is: "a speed",
+        name: "metres per second",
+        usual: &["mm/s", "cm/s", "m/s", "km/s", "km/h", "ft/s", "mph"],
+    },
+    Kind {
+        unit: "kg/m^3",
+        is: "a density",
+        name: "kilograms per cubic metre",
+        usual: &["kg/m^3", "g/cm^3", "kg/dm^3", "t/m^3", "lb/in^3"],
+    },
+    Kind { unit: "J", is: "an energy", name: "joules", usual: &["uJ", "mJ", "J", "kJ"] },
+    Kind { unit: "N", is: "a force", name: "newtons", usual: &["uN", "mN", "N", "kN", "MN", "kgf", "kp", "lbf"] },
+    Kind { unit: "m^2", is: "an area", name: "square metres", usual: &["mm^2", "cm^2", "m^2", "in^2"] },
+    Kind { unit: "1/s", is: "a rate", name: "per second", usual: &["1/s", "1/ms", "1/min", "Hz", "kHz"] },
+    Kind { unit: "s", is: "a time", name: "seconds", usual: &["ns", "us", "ms", "s", "min", "h"] },
+    Kind {
+        unit: "kg.m^2",
+        is: "a moment of inertia",
+        name: "kilogram square metres",
+        usual: &["kg.m^2", "kg.mm^2", "g.cm^2", "g.mm^2"],
+    },
+    Kind { unit: "deg", is: "an angle", name: "degrees", usual: &["deg", "rad", "mrad"] },
+    Kind { unit: "rad/s", is: "a spin", name: "radians per second", usual: &["rad/s", "deg/s", "rpm"] },
+];
+
+/// The kind of quantity with this SI unit; `None` for units of a law, such as its yield force, and for numbers without dimension.
+fn kind(unit: &str) -> Option<&'static Kind> {
+    Unit::parse(unit).and_then(Unit::kind)
+}
+
+/// The number in `text`, and the unit after it, if there is one.
+fn split(text: &str) -> Option<(String, &str)> {
     let text = text.trim().trim_matches(['"', '\'']).trim();
     // the longest prefix that is a number: an `e` may belong to it or to the unit
     let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
     ends.filter(|end| text[..*end].ends_with(|last: char| last.is_ascii_digit() || last == '.')).find_map(|end| {
-        let number = text[..end].replace('_', "").parse().ok()?;
-        Some((number, text[end..].trim()))
+        let number = text[..end].replace('_', "");
+        let is_one = number.parse::<f64>().is_ok();
+        is_one.then(|| (number, text[end..].trim()))
     })
 }
 
-/// The number in SI units, if `text` is a number with a unit of the same kind as `unit`.
-pub fn with_unit(text: &str, unit: &str) -> Option<f64> {
+/// A number with a unit in `text`, in this SI `unit`. `None` if the text doesn't begin with a number, or no other unit is known.
+///
+/// # Errors
+/// What is wrong with the unit, and what is allowed.
+pub fn with_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     let (number, suffix) = split(text)?;
-    let (_, size) = kind(unit).others.iter().find(|(name, _)| *name == suffix)?;
-    Some(number * size)
+    let (expected, si) = (kind(unit)?, Unit::parse(unit)?);
+    let allowed = || format!("{} has a unit like {}", expected.is, one_of(expected.usual));
+    if suffix.is_empty() {
+        return Some(Err(format!(
+            "in quotes a number needs its unit: \"{number} {}\"; without quotes it is in {}",
+            expected.unit, expected.name
+        )));
+    }
+    let Some(own) = Unit::parse(suffix) else {
+        let guess = nearest(suffix, expected.usual.iter().copied());
+        let more = match guess {
+            Some(guess) => format!("did you mean `{guess}`? A{}", &allowed()[1..]),
+            None => allowed(),
+        };
+        return Some(Err(format!("there is no unit `{}`; {more}", shortened(suffix))));
+    };
+    if own.dimension != si.dimension {
+        let is = own.kind().map_or(String::new(), |kind| format!(" is {}", kind.is));
+        return Some(Err(format!("{suffix}{is}; {}", allowed())));
+    }
+    let value = own.number(&number, si);
+    if value.is_finite() { Some(Ok(value)) } else { Some(Err("the number is too large".into())) }
 }
 
-/// The message about a number with a decimal comma, and perhaps a unit where none is allowed; `unit` is the SI unit if there is one:
-/// `this is a decimal comma; write 5.3`.
-pub fn decimal_comma(text: &str, unit: Option<&str>) -> Option<String> {
+/// The message about a number with a decimal comma, and perhaps a unit: `this is a decimal comma; write 5.3`.
+pub fn decimal_comma(text: &str) -> Option<String> {
     let text = text.trim_matches(['"', '\'']);
     let (whole, rest) = text.split_once(',')?;
     let sign = ['+', '-'];
@@ -105,28 +251,37 @@ pub fn decimal_comma(text: &str, unit: Option<&str>) -> Option<String> {
     let point = format!("{}.{rest}", whole.trim());
     let (_, suffix) = split(&point)?;
     if !suffix.is_empty() {
-        return hint(&point, unit?);
+        return Unit::parse(suffix).map(|_| format!("this is a decimal comma; write {point}"));
     }
     let is_group = digits == 3 && rest.len() == 3 && whole.trim().trim_start_matches(sign) != "0";
     let group = if is_group { format!(", or {whole}{rest} if it separates thousands") } else { String::new() };
     Some(format!("this is a decimal comma; write {point}{group}"))
 }
 
-/// The message about a number with a unit, where none is allowed: `metres, a number without unit: 5e-3`.
-pub fn hint(text: &str, unit: &str) -> Option<String> {
-    let kind = KINDS.iter().find(|kind| kind.unit == unit)?;
-    let (_, suffix) = split(text)?;
-    if suffix.is_empty() {
-        return None;
-    }
-    let number = with_unit(text, unit).map_or(String::new(), |number| format!(": {}", crate::numbers::plain(number)));
-    Some(format!("{}, a number without unit{number}", kind.name))
+/// The message about a number with a unit that isn't in quotes, though in a scene it must be.
+pub fn needs_quotes(text: &str) -> Option<String> {
+    let (number, suffix) = split(text).filter(|_| !text.trim().starts_with(['"', '\'']))?;
+    Unit::parse(suffix).map(|_| format!("a number with a unit is in quotes: \"{number} {suffix}\""))
 }
 
-/// A number on the command line, in this SI unit.
-fn number(text: &str, unit: &str) -> Result<f64, String> {
-    let said = || decimal_comma(text, Some(unit)).or_else(|| hint(text, unit));
-    text.parse().map_err(|_| said().unwrap_or_else(|| format!("a number in {} is expected", kind(unit).name)))
+/// A number on the command line, with a unit or in this SI `unit`.
+///
+/// # Errors
+/// What is wrong with it, and what is allowed.
+pub fn number(text: &str, unit: &str) -> Result<f64, String> {
+    if let Ok(number) = text.trim().parse() {
+        return Ok(number);
+    }
+    if let Some(comma) = decimal_comma(text) {
+        return Err(comma);
+    }
+    let expected = || match kind(unit) {
+        Some(Kind { name, usual, .. }) => {
+            format!("a number in {name} is expected, or with a unit like {}", one_of(usual))
+        }
+        None => "a number is expected".into(),
+    };
+    with_unit(text, unit).unwrap_or_else(|| Err(expected()))
 }
 
 /// A mass \[kg\] on the command line.
@@ -154,52 +309,164 @@ pub fn forces(text: &str) -> Result<f64, String> {
     number(text, "N")
 }
 
+/// An angle in degrees on the command line.
+pub fn angles(text: &str) -> Result<f64, String> {
+    number(text, "deg")
+}
+
+/// A spin [rad/s] on the command line.
+pub fn spins(text: &str) -> Result<f64, String> {
+    number(text, "rad/s")
+}
+
+/// A moment of inertia [kg m^2] on the command line.
+pub fn inertias(text: &str) -> Result<f64, String> {
+    number(text, "kg.m^2")
+}
+
 /// A load with its unit on the command line, in newtons: `29.4kN`, `3000kgf`.
 pub fn loads(text: &str) -> Result<f64, String> {
-    let known = || kind("N").others.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-    with_unit(text, "N")
-        .ok_or_else(|| format!("a number with a unit is expected, such as 29.4kN; units are {}", known()))
+    let usual = one_of(kind("N").map_or(&[], |kind| kind.usual));
+    let missing = || Err(format!("a number with a unit is expected, such as 29.4kN; units are {usual}"));
+    if text.trim().parse::<f64>().is_ok() { missing() } else { with_unit(text, "N").unwrap_or_else(missing) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::VARIABLES;
 
+    /// Every usual unit and every prefix, on numbers of all sizes: what a person would write in SI is the very number, or one rounding
+    /// from it where the unit is no power of ten.
     #[test]
-    fn a_unit_says_what_is_meant() {
-        for (text, unit, said) in [
-            ("5mm", "m", "metres, a number without unit: 5e-3"),
-            ("\"5 mm\"", "m", "metres, a number without unit: 5e-3"),
-            ("210 GPa", "Pa", "pascals, a number without unit: 210e9"),
-            ("1e3 MPa", "Pa", "pascals, a number without unit: 1e9"),
-            ("4.11g", "kg", "kilograms, a number without unit: 4.11e-3"),
-            ("7.85 g/cm3", "kg/m^3", "kilograms per cubic metre, a number without unit: 7850"),
-            ("5 furlongs", "m", "metres, a number without unit"),
-        ] {
-            assert_eq!(hint(text, unit).as_deref(), Some(said));
+    fn a_number_with_a_unit_is_its_number_in_si() {
+        let numbers =
+            ["0.3", "5", "-7.25", "1_000", "2e3", "1.2E-7", "0.1", "123456789.123456789", "4.11", "9.99e22", "+3."];
+        let powers = [("nm", "m", -9), ("um", "m", -6), ("mm", "m", -3), ("cm", "m", -2), ("km", "m", 3)];
+        let powers =
+            powers.into_iter().chain([("kPa", "Pa", 3), ("MPa", "Pa", 6), ("GPa", "Pa", 9), ("N/mm^2", "Pa", 6)]);
+        let powers =
+            powers.chain([("mg", "kg", -6), ("g", "kg", -3), ("t", "kg", 3), ("kg", "kg", 0), ("\u{b5}m", "m", -6)]);
+        let powers = powers.chain([
+            ("mm/s", "m/s", -3),
+            ("m/ms", "m/s", 3),
+            ("g/cm\u{b3}", "kg/m^3", 3),
+            ("kg/dm3", "kg/m^3", 3),
+        ]);
+        let powers =
+            powers.chain([("uJ", "J", -6), ("N.mm", "J", -3), ("kN", "N", 3), ("mm2", "m^2", -6), ("kHz", "1/s", 3)]);
+        let powers =
+            powers.chain([("s^-1", "1/s", 0), ("ms", "s", -3), ("kg mm^2", "kg.m^2", -6), ("g*cm**2", "kg.m^2", -7)]);
+        for (unit, si, power) in powers {
+            for number in numbers {
+                let plain = number.replace('_', "");
+                let (digits, exponent) = plain.split_once(['e', 'E']).unwrap_or((&plain, "0"));
+                let expected: f64 = format!("{digits}e{}", exponent.parse::<i32>().unwrap() + power).parse().unwrap();
+                for text in [format!("{number} {unit}"), format!("{number}{unit}"), format!("\"{number} {unit}\"")] {
+                    assert_eq!(with_unit(&text, si), Some(Ok(expected)), "{text} in {si}");
+                }
+            }
         }
-        for text in ["5", "5e-3", "", "five", "mm"] {
-            assert_eq!(hint(text, "m"), None);
+        let others =
+            [("in", "m", 0.0254), ("ft", "m", 0.3048), ("mil", "m", 2.54e-5), ("psi", "Pa", 6894.757293168361)];
+        let others = others.into_iter().chain([
+            ("ksi", "Pa", 6894757.293168361),
+            ("lb", "kg", 0.45359237),
+            ("oz", "kg", 0.028349523125),
+        ]);
+        let others = others.chain([
+            ("km/h", "m/s", 1.0 / 3.6),
+            ("mph", "m/s", 0.44704),
+            ("kgf", "N", 9.80665),
+            ("lbf", "N", 4.4482216152605),
+        ]);
+        let others = others.chain([
+            ("kgf/mm^2", "Pa", 9806650.0),
+            ("lb/in^3", "kg/m^3", 27679.90471020312),
+            ("rad", "deg", 57.29577951308232),
+        ]);
+        let others = others.chain([
+            ("rpm", "rad/s", 0.10471975511965977),
+            ("1/min", "1/s", 1.0 / 60.0),
+            ("deg", "deg", 1.0),
+            ("\u{b0}", "deg", 1.0),
+        ]);
+        for (unit, si, size) in others {
+            for number in numbers {
+                let expected = number.replace('_', "").parse::<f64>().unwrap() * size;
+                let found = with_unit(&format!("{number} {unit}"), si).unwrap().unwrap();
+                assert!(
+                    (found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(),
+                    "{number} {unit}: {found}, not {expected}"
+                );
+            }
         }
     }
 
     #[test]
-    fn a_decimal_comma_is_called_so() {
+    fn the_units_that_messages_name_are_units_of_their_kind() {
+        for Kind { unit, usual, .. } in &KINDS {
+            for name in usual.iter().chain([unit]) {
+                assert!(with_unit(&format!("1 {name}"), unit).unwrap().is_ok(), "{name} in {unit}");
+            }
+        }
+        let units = VARIABLES.iter().filter_map(|variable| variable.unit.as_deref());
+        assert!(units.clone().count() > 10 && units.into_iter().all(|unit| Unit::parse(unit).is_some()));
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_unit_is_said_with_what_is_allowed() {
         for (text, unit, said) in [
-            ("5,3", Some("m"), "this is a decimal comma; write 5.3"),
-            ("-0,25", None, "this is a decimal comma; write -0.25"),
-            ("5,3e-3", Some("m"), "this is a decimal comma; write 5.3e-3"),
-            ("0,125", None, "this is a decimal comma; write 0.125"),
-            ("206,000", Some("Pa"), "this is a decimal comma; write 206.000, or 206000 if it separates thousands"),
-            ("\"5,3 mm\"", Some("m"), "metres, a number without unit: 5.3e-3"),
-            ("5,3 furlongs", Some("m"), "metres, a number without unit"),
+            ("5 mm", "Pa", "mm is a length; a pressure has a unit like one of `Pa`, `kPa`, `MPa`"),
+            ("5 Nm", "m", "there is no unit `Nm`; did you mean `nm`?"),
+            ("5 N.m", "m", "N.m is an energy; a length has"),
+            ("5 kg^3", "m", "kg^3; a length has"),
+            ("5 furlongs", "m", "there is no unit `furlongs`; a length has a unit like one of `nm`, `um`, `mm`"),
+            ("210 Gpa", "Pa", "there is no unit `Gpa`; did you mean `GPa`?"),
+            ("5", "m", "in quotes a number needs its unit: \"5 m\"; without quotes it is in metres"),
+            ("5 /s", "1/s", "there is no unit `/s`"),
+            ("5 mm^9", "m", "there is no unit `mm^9`"),
+            ("5 dkm", "m", "there is no unit `dkm`"),
+            ("9e307 km", "m", "the number is too large"),
+            ("1e99999999999 km", "m", "the number is too large"),
         ] {
-            assert_eq!(decimal_comma(text, unit).as_deref(), Some(said));
+            let found = with_unit(text, unit).map(Result::unwrap_err);
+            assert!(found.as_ref().is_some_and(|found| found.contains(said)), "{text}: {found:?}");
+        }
+        for text in ["", "five", "mm", "-", "e5 mm", "inf m", "nan mm"] {
+            assert_eq!(with_unit(text, "m"), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_number_of_the_command_line_has_a_unit_or_is_in_si() {
+        assert_eq!(lengths("5mm"), Ok(5e-3));
+        assert_eq!(lengths("5e-3"), Ok(5e-3));
+        assert_eq!(masses("4.11 g"), Ok(4.11e-3));
+        assert_eq!(speeds("3.6km/h"), Ok(1.0));
+        assert_eq!(angles("45"), Ok(45.0));
+        assert!(
+            energies("five").unwrap_err().contains("a number in joules is expected, or with a unit like one of `uJ`")
+        );
+        assert!(speeds("5mm").unwrap_err().contains("mm is a length; a speed has"));
+        assert_eq!(speeds("1,5"), Err("this is a decimal comma; write 1.5".into()));
+    }
+
+    #[test]
+    fn a_decimal_comma_is_called_so() {
+        for (text, said) in [
+            ("5,3", "this is a decimal comma; write 5.3"),
+            ("-0,25", "this is a decimal comma; write -0.25"),
+            ("5,3e-3", "this is a decimal comma; write 5.3e-3"),
+            ("0,125", "this is a decimal comma; write 0.125"),
+            ("206,000", "this is a decimal comma; write 206.000, or 206000 if it separates thousands"),
+            ("\"5,3 mm\"", "this is a decimal comma; write 5.3 mm"),
+        ] {
+            assert_eq!(decimal_comma(text).as_deref(), Some(said));
         }
         for text in ["5", "5.3", "5, 3", "1,2,3", "1.5,3", ",5", "5,", "a,5", "5,3=4", "0,3 x", ""] {
-            assert_eq!(decimal_comma(text, None), None, "{text}");
+            assert_eq!(decimal_comma(text), None, "{text}");
         }
-        assert_eq!(speeds("1,5"), Err("this is a decimal comma; write 1.5".into()));
     }
 
     #[test]

@@ -7,7 +7,6 @@ no parameters of an FMU: with others than the scene's, the program predicts each
 from __future__ import annotations
 
 import tempfile
-import tomllib
 import warnings
 from bisect import bisect_left
 from collections.abc import Callable, Mapping
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 from ..contact import Contact
 from ..errors import ContactError, ProgramError
 from ..library import Library
-from ..program import Prediction, export, predict
+from ..program import Prediction, export, predict, tables
 from ..studies.impacts import impact
 from ..studies.scene import of_impacts, toml
 from .measured import Measured
@@ -56,8 +55,7 @@ class Law:
         # the program knows the mass of a solid ball, and tells what is wrong with a scene
         found = predict(path, mass=mass, speed=float(points.at[0]) if self._of_impacts else None)
         self._mass = found.mass
-        with open(path, "rb") as file:
-            data = tomllib.load(file)
+        data = tables(path)
         # all impacts are along the normal
         data.pop("friction", None)
         self._data = of_impacts(data, self._mass) if self._of_impacts else _slow(data)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..program import export
+from ..program import export, tables
 
 OUTPUTS = ["indentation", "max_indentation", "residual_indentation", "dissipated_energy"]
 
@@ -19,8 +18,7 @@ def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str,
 
     `mass` [kg] is needed if the scene has none.
     """
-    with open(scene, "rb") as file:
-        data = tomllib.load(file)
+    data = tables(scene)
     impact = dict(data.get("impact", {}))
     known = mass or impact.get("mass") or data.get("coupling", {}).get("effective_mass")
     if known is None:

@@ -233,7 +233,7 @@ fn loops_have_amplitudes_laws_and_reasons_for_refusals() {
         (&["--friction", "0"], "friction = 0 must be positive"),
         (&["--friction", "20"], "allowed is 0 to 10"),
         (&["--friction", "0.1", "--amplitude", "0"], "amplitude = 0 must be positive"),
-        (&["--friction", "0.1", "--amplitude", "5nm"], "metres, a number without unit: 5e-9"),
+        (&["--friction", "0.1", "--amplitude", "5 nN"], "nN is a force; a length has a unit like"),
         (&["--friction", "0.1", "--laws", "kogut-etsion"], "doesn't support friction"),
         (&["--friction", "0.1", "--truth"], "cannot be used with"),
         (&["--friction", "0.1", "-o", "loop.svg"], "loop.svg: the name must end in .csv"),

@@ -8,6 +8,7 @@ use crate::nearest::{nearest, one_of};
 use crate::numbers::{in_message, out_of_range};
 use crate::scene::{Body, Scene};
 use crate::table::{self, Causality, VARIABLES};
+use crate::units;
 use brinell_contact::impact::Impact;
 
 /// A quantity with its range.
@@ -47,7 +48,7 @@ impl Axis {
         let wrong = |why: &str| {
             PredictError::Sweep(format!(
                 "{words}: {why}; expected NAME=FROM:TO or NAME=FROM:TO:COUNT, such as speed=0.01:10 or \
-                 target.yield_strength=200e6:900e6:8"
+                 \"target.yield_strength=200 MPa:900 MPa:8\""
             ))
         };
         let (name, range) = words.split_once('=').ok_or_else(|| wrong("no `=`"))?;
@@ -59,8 +60,8 @@ impl Axis {
             _ => return Err(wrong("no range")),
         };
         let number = |text: &str| {
-            let number: Option<f64> = text.trim().parse().ok();
-            number.filter(|number| number.is_finite()).ok_or_else(|| wrong(&format!("`{text}` is no number")))
+            let number = units::number(text, unit).map_err(|why| wrong(&format!("`{text}`: {why}")))?;
+            if number.is_finite() { Ok(number) } else { Err(wrong(&format!("`{text}` is no finite number"))) }
         };
         let (from, to) = (number(from)?, number(to)?);
         if from >= to {

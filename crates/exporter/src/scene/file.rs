@@ -1,12 +1,17 @@
 //! The contents of a scene file: tables and keys, without interpretation.
 
 use super::parser_words;
+use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::parameters::ConstantTable;
+use crate::table::VARIABLES;
+use crate::units;
 use brinell_contact::Surface;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -236,20 +241,121 @@ impl SceneFile {
     /// # Errors
     /// Text that is not TOML, has a wrong type, or is unknown, with its place.
     pub fn read(text: &str) -> Result<SceneFile, Mistake> {
-        let mistake = |span: Range<usize>, message: &str| {
-            let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
-            let line = text[line..].lines().next().unwrap_or_default().trim();
-            Mistake(span.clone(), parser_words::words(message, line, &text[span]))
-        };
-        let file: SceneFile =
-            toml::from_str(text).map_err(|error| mistake(error.span().unwrap_or(0..0), error.message()))?;
+        let (tree, numbers) = parsed(text)?;
+        // a tree that borrows the numbers, too
+        let mut tree = tree;
+        tree.get_mut().iter_mut().for_each(|(_, value)| put(value, &numbers));
+        let file = SceneFile::deserialize(Deserializer::from(tree)).map_err(|error| of_parser(text, &error))?;
         // whether this key is required, the parser doesn't know
         match &file.coupling {
             Some(table) if file.body.is_none() && table.get_ref().has_no_mass() => {
-                Err(mistake(table.span(), "missing field `effective_mass`"))
+                Err(in_words(text, table.span(), "missing field `effective_mass`"))
             }
             _ => Ok(file),
         }
+    }
+}
+
+/// The mistake of this `message` of the parser about a place in the `text`.
+fn in_words(text: &str, span: Range<usize>, message: &str) -> Mistake {
+    let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
+    let line = text[line..].lines().next().unwrap_or_default().trim();
+    Mistake(span.clone(), parser_words::words(message, line, &text[span]))
+}
+
+fn of_parser(text: &str, error: &toml::de::Error) -> Mistake {
+    in_words(text, error.span().unwrap_or(0..0), error.message())
+}
+
+/// The tree of the `text`, and the numbers with a unit in it.
+fn parsed(text: &str) -> Result<(Spanned<DeTable<'_>>, InSi), Mistake> {
+    let tree = DeTable::parse(text).map_err(|error| of_parser(text, &error))?;
+    let mut numbers = InSi::new();
+    numbers_in("", tree.get_ref(), &mut numbers)?;
+    Ok((tree, numbers))
+}
+
+/// The `text` of a scene with all numbers in SI units: a bare number in place of each text with a unit.
+///
+/// # Errors
+/// Text that is not TOML, and a wrong unit, with its place.
+pub fn in_si(text: &str) -> Result<String, Mistake> {
+    let (mut made, mut end) = (String::new(), 0);
+    for (start, (until, number)) in parsed(text)?.1 {
+        made = made + &text[end..start] + &number;
+        end = until;
+    }
+    Ok(made + &text[end..])
+}
+
+/// The SI unit of the number `key` in a table that is called `table`, or `""` at the top. Dimensionless numbers have none.
+fn unit_of(table: &str, key: &str) -> Option<&'static str> {
+    match (table, key) {
+        // a law has its own constants
+        ("loading_parameters" | "unloading_parameters", _) => None,
+        ("power_law", "coefficient") | (_, "tangent_modulus") => Some("Pa"),
+        ("rate", "d" | "reference_rate") => Some("1/s"),
+        (_, "density") => Some("kg/m^3"),
+        (_, "mass") => Some("kg"),
+        (_, "speed") => Some("m/s"),
+        (_, "length" | "arms") => Some("m"),
+        (_, "area") => Some("m^2"),
+        (_, "inertia") => Some("kg.m^2"),
+        _ => {
+            let is_key = |name: &str| name.rsplit('.').next() == Some(key);
+            VARIABLES.iter().find(|variable| is_key(&variable.name)).and_then(|variable| variable.unit.as_deref())
+        }
+    }
+}
+
+/// Numbers in SI units as TOML writes them, with the end of the text with a unit for which each stands, by its beginning.
+type InSi = BTreeMap<usize, (usize, String)>;
+
+/// Finds the numbers with a unit, such as `"5 mm"`, in a `table` at this `path`.
+fn numbers_in(path: &str, table: &DeTable, found: &mut InSi) -> Result<(), Mistake> {
+    table.iter().try_for_each(|(key, value)| {
+        let key = key.get_ref();
+        let unit = unit_of(path.rsplit('.').next().unwrap_or_default(), key);
+        let path = if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
+        number_in(&path, unit, value, found)
+    })
+}
+
+/// The same in a `value`, which is a number in this `unit`, a list, or a table.
+fn number_in(
+    path: &str,
+    unit: Option<&'static str>,
+    value: &Spanned<DeValue>,
+    found: &mut InSi,
+) -> Result<(), Mistake> {
+    let text = match (value.get_ref(), unit) {
+        (DeValue::Table(table), _) => return numbers_in(path, table, found),
+        (DeValue::Array(list), _) => return list.iter().try_for_each(|value| number_in(path, unit, value, found)),
+        (DeValue::String(text), Some(unit)) => (text, unit),
+        _ => return Ok(()),
+    };
+    let (text, unit) = text;
+    let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(text)));
+    if let Some(comma) = units::decimal_comma(text) {
+        return Err(wrong(comma));
+    }
+    let number = units::with_unit(text, unit).transpose().map_err(wrong)?;
+    found.extend(number.map(|number| (value.span().start, (value.span().end, format!("{number:e}")))));
+    Ok(())
+}
+
+/// Puts the `numbers` in place of their texts in this `value`.
+fn put<'text>(value: &mut Spanned<DeValue<'text>>, numbers: &'text InSi) {
+    let number = numbers.get(&value.span().start);
+    match value.get_mut() {
+        DeValue::Table(table) => table.iter_mut().for_each(|(_, value)| put(value, numbers)),
+        DeValue::Array(list) => list.iter_mut().for_each(|value| put(value, numbers)),
+        text @ DeValue::String(_) => {
+            if let Some((_, number)) = number {
+                *text = DeValue::parse(number).expect("a number of TOML").into_inner();
+            }
+        }
+        _ => {}
     }
 }
 

@@ -45,6 +45,14 @@ pub fn check_name(name: &str) -> Result<(), String> {
     names::check_name(&Spanned::new(0..0, name.into())).map(drop).map_err(|Mistake(_, message)| message)
 }
 
+/// The `text` of the scene file at `path` with all numbers in SI units, for readers of TOML that know no other.
+///
+/// # Errors
+/// As for [`Scene::parse`], of text that is not TOML, and of wrong units.
+pub fn in_si(text: &str, path: &Path) -> Result<String, SceneError> {
+    file::in_si(text).map_err(|mistake| mistake.in_file(text, path))
+}
+
 /// A checked scene.
 #[derive(Clone, Debug)]
 pub struct Scene {

@@ -3,7 +3,6 @@
 use crate::layout::{shortened, without_middle};
 use crate::nearest::{nearest, one_of};
 use crate::numbers::in_message;
-use crate::table::VARIABLES;
 use crate::units;
 use toml::value::Datetime;
 
@@ -168,7 +167,7 @@ fn unknown_field(names: &str) -> String {
     format!("unknown key `{}`{more}{}", shortened(asked), one_of(known))
 }
 
-/// The message about a number followed by a unit, as in `radius = 5mm`.
+/// The message about a number followed by a unit without quotes, as in `radius = 5mm`.
 fn hint(line: &str, meant: &str) -> Option<String> {
     let (key, value) = line.split_once('=')?;
     let value = value.split('#').next().unwrap_or_default();
@@ -182,8 +181,7 @@ fn hint(line: &str, meant: &str) -> Option<String> {
         }
         None => (key, value),
     };
-    let unit = unit_of(key)?;
-    let hint = units::hint(value, unit)?;
+    let hint = units::needs_quotes(value)?;
     Some(format!("{key} = {}: {hint}", shortened(value.trim())))
 }
 
@@ -201,20 +199,7 @@ fn decimal_comma(line: &str) -> Option<String> {
         // a second comma ends the number in a table
         let end = value.match_indices(',').nth(1).map_or(value.len(), |(end, _)| end);
         let value = value[..end].trim();
-        let hint = units::decimal_comma(value, unit_of(key))?;
+        let hint = units::decimal_comma(value)?;
         Some(format!("{key} = {}: {hint}", shortened(value)))
     })
-}
-
-/// The SI unit of a key.
-fn unit_of(key: &str) -> Option<&'static str> {
-    match key {
-        "density" => return Some("kg/m^3"),
-        "mass" => return Some("kg"),
-        "speed" => return Some("m/s"),
-        "length" => return Some("m"),
-        _ => {}
-    }
-    let of_key = VARIABLES.iter().find(|variable| variable.name.rsplit('.').next() == Some(key));
-    of_key.and_then(|variable| variable.unit.as_deref())
 }
