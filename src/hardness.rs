@@ -6,9 +6,12 @@ use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use brinell_exporter::hardness::{ADMITTED, Dent, load_ratio, run_test, strength_of};
 use brinell_exporter::laws::{self, Choice};
 use brinell_exporter::layout::{json_line, paragraph, table};
+use brinell_exporter::measured::{self, Metal};
 use brinell_exporter::numbers::{quantity, significant};
 use brinell_exporter::predict::positive;
 use brinell_exporter::regime;
+use brinell_exporter::scene::{Body, Scene};
+use brinell_exporter::table::Class;
 use brinell_exporter::units;
 use serde_json::{Value, json};
 use std::error::Error;
@@ -65,13 +68,14 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let all = arguments.laws.iter().any(|name| name == "all");
     let choices: Vec<_> = choices.into_iter().filter(|choice| !all || choice.laws != "hertz").collect();
     let ball = 2.0 * scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
+    let measured = scene.measured(0, Body::Target).filter(|_| scene.softer(0) == Body::Target);
     let answer = |choice: &Choice| -> Result<HardnessAnswer, String> {
         let (yield_strength, dent) = match hardness {
             Some(hardness) => {
                 let (strength, dent) = strength_of(choice, load, ball, hardness)?;
                 (Some(strength), dent)
             }
-            None => (None, run_test(choice, load, ball)?),
+            None => (None, run_test(choice, load, ball, measured)?),
         };
         Ok(HardnessAnswer { laws: choice.laws.clone(), yield_strength, dent })
     };
@@ -85,11 +89,43 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
             Err(reason) => return Err(reason.into()),
         }
     }
-    match as_json {
-        true => print!("{}", json_line(&as_value(&answers, &left_out, load, ball, hardness))),
-        false => print!("{}", text(&answers, &left_out, load, ball, hardness)),
+    let by_table = by_finite_elements(&scene, hardness, (ball, load));
+    if as_json {
+        let mut value = as_value(&answers, &left_out, load, ball, hardness);
+        value["by_finite_elements"] = json!(by_table.map(|(number, stress, strain)| {
+            json!({ "brinell_hardness": number, "flow_stress": stress, "strain": strain })
+        }));
+        print!("{}", json_line(&value));
+        return Ok(());
+    }
+    print!("{}", text(&answers, &left_out, load, ball, hardness));
+    if let Some((number, stress, strain)) = by_table {
+        let said = format!(
+            "whatever the law, the mean pressure of finite elements with large deformation joins {} HBW with a flow stress of {} at a \
+             plastic strain of {}, Tabor's 0.2 a/R of this dent. A scene with the hardness of its target takes its strength from there.",
+            significant(number, 4),
+            quantity(stress, "Pa"),
+            significant(strain, 3)
+        );
+        print!("\n{}", paragraph("note: ", &said));
     }
     Ok(())
+}
+
+/// Brinell hardness, flow stress [Pa] of the scene's target and its strain by the table that readings in scenes use: of this `hardness`,
+/// or of the scene's strength. `None` outside that table.
+fn by_finite_elements(scene: &Scene, hardness: Option<f64>, test: (f64, f64)) -> Option<(f64, f64, f64)> {
+    let [_, target] = scene.bodies_with(0, &[]);
+    let brinell_contact::Body { youngs_modulus, poissons_ratio, .. } = target;
+    let metal = Metal { youngs_modulus, poissons_ratio, class: Class::of_modulus(youngs_modulus), exponent: None };
+    let strength = scene.group_value(0, Body::Target.yield_strength());
+    let flow_stress = |strain: f64| match scene.measured(0, Body::Target) {
+        Some(measured) => measured.at(strain),
+        None => strength.unwrap_or(f64::INFINITY),
+    };
+    let number = hardness.or_else(|| measured::brinell_of(flow_stress, test, &metal))?;
+    let (stress, strain) = measured::by_brinell(number, Some(test), &metal).ok()?;
+    Some((number, stress, strain))
 }
 
 /// A doubt about a dent.

@@ -9,7 +9,7 @@ use brinell_exporter::interface::Entry;
 use brinell_exporter::layout::{paragraph, shown};
 use brinell_exporter::package::Packed;
 use brinell_exporter::plan::{FixedParameter, Plan};
-use brinell_exporter::scene::{Group, Parameter, Scene};
+use brinell_exporter::scene::{Body, Group, Parameter, Scene};
 use brinell_exporter::table::{self, Causality, VARIABLES};
 use serde_json::{Value, json};
 
@@ -91,6 +91,9 @@ impl Summary<'_> {
             "left_out": left_out, "absent": self.absent, "left_out_features": self.features,
             "left_out_laws": { "loading": loading, "unloading": unloading, "damped": damped },
         });
+        for (body, words) in strengths(scene) {
+            object["strengths"][body] = json!(words);
+        }
         if scene.contacts[0].name.is_some() {
             let groups = 0..scene.contacts.len();
             object["contacts"] = groups.map(|group| self.group_json(group)).collect();
@@ -124,6 +127,9 @@ impl Summary<'_> {
         }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         line("law", &law(scene));
+        for (body, words) in strengths(scene) {
+            line("strength", &format!("{body}: {words}"));
+        }
         if let Some(guard) = guard {
             line("guard", &guard.words());
         }
@@ -212,6 +218,11 @@ fn group_line(group: &Group) -> String {
     let own = own.collect::<Vec<_>>().join(", ");
     let own = if own.is_empty() { "as the scene".into() } else { own };
     paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.size()), &own)
+}
+
+/// The bodies whose strength comes from a hardness or a tensile strength, and what was made of it.
+fn strengths(scene: &Scene) -> impl Iterator<Item = (&'static str, String)> {
+    Body::ALL.into_iter().filter_map(|body| Some((body.name(), scene.measured(0, body)?.words())))
 }
 
 fn law(scene: &Scene) -> String {

@@ -411,8 +411,19 @@ fn missing_features_are_called_not_supported() {
         let said = said(&with_impact().replacen("[target]", &format!("[target]\n{key} = 0.3"), 1));
         assert!(said.contains("a table [friction] with a `coefficient`"), "{said}");
     }
-    let said = said(&with_impact().replacen("[target]", "[target]\nhardness = 200", 1));
-    assert!(said.contains("yield_strength") && said.contains("brinell hardness"), "{said}");
+    for (key, hint) in [
+        ("HB = 200", "hardness = \"200 HBW 10/3000\""),
+        ("vickers_hardness = 640", "\"640 HV10\""),
+        ("hrc = 58", "\"58 HRC\""),
+        ("Rm = 655", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
+        ("thickness = 0.01", "[target] has a plate_thickness, for a plate that gives way"),
+        ("drop_height = 0.3", "[impact] has a drop_height"),
+    ] {
+        let said = said(&with_impact().replacen("[target]", &format!("[target]\n{key}"), 1)).replace("\n  ", " ");
+        assert!(said.contains(hint), "nothing of {hint} in {said}");
+    }
+    let said = said(&with_impact().replacen("speed =", "velocity =", 1));
+    assert!(said.contains("it is called speed, in [impact]"), "{said}");
 }
 
 /// A ball of known density needs no mass; an explicit number overrides that of the material.
@@ -471,4 +482,109 @@ fn a_law_that_is_named_alone_is_the_same_in_a_scene_and_in_a_prediction() {
     write("own.toml", "loading = \"brinell\"");
     let own = run(folder.path(), ["predict", "own.toml", "--json"]).with_status(0).json();
     assert_eq!(own["laws"][0]["law"], "brinell/brinell");
+}
+
+#[test]
+fn a_hardness_that_says_no_strength_is_told_with_what_is_allowed() {
+    for (from, to, hint) in [
+        (
+            "yield_strength = 300e6",
+            "hardness = 200",
+            "scene.toml:7:12: target.hardness = 200: write the number with its scale, such",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"hard\"",
+            "target.hardness = \"hard\": a hardness is a number with its scale",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"200 HK\"",
+            "target.hardness = \"200 HK\": a hardness is a number with its",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"58,5 HRC\"",
+            "target.hardness = \"58,5 HRC\": this is a decimal comma; write 58.5",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"15 HRC\"",
+            "15 HRC is out of range: allowed is 20 to 68; softer steel takes HRB",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"105 HRB\"",
+            "105 HRB is out of range: allowed is 55 to 100; harder steel takes HRC",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"700 HBW 10/3000\"",
+            "700 HBW is out of range: allowed is 3 to 650; harder metals take",
+        ),
+        ("yield_strength = 300e6", "hardness = \"90 HBW\"", "give ball and load, as in \"95 HBW 10/500\""),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"200 HBW 10\"",
+            "`10` is not the ball's diameter in mm and the load in kgf",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"200 HBW 10/100\"",
+            "the dent's diameter would be 0.07972 of the ball's: 0.15 to 0.6",
+        ),
+        ("yield_strength = 300e6", "hardness = \"700 HL\"", "a rebound hardness has the letter of its device"),
+        ("yield_strength = 300e6", "hardness = \"5e-3 HV\"", "a hardness is a number with its scale"),
+        ("yield_strength = 300e6", "hardness = \"3000 HV\"", "3000 HV is out of range: allowed is 5 to 1000"),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"200 HV\"\nyield_strength = 3e8",
+            "target.hardness and target.yield_strength say the same: give one of them",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"200 HV\"\ntensile_strength = \"650 MPa\"",
+            "target.hardness and target.tensile_strength say the same",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardening_exponent = 0.2\nyield_strength = 3e8",
+            "target.hardening_exponent belongs to target.hardness or target.tensile_strength",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"200 HV\"\nhardening_exponent = 2",
+            "target.hardening_exponent = 2 is out of range: allowed is 0 to 0.6",
+        ),
+        ("206e9", "117e9\nhardness = \"90 HV\"\n#", "with a Young's modulus of 117 GPa give hardening_exponent"),
+        ("206e9", "117e9\nhardness = \"80 HRB\"\n#", "HRB is converted by a table for steel that isn't austenitic"),
+        (
+            "youngs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 300e6",
+            "material = \"stainless steel 304\"\nhardness = \"85 HRB\"",
+            "and this is austenitic steel: give HBW with ball and load, HV",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"700 HLD\"\nrate = { model = \"johnson-cook\", c = 0.01 }",
+            "target.rate has no place beside 700 HLD: the test was an impact",
+        ),
+        (
+            "yield_strength = 300e6",
+            "hardness = \"200 HV\"\nrate = { model = \"johnson-cook\", c = 0.01, reference_rate = 1.0 }",
+            "target.rate.reference_rate = 1: the strength from 200 HV is that of a test at about 0.001 1/s, so leave it out",
+        ),
+        (
+            "5e-3",
+            "5e-3\nhardness = \"58 HRC\"",
+            "impactor.hardness needs impactor.youngs_modulus and impactor.poissons_ratio",
+        ),
+        ("speed = 1.0", "speed = 1.0\ndrop_height = 0.3", "impact.speed and impact.drop_height determine each other"),
+        ("speed = 1.0", "drop_height = 0", "impact.drop_height = 0 must be positive"),
+        ("speed = 1.0", "", "missing field `speed` in [impact], or `drop_height`"),
+    ] {
+        let text = with_impact().replacen(from, to, 1);
+        let text = if to.ends_with('#') { text.replacen("yield_strength = 300e6\n", "", 1) } else { text };
+        let said = said(&text).replace("\n  ", " ");
+        assert!(said.contains(hint) && said.lines().count() == 1, "nothing of {hint} in {said}");
+    }
 }

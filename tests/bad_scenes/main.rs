@@ -55,8 +55,8 @@ fn an_unknown_key_is_refused_in_each_table() {
     refused("[impactor]", "[impactor]\n§mass = 1", &["`mass`", "[impact] has a mass", "`material`", "`radius`"]);
     refused(
         "[target]",
-        "[target]\n§hardness = 1",
-        &["`hardness`", "`brinell hardness", "`material`", "`density`", "`surface`"],
+        "[target]\n§HRC = 58",
+        &["`HRC`", "hardness = \"200 HBW 10/3000\"", "\"58 HRC\"", "`material`", "`density`", "`surface`"],
     );
     refused_with("[law]\n§laoding = \"hertz\"", &["`laoding`", "`loading`", "`unloading`", "`passivity_guard`"]);
     refused_with("[fmu]\n§inputs = []", &["`inputs`", "`outputs`", "`parameters`", "`initial_gap`"]);

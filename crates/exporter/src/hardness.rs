@@ -4,9 +4,11 @@
 //! Vereines deutscher Ingenieure* 52 (1908); D. Tabor, *The Hardness of Metals*, Oxford 1951.
 
 use crate::laws::Choice;
+use crate::measured::MeasuredStrength;
 use crate::model::AnyModel;
 use crate::numbers::in_message;
 use brinell_contact::loading::AnyLoading;
+use brinell_contact::rate::TABOR;
 use brinell_contact::regime::LARGEST_INDENTATION;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
@@ -113,14 +115,23 @@ fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option
     Some(f64::from_bits(high))
 }
 
-/// The test with the laws of `choice`.
+/// The test with the laws of `choice`. A target whose strength was `measured` has that of the strain of this test.
 ///
 /// # Errors
 /// A sentence with the reason why there is no result.
-pub fn run_test(choice: &Choice, load: f64, ball: f64) -> Result<Dent, String> {
-    let model = elastoplastic(choice)?;
-    test(&model, load, ball)
-        .ok_or_else(|| format!("the law {} can't be evaluated for load = {} N", choice.laws, in_message(load)))
+pub fn run_test(choice: &Choice, load: f64, ball: f64, measured: Option<&MeasuredStrength>) -> Result<Dent, String> {
+    let mut model = elastoplastic(choice)?;
+    let none = || format!("the law {} can't be evaluated for load = {} N", choice.laws, in_message(load));
+    let mut dent = test(&model, load, ball).ok_or_else(none)?;
+    let Some(measured) = measured else { return Ok(dent) };
+    // the strength hardly depends on the strain: each round wins a digit
+    for _ in 0..30 {
+        let strength = measured.at(TABOR * dent.radius_ratio);
+        let other = AnyModel::Elastoplastic(model).with_yield_strength(strength).ok_or_else(none)?;
+        model = *other.elastoplastic().ok_or_else(none)?;
+        dent = test(&model, load, ball).ok_or_else(none)?;
+    }
+    Ok(dent)
 }
 
 fn elastoplastic(choice: &Choice) -> Result<Model<AnyLoading, AnyUnloading>, String> {

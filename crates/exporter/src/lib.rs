@@ -7,6 +7,7 @@
 //! | [`model`], [`parameters`], [`pairing`], [`law_check`], [`law_text`], [`validity`] | laws by name: their constants, which go together, where they hold |
 //! | [`scene`] | a checked scene |
 //! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
+//! | [`measured`] | the flow stress that a hardness or a tensile strength says |
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
 //! | [`constants`], [`model_description`], [`documentation`] | these files |
@@ -52,6 +53,7 @@ pub mod law_check;
 pub mod law_text;
 pub mod laws;
 pub mod layout;
+pub mod measured;
 pub mod mistake;
 pub mod model;
 pub mod model_description;

@@ -30,6 +30,14 @@ pub fn check_energy(impact: &Impact) -> Result<(), NoEnergy> {
     if impact.energy() < f64::MIN_POSITIVE { Err(NoEnergy(*impact)) } else { Ok(()) }
 }
 
+/// Standard gravity \[m/s^2\].
+pub const GRAVITY: f64 = 9.80665;
+
+/// The speed \[m/s\] after a fall from `height` \[m\].
+pub fn speed_of_height(height: f64) -> f64 {
+    (2.0 * GRAVITY * height).sqrt()
+}
+
 /// Bodies and laws of either kind.
 #[derive(Clone, Copy, Debug)]
 pub enum AnyModel {

@@ -192,6 +192,18 @@ pub struct DisplayUnit {
     pub factor: f64,
 }
 
+/// What a metal is, as far as a reading depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Class {
+    /// Steel with a ferritic, pearlitic or martensitic structure, for which conversions between hardness scales are made.
+    Steel,
+    /// Austenitic steel.
+    Austenitic,
+    Aluminium,
+    Other,
+}
+
 /// A built-in material; see `modelDescription/materials.toml`.
 #[derive(Debug, Deserialize, serde::Serialize)]
 #[serde(deny_unknown_fields)]
@@ -199,6 +211,8 @@ pub struct Material {
     pub name: String,
     /// Its number in EN 10027-2 or DIN 17007 (Werkstoffnummer). A scene that has it instead of the name gets an error with the name.
     pub number: Option<String>,
+    /// What it is, if Young's modulus doesn't say it.
+    pub class: Option<Class>,
     /// Young's modulus \[Pa\].
     pub youngs_modulus: f64,
     pub poissons_ratio: f64,

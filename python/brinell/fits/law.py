@@ -62,6 +62,8 @@ class Law:
         losses = {"elastic_restitution"} & {*self._data.get("law", ())}
         self._is_lossy = bool(losses | ({"plate_thickness"} & {*self._data["target"]}))
         self._open()
+        if self._forget_readings():
+            self._open()
         self.body = self._softer(path, found.law)
         own: dict[str, Any] = self._data[self.body]
         self.is_power_law = "power_law" in own and "yield_strength" not in own
@@ -91,6 +93,17 @@ class Law:
         parameters = (one for one in library.variables.values() if one.causality == "parameter")
         self._starts = {one.name: float(one.start) for one in parameters}
         self._contact = Contact(library)
+
+    def _forget_readings(self) -> bool:
+        """Put the strength in the scene's impact in place of a hardness or a tensile strength, since a
+        strength is fitted; return whether there was one."""
+        readings = {"hardness", "tensile_strength", "hardening_exponent"}
+        with_one = [body for body in ("impactor", "target") if readings & {*self._data[body]}]
+        for body in with_one:
+            kept = {key: it for key, it in self._data[body].items() if key not in readings}
+            strength = self._starts.get(f"{body}.yield_strength")
+            self._data[body] = kept | ({} if strength is None else {"yield_strength": strength})
+        return bool(with_one)
 
     def _softer(self, path: str | Path, law: str) -> str:
         strengths = {

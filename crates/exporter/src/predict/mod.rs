@@ -8,6 +8,7 @@ pub mod time_history;
 
 use crate::laws::{self, Choice};
 use crate::layout;
+pub use crate::model::{GRAVITY, speed_of_height};
 use crate::model::{NoEnergy, check_energy};
 use crate::numbers::{in_message, out_of_range, quantity, significant};
 use crate::pairing;
@@ -20,9 +21,6 @@ use brinell_contact::Pair;
 use brinell_contact::Regime;
 use brinell_contact::impact::{Impact, Prediction};
 use std::error::Error;
-
-/// Standard gravity \[m/s^2\].
-pub const GRAVITY: f64 = 9.80665;
 
 /// An impact without a prediction.
 #[derive(Debug, thiserror::Error)]
@@ -76,11 +74,6 @@ pub fn positive(name: &'static str, value: f64) -> Result<f64, PredictError> {
 /// The speed \[m/s\] of a `mass` \[kg\] with this kinetic energy \[J\].
 pub fn speed_of_energy(mass: f64, energy: f64) -> f64 {
     (2.0 * energy / mass).sqrt()
-}
-
-/// The speed \[m/s\] after a fall from `height` \[m\].
-pub fn speed_of_height(height: f64) -> f64 {
-    (2.0 * GRAVITY * height).sqrt()
 }
 
 /// The prediction for `choice`.

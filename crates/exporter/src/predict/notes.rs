@@ -4,7 +4,7 @@ use crate::accuracy;
 use crate::laws::Choice;
 use crate::numbers::{cell, quantity};
 use crate::rods::Waves;
-use crate::scene::{Scene, bodies};
+use crate::scene::{Body, Scene, bodies};
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::{AnyLoading, Hertz};
 use brinell_contact::losses::{AnyLoss, Loss, Plate};
@@ -14,6 +14,10 @@ use brinell_contact::{Model, Surface};
 const ENDLESS: &str = "The surface keeps its dent (surface = \"dented\", the default). A ball that falls into its own dent again \
                        meets it elastically, and bounces to the same height for ever. With surface = \"fresh\" under [target] \
                        every impact meets an untouched spot.";
+
+/// Steel whose strength was measured slowly, in a scene that says nothing of the rate.
+const ASSUMED_RATE: &str = " The scene gives no rate; that of AISI 4340 is assumed, c = 0.014 from the 1e-3 1/s of the test. \
+                            rate = { model = \"johnson-cook\", c = ... } of the body gives another, c = 0 none.";
 
 /// Notes on these predictions of `impact` on the first contact of `scene`.
 pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Prediction]) -> Vec<String> {
@@ -92,13 +96,22 @@ fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
             restitution(2.0),
         ));
     }
+    notes.extend(Body::ALL.into_iter().filter_map(|body| {
+        let measured = scene.measured(0, body)?;
+        let softer = body == scene.softer(0);
+        let strain = if softer { found.strains.softer } else { found.strains.harder };
+        let at = quantity(measured.at(strain), "Pa");
+        let shifted = format!(" At the strain of this impact, Tabor's 0.2 a/R = {}, it is {at}.", cell(strain, 1.0));
+        Some(format!("{}: {}.{}", body.name(), measured.words(), if softer { &shifted } else { "" }))
+    }));
     if scene.rate(0).is_some() {
         notes.push(format!(
-            "At the mean strain rate of this impact, {} 1/s, the {} is {} times as strong as at rest: S = {}.",
+            "At the mean strain rate of this impact, {} 1/s, the {} is {} times as strong as at rest: S = {}.{}",
             cell(found.strain_rate, 1.0),
             scene.softer(0).name(),
             cell(found.factor, 1.0),
             quantity(found.yield_strength, "Pa"),
+            if scene.assumes_rate(0) { ASSUMED_RATE } else { "" },
         ));
     }
     notes

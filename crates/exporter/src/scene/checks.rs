@@ -11,7 +11,7 @@ use super::losses::{self, Loss};
 use super::names::check_name;
 use super::shared_bodies;
 use crate::mistake::{Mistake, check_limits, positive};
-use crate::model::check_energy;
+use crate::model::{check_energy, speed_of_height};
 use crate::numbers::in_message;
 use crate::table::VARIABLES;
 use brinell_contact::damped::Damped;
@@ -101,8 +101,8 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         loss,
         passivity_guard,
         yield_strength,
-        power_laws: contacts.power_laws,
         rates: contacts.rates(),
+        flows: contacts.flows.clone(),
         quasi_static: Vec::new(),
         factors,
         coupling,
@@ -204,8 +204,19 @@ fn check_impact(
         let mass = mass.unwrap_or_else(|| solid(number(Body::Impactor.density()).unwrap_or(STEEL)));
         return Ok(Impact { mass, speed: 1.0 });
     };
-    let ImpactTable { mass, speed, .. } = table.get_ref();
-    let speed = positive("impact.speed", speed)?;
+    let ImpactTable { mass, speed, drop_height, .. } = table.get_ref();
+    let speed = match (speed, drop_height) {
+        (Some(speed), None) => positive("impact.speed", speed)?,
+        (None, Some(height)) => speed_of_height(positive("impact.drop_height", height)?),
+        (None, None) => {
+            let message = "missing field `speed` in [impact], or `drop_height`";
+            return Err(Mistake(table.span(), message.into()));
+        }
+        (Some(_), Some(height)) => {
+            let message = "impact.speed and impact.drop_height determine each other: give one of them";
+            return Err(Mistake(height.span(), message.into()));
+        }
+    };
     let Some(given) = mass else {
         let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(Body::Impactor.density()).map(solid)).ok_or_else(|| {
             let message = "missing field `mass` in [impact]: give it, or the density or material of [impactor], which is then \

@@ -3,7 +3,7 @@
 use super::bodies::{Body, Both};
 use super::file::{BodyTable, ContactTable, Impactor, SceneFile};
 use super::names::check_identifier;
-use super::strength::{self, PowerLaw, Rate};
+use super::strength::{self, Elastic, Flow, Rate};
 use crate::layout::shortened;
 use crate::mistake::{Mistake, check_limits, check_range};
 use crate::nearest::unknown;
@@ -187,11 +187,18 @@ fn numbers_of(
     };
     let youngs_modulus = or(table.youngs_modulus.clone(), |material| material.youngs_modulus);
     let modulus = youngs_modulus.as_ref().or_else(|| shared?.get(body.youngs_modulus()));
-    let [yield_strength, hardening_modulus] = table.flow(body, modulus)?;
+    let poissons_ratio = or(table.poissons_ratio.clone(), |material| material.poissons_ratio);
+    let ratio = poissons_ratio.as_ref().or_else(|| shared?.get(body.poissons_ratio()));
+    let elastic = Elastic {
+        youngs_modulus: modulus,
+        poissons_ratio: ratio,
+        class: material.and_then(|(material, _)| material.class),
+    };
+    let [yield_strength, hardening_modulus] = table.flow(body, &elastic)?;
     let values = [
         table.radius.clone(),
         youngs_modulus,
-        or(table.poissons_ratio.clone(), |material| material.poissons_ratio),
+        poissons_ratio,
         or(yield_strength, |material| material.yield_strength),
         hardening_modulus,
         or(table.density.clone(), |material| material.density),
@@ -200,6 +207,16 @@ fn numbers_of(
     ];
     let mut values = values.into_iter();
     Ok(body.properties().map(|name| (name, values.next().flatten())))
+}
+
+/// What a reading of a `body` of all contacts needs to know, by its `table` and the `shared` numbers.
+fn elastic_of<'a>(body: Body, table: &BodyTable, shared: &'a Numbers) -> Result<Elastic<'a>, Mistake> {
+    let material = table.material.as_ref().map(find_material).transpose()?;
+    Ok(Elastic {
+        youngs_modulus: shared.get(body.youngs_modulus()),
+        poissons_ratio: shared.get(body.poissons_ratio()),
+        class: material.and_then(|material| material.class),
+    })
 }
 
 fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
@@ -275,6 +292,9 @@ fn contacts_of(file: &SceneFile, surface: Surface, shared: &Numbers) -> Result<V
 fn check_own(name: &str, body: Body, table: &BodyTable) -> Result<(), Mistake> {
     let keys = [
         ("power_law", table.power_law.as_ref().map(Spanned::span)),
+        ("hardness", table.hardness.as_ref().map(Spanned::span)),
+        ("tensile_strength", table.tensile_strength.as_ref().map(Spanned::span)),
+        ("hardening_exponent", table.hardening_exponent.as_ref().map(Spanned::span)),
         ("rate", table.rate.as_ref().map(Spanned::span)),
         ("plate_thickness", table.plate_thickness.as_ref().map(Spanned::span)),
     ];
@@ -307,8 +327,8 @@ fn check_count(count: &Spanned<i64>) -> Result<i64, Mistake> {
 /// The contacts of a scene.
 pub struct Contacts {
     shared: Numbers,
-    /// The hardening of all bodies by a power law.
-    pub power_laws: Both<Option<PowerLaw>>,
+    /// The hardening of all bodies that depends on the strain of the impact.
+    pub flows: Both<Option<Flow>>,
     /// The strain-rate dependence of the strength of all bodies.
     rates: Both<Option<Spanned<Rate>>>,
     all: Vec<Contact>,
@@ -329,11 +349,15 @@ impl Contacts {
         shared.check("")?;
         let surface = bodies.target.surface.map_or(Surface::Dented, Surface::from);
         let all = contacts_of(file, surface, &shared)?;
-        let power_law = |body| bodies.of(body).power_law.as_ref().map(|table| strength::check_power_law(body, table));
-        let power_laws = Both::try_each(|body| power_law(body).transpose())?;
-        let rate = |body| bodies.of(body).rate.as_ref().map(|table| strength::check_rate(body, table));
-        let rates = Both::try_each(|body| rate(body).transpose())?;
-        let mut contacts = Contacts { shared, power_laws, rates, all };
+        let share_bodies =
+            file.body.is_some() || file.coupling.as_ref().is_some_and(|table| table.get_ref().inverse_masses.is_some());
+        let flow = |body| {
+            strength::flow_and_rate(body, bodies.of(body), &elastic_of(body, bodies.of(body), &shared)?, share_bodies)
+        };
+        let Both { impactor, target } = Both::try_each(flow)?;
+        let flows = Both { impactor: impactor.0, target: target.0 };
+        let rates = Both { impactor: impactor.1, target: target.1 };
+        let mut contacts = Contacts { shared, flows, rates, all };
         for index in 0..contacts.all.len() {
             match contacts.all[index].name {
                 Some(_) => contacts.check_complete(index)?,
@@ -434,6 +458,7 @@ impl Contacts {
         for numbers in self.all.iter_mut().map(|contact| &mut contact.own).chain([&mut self.shared]) {
             numbers.values.retain(|(name, _)| Body::ALL.iter().all(|body| body.yield_strength() != *name));
         }
+        self.flows = Both::default();
     }
 
     /// The first contact with its own number `name`.

@@ -43,6 +43,9 @@ pub struct BodyTable {
     pub hardening_modulus: Option<Spanned<f64>>,
     pub tangent_modulus: Option<Spanned<f64>>,
     pub power_law: Option<Spanned<PowerLawTable>>,
+    pub hardness: Option<Spanned<toml::Value>>,
+    pub tensile_strength: Option<Spanned<f64>>,
+    pub hardening_exponent: Option<Spanned<f64>>,
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
     pub length: Option<Spanned<f64>>,
@@ -64,6 +67,9 @@ struct ImpactorKeys {
     pub hardening_modulus: Option<Spanned<f64>>,
     pub tangent_modulus: Option<Spanned<f64>>,
     pub power_law: Option<Spanned<PowerLawTable>>,
+    pub hardness: Option<Spanned<toml::Value>>,
+    pub tensile_strength: Option<Spanned<f64>>,
+    pub hardening_exponent: Option<Spanned<f64>>,
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
     pub length: Option<Spanned<f64>>,
@@ -198,7 +204,8 @@ pub enum MasterName {
 pub struct ImpactTable {
     /// Without a mass, that of a solid ball or of the rod is used if the impactor has a density.
     pub mass: Option<Spanned<f64>>,
-    pub speed: Spanned<f64>,
+    pub speed: Option<Spanned<f64>>,
+    pub drop_height: Option<Spanned<f64>>,
     pub watch: Option<bool>,
 }
 
@@ -293,12 +300,12 @@ fn unit_of(table: &str, key: &str) -> Option<&'static str> {
     match (table, key) {
         // a law has its own constants
         ("loading_parameters" | "unloading_parameters", _) => None,
-        ("power_law", "coefficient") | (_, "tangent_modulus") => Some("Pa"),
+        ("power_law", "coefficient") | (_, "tangent_modulus" | "tensile_strength") => Some("Pa"),
         ("rate", "d" | "reference_rate") => Some("1/s"),
         (_, "density") => Some("kg/m^3"),
         (_, "mass") => Some("kg"),
         (_, "speed") => Some("m/s"),
-        (_, "length" | "arms") => Some("m"),
+        (_, "length" | "drop_height" | "arms") => Some("m"),
         (_, "area") => Some("m^2"),
         (_, "inertia") => Some("kg.m^2"),
         _ => {

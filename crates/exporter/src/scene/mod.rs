@@ -35,7 +35,7 @@ pub use bodies::{Body, Both};
 pub use contacts::{Group, Parameter};
 pub use inverse_masses::{InverseMasses, place};
 pub use losses::Loss;
-pub use strength::{InImpact, PowerLaw, Rate};
+pub use strength::{Flow, InImpact, PowerLaw, Rate};
 
 /// Whether an FMU can have this `name`: a C identifier that every operating system accepts as a file name.
 ///
@@ -78,8 +78,8 @@ pub struct Scene {
     pub passivity_guard: bool,
     /// Yield strength of the softer body of the first contact \[Pa\], if it has one, whether or not the scene's law needs it.
     pub yield_strength: Option<f64>,
-    /// Hardening by a power law, for which the yield strength and the hardening modulus stand.
-    pub power_laws: Both<Option<PowerLaw>>,
+    /// Hardening that depends on the strain of the impact, for which the yield strength and the hardening modulus stand.
+    pub flows: Both<Option<Flow>>,
     /// How the strengths grow with the strain rate.
     pub rates: Both<Option<Rate>>,
     /// The hardening that the scene gives for the bodies of each group; a power law or a rate puts another in its place.

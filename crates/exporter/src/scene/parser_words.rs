@@ -13,7 +13,7 @@ const UNSUPPORTED: [(&[&str], &str); 7] = [
         "the impact of a scene is along the normal; with [friction] the importer moves the bodies along the surface, too",
     ),
     (&["tangential_stiffness", "rolling_friction", "rolling_resistance"], "[friction] has a coefficient only"),
-    (&["coating", "layer", "film", "thickness"], "bodies are of one material each, and thick"),
+    (&["coating", "layer", "film"], "bodies are of one material each, and thick"),
     (&["cylinder", "shape", "geometry", "cone", "plane", "mesh"], "the bodies are spheres, sockets and flat surfaces"),
     (&["adhesion", "cohesion", "surface_energy", "work_of_adhesion", "stickiness"], "surfaces don't stick"),
     (&["roughness", "asperities"], "surfaces are smooth"),
@@ -21,10 +21,36 @@ const UNSUPPORTED: [(&[&str], &str); 7] = [
 ];
 
 /// Keys that belong to another table.
-const ELSEWHERE: [(&str, &str); 10] = [
+const ELSEWHERE: [(&str, &str); 36] = [
     ("mass", "[impact] has a mass, the bodies have none"),
     ("speed", "[impact] has a speed"),
-    ("hardness", "give yield_strength; `brinell hardness SCENE --brinell HBW` finds it from a Brinell hardness"),
+    ("hb", HARDNESS),
+    ("hbw", HARDNESS),
+    ("hv", HARDNESS),
+    ("hv10", HARDNESS),
+    ("hv30", HARDNESS),
+    ("hrc", HARDNESS),
+    ("hrb", HARDNESS),
+    ("hld", HARDNESS),
+    ("brinell_hardness", HARDNESS),
+    ("vickers_hardness", HARDNESS),
+    ("rockwell_hardness", HARDNESS),
+    ("leeb_hardness", HARDNESS),
+    ("hardness", HARDNESS),
+    ("rm", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
+    ("uts", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
+    ("ultimate_strength", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
+    ("rp02", "it is called yield_strength"),
+    ("re", "it is called yield_strength"),
+    ("sigma_y", "it is called yield_strength"),
+    ("velocity", "it is called speed, in [impact]"),
+    ("v", "it is called speed, in [impact]"),
+    ("drop_height", "[impact] has a drop_height"),
+    ("height", "[impact] has a drop_height"),
+    ("thickness", "[target] has a plate_thickness, for a plate that gives way"),
+    ("e", "it is called youngs_modulus"),
+    ("nu", "it is called poissons_ratio"),
+    ("rho", "it is called density"),
     ("strain_rate", "give rate = { model = \"johnson-cook\", c = ..., reference_rate = ... } of the body"),
     ("diameter", "give the radius"),
     ("elasticity", "give youngs_modulus"),
@@ -33,6 +59,9 @@ const ELSEWHERE: [(&str, &str); 10] = [
     ("friction_coefficient", FRICTION),
     ("mu", FRICTION),
 ];
+
+/// How a hardness is given.
+const HARDNESS: &str = "a body has hardness = \"200 HBW 10/3000\", \"640 HV10\", \"58 HRC\", \"90 HRB\" or \"700 HLD\"";
 
 /// Where friction is given.
 const FRICTION: &str = "a table [friction] with a `coefficient` gives it for all contacts";

@@ -95,7 +95,8 @@ pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
         doubts.extend(mass.and_then(|mass| MASS.doubt(&format!("{owner}effective_mass"), mass)));
     }
     let impact = file.impact.as_ref().map(Spanned::get_ref);
-    doubts.extend(impact.and_then(|impact| SPEED.doubt("impact.speed", &impact.speed)));
+    doubts.extend(impact.and_then(|impact| SPEED.doubt("impact.speed", impact.speed.as_ref()?)));
+    doubts.extend(impact.and_then(|impact| DROP_HEIGHT.doubt("impact.drop_height", impact.drop_height.as_ref()?)));
     doubts.extend(impact.and_then(|impact| MASS.doubt("impact.mass", impact.mass.as_ref()?)));
     let coupling = file.coupling.as_ref().map(Spanned::get_ref);
     let mass = coupling.and_then(|coupling| coupling.effective_mass.as_ref());

@@ -3,10 +3,12 @@
 use super::Scene;
 use super::bodies::{Body, Both};
 use super::file::{BodyTable, PowerLawTable, RateTable};
+use crate::layout::shortened;
 use crate::mistake::{Mistake, check_range};
 use crate::model::paired;
 use crate::nearest::unknown;
 use crate::numbers::in_message;
+use crate::table::Class;
 use brinell_contact::hardening::{Hardening, StraightLine, modulus_of_tangent};
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
@@ -14,12 +16,105 @@ use brinell_contact::rate::{self, FIRST_STRAIN, Factors, Strains};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Model, OtherBody, Pair, TwoBodies};
 use serde::Serialize;
+use std::ops::Range;
 use toml::Spanned;
 
+use crate::measured::{self, MeasuredStrength, Metal, STEEL_RATE, TEST_RATE};
 pub use brinell_contact::hardening::PowerLaw;
 pub use brinell_contact::rate::Rate;
 
+/// A hardening that stands in each impact for yield strength and hardening modulus, by its strain.
+#[derive(Clone, Debug)]
+pub enum Flow {
+    /// A power law, as a straight line up to the strain.
+    Line(PowerLaw),
+    /// The flow stress at the strain, without hardening.
+    Measured(MeasuredStrength),
+}
+
+impl Flow {
+    /// The straight line up to this `strain`, if it is one.
+    fn line(&self, strain: f64) -> Option<StraightLine> {
+        match self {
+            Flow::Line(law) => Some(law.up_to(strain)),
+            Flow::Measured(_) => None,
+        }
+    }
+
+    /// The hardening in an impact with this `strain`.
+    fn at(&self, strain: f64) -> Hardening {
+        match self {
+            Flow::Line(law) => law.up_to(strain).hardening(),
+            Flow::Measured(measured) => Hardening { yield_strength: measured.at(strain), hardening_modulus: 0.0 },
+        }
+    }
+}
+
+/// Young's modulus, Poisson's ratio and the class of a body, by which a reading is understood.
+pub struct Elastic<'a> {
+    pub youngs_modulus: Option<&'a Spanned<f64>>,
+    pub poissons_ratio: Option<&'a Spanned<f64>>,
+    pub class: Option<Class>,
+}
+
 impl BodyTable {
+    /// The place of its hardness or tensile strength, with the key.
+    fn reading(&self) -> Option<(&'static str, Range<usize>)> {
+        let hardness = self.hardness.as_ref().map(|hardness| ("hardness", hardness.span()));
+        hardness.or(self.tensile_strength.as_ref().map(|strength| ("tensile_strength", strength.span())))
+    }
+
+    /// The strength that its hardness or its tensile strength says, with its place.
+    pub fn measured(&self, body: Body, elastic: &Elastic) -> Result<Option<Spanned<MeasuredStrength>>, Mistake> {
+        let name = body.name();
+        let Some((key, span)) = self.reading() else {
+            let exponent = self.hardening_exponent.as_ref();
+            return exponent.map_or(Ok(None), |exponent| {
+                let message =
+                    format!("{name}.hardening_exponent belongs to {name}.hardness or {name}.tensile_strength");
+                Err(Mistake(exponent.span(), message))
+            });
+        };
+        let wrong = |why: String| Mistake(span.clone(), format!("{name}.{key}{why}"));
+        let others = self.strengths().into_iter().map(|(key, value)| (key, value.map(Spanned::span)));
+        let law = self.power_law.as_ref().map(Spanned::span);
+        let strength = self.tensile_strength.as_ref().filter(|_| key == "hardness").map(Spanned::span);
+        let mut others = others.chain([("power_law", law), ("tensile_strength", strength)]);
+        if let Some((other, _)) = others.find(|(_, span)| span.is_some()) {
+            return Err(wrong(format!(" and {name}.{other} say the same: give one of them")));
+        }
+        let (Some(modulus), Some(ratio)) = (elastic.youngs_modulus, elastic.poissons_ratio) else {
+            return Err(wrong(format!(" needs {name}.youngs_modulus and {name}.poissons_ratio, or a material")));
+        };
+        if let Some(exponent) = &self.hardening_exponent {
+            check_range(("hardening_exponent", ""), &format!("{name}."), exponent, 0.0..=0.6)?;
+        }
+        let metal = Metal {
+            youngs_modulus: *modulus.get_ref(),
+            poissons_ratio: *ratio.get_ref(),
+            class: elastic.class.unwrap_or(Class::of_modulus(*modulus.get_ref())),
+            exponent: self.hardening_exponent.as_ref().map(|exponent| *exponent.get_ref()),
+        };
+        let found = match (&self.hardness, &self.tensile_strength) {
+            (Some(hardness), _) => match hardness.get_ref() {
+                toml::Value::String(text) => measured::of_hardness(text, &metal)
+                    .map_err(|why| wrong(format!(" = \"{}\": {why}", shortened(text))))?,
+                other => {
+                    return Err(wrong(format!(
+                        " = {other}: write the number with its scale, such as {}",
+                        measured::SCALES
+                    )));
+                }
+            },
+            (None, Some(strength)) => {
+                check_range(("tensile_strength", "Pa"), &format!("{name}."), strength, 1e3..=1e11)?;
+                measured::of_tensile_strength(*strength.get_ref(), &metal).map_err(|why| wrong(format!(": {why}")))?
+            }
+            (None, None) => return Ok(None),
+        };
+        Ok(Some(Spanned::new(span, found)))
+    }
+
     fn strengths(&self) -> [(&'static str, Option<&Spanned<f64>>); 3] {
         [
             ("yield_strength", self.yield_strength.as_ref()),
@@ -30,16 +125,16 @@ impl BodyTable {
 
     /// Whether it says anything about the strength, beside a material.
     pub fn gives_strength(&self) -> bool {
-        self.strengths().iter().any(|(_, value)| value.is_some()) || self.power_law.is_some() || self.rate.is_some()
+        let given = self.strengths().iter().any(|(_, value)| value.is_some()) || self.reading().is_some();
+        given || self.power_law.is_some() || self.rate.is_some()
     }
 
-    /// Yield strength and hardening modulus \[Pa\] of this `body` with this Young's modulus. They are given by two numbers, by a
-    /// tangent modulus, or by a power law; the line to the first strain represents the power law until the impact is known.
-    pub fn flow(
-        &self,
-        body: Body,
-        youngs_modulus: Option<&Spanned<f64>>,
-    ) -> Result<[Option<Spanned<f64>>; 2], Mistake> {
+    /// Yield strength and hardening modulus \[Pa\] of this `body`. They are given by two numbers, by a tangent modulus, by a power law,
+    /// or by a reading; until the impact is known, what belongs to the first strain represents these two.
+    pub fn flow(&self, body: Body, elastic: &Elastic) -> Result<[Option<Spanned<f64>>; 2], Mistake> {
+        if let Some(measured) = self.measured(body, elastic)? {
+            return Ok([Some(Spanned::new(measured.span(), measured.get_ref().at(FIRST_STRAIN))), None]);
+        }
         if let Some(table) = &self.power_law {
             if let Some((key, value)) = self.strengths().iter().find_map(|(key, value)| Some((key, (*value)?))) {
                 let body = body.name();
@@ -54,7 +149,7 @@ impl BodyTable {
             );
         }
         let hardening_modulus = match &self.tangent_modulus {
-            Some(tangent) => Some(self.of_tangent(body, tangent, youngs_modulus)?),
+            Some(tangent) => Some(self.of_tangent(body, tangent, elastic.youngs_modulus)?),
             None => self.hardening_modulus.clone(),
         };
         Ok([self.yield_strength.clone(), hardening_modulus])
@@ -103,9 +198,30 @@ pub fn check_power_law(body: Body, table: &Spanned<PowerLawTable>) -> Result<Pow
 const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
 
 /// The rate model of a `body` of the scene.
-pub fn check_rate(body: Body, table: &Spanned<RateTable>) -> Result<Spanned<Rate>, Mistake> {
+pub fn check_rate(
+    body: Body,
+    table: &Spanned<RateTable>,
+    measured: Option<&MeasuredStrength>,
+) -> Result<Spanned<Rate>, Mistake> {
     let RateTable { model, c, reference_rate, d, q } = table.get_ref();
     let owner = format!("{}.rate", body.name());
+    if let Some(MeasuredStrength { given, .. }) = measured.filter(|measured| measured.has_rate) {
+        let message =
+            format!("{owner} has no place beside {given}: the test was an impact, whose rate is in the strength");
+        return Err(Mistake(table.span(), message));
+    }
+    let slow = Spanned::new(table.span(), TEST_RATE);
+    let reference_rate = &match (measured, reference_rate) {
+        (Some(_), None) if model.get_ref() == "johnson-cook" => Some(slow),
+        (Some(MeasuredStrength { given, .. }), Some(other)) if *other.get_ref() != TEST_RATE => {
+            let message = format!(
+                "{owner}.reference_rate = {}: the strength from {given} is that of a test at about {TEST_RATE} 1/s, so leave it out",
+                in_message(*other.get_ref())
+            );
+            return Err(Mistake(other.span(), message));
+        }
+        _ => reference_rate.clone(),
+    };
     let keys = [("c", c), ("reference_rate", reference_rate), ("d", d), ("q", q)];
     let own: &[&str] = match model.get_ref().as_str() {
         "johnson-cook" => &["c", "reference_rate"],
@@ -139,6 +255,26 @@ pub fn check_rate(body: Body, table: &Spanned<RateTable>) -> Result<Spanned<Rate
     Ok(Spanned::new(table.span(), rate))
 }
 
+/// The hardening and the strain rate of a `body` of all contacts. Steel whose strength was measured slowly has a rate dependence also
+/// if the scene gives none, unless contacts share bodies, which have no rate.
+pub fn flow_and_rate(
+    body: Body,
+    table: &BodyTable,
+    elastic: &Elastic,
+    share_bodies: bool,
+) -> Result<(Option<Flow>, Option<Spanned<Rate>>), Mistake> {
+    let measured = table.measured(body, elastic)?;
+    let rate = match (&table.rate, &measured) {
+        (Some(rate), _) => Some(check_rate(body, rate, measured.as_ref().map(Spanned::get_ref))?),
+        (None, Some(slow)) if slow.get_ref().is_slow_steel() && !share_bodies => {
+            Some(Spanned::new(slow.span(), STEEL_RATE))
+        }
+        _ => None,
+    };
+    let power_law = table.power_law.as_ref().map(|table| check_power_law(body, table)).transpose()?;
+    Ok((power_law.map(Flow::Line).or(measured.map(|measured| Flow::Measured(measured.into_inner()))), rate))
+}
+
 /// The strength of the softer body of a group in an impact.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct InImpact {
@@ -170,13 +306,31 @@ impl Scene {
 
     /// The power law by which the softer body of `group` hardens, if it has no strength of its own.
     pub fn power_law(&self, group: usize) -> Option<PowerLaw> {
-        self.power_law_of(group, self.softer(group))
+        match self.flow_of(group, self.softer(group))? {
+            Flow::Line(law) => Some(*law),
+            Flow::Measured(_) => None,
+        }
     }
 
-    /// The same for a `body`.
-    fn power_law_of(&self, group: usize, body: Body) -> Option<PowerLaw> {
+    /// The reading from which a `body` of `group` has its strength, if it has no strength of its own.
+    pub fn measured(&self, group: usize, body: Body) -> Option<&MeasuredStrength> {
+        match self.flow_of(group, body)? {
+            Flow::Line(_) => None,
+            Flow::Measured(measured) => Some(measured),
+        }
+    }
+
+    /// Whether the rate of the softer body of `group` is that which its class of metal has if the scene says nothing.
+    pub fn assumes_rate(&self, group: usize) -> bool {
+        let softer = self.softer(group);
+        self.measured(group, softer).is_some_and(MeasuredStrength::is_slow_steel)
+            && *self.rates.of(softer) == Some(STEEL_RATE)
+    }
+
+    /// The hardening of a `body` of `group` that depends on the strain of the impact.
+    fn flow_of(&self, group: usize, body: Body) -> Option<&Flow> {
         let own = self.contacts[group].own.iter().any(|own| own.name == body.yield_strength());
-        self.power_laws.of(body).filter(|_| !own)
+        self.flows.of(body).as_ref().filter(|_| !own)
     }
 
     /// The hardening that the scene gives for the softer body of `group`.
@@ -186,7 +340,7 @@ impl Scene {
 
     /// Whether the strength of a body depends on the impact.
     pub fn depends_on_impact(&self) -> bool {
-        Body::ALL.iter().any(|body| self.rates.of(*body).is_some() || self.power_laws.of(*body).is_some())
+        Body::ALL.iter().any(|body| self.rates.of(*body).is_some() || self.flows.of(*body).is_some())
     }
 
     /// The strength of the softer body of `group` in an `impact`. It is a fixed point, since depth and duration of the
@@ -202,7 +356,7 @@ impl Scene {
         let rates = [softer, softer.other()].map(|body| self.rates.of(body).as_ref());
         let found = rate::in_impact(rates, predict)?;
         let rate::InImpact { strains, factors, .. } = found;
-        let line = self.power_law(group).map(|law| law.up_to(strains.softer));
+        let line = self.flow_of(group, softer).and_then(|flow| flow.line(strains.softer));
         let Hardening { yield_strength, hardening_modulus } =
             self.flow_at(group, softer, strains.softer).times(factors.softer);
         let share = strains.softer / (strains.softer + strains.harder);
@@ -218,10 +372,9 @@ impl Scene {
         })
     }
 
-    /// The hardening of a `body` of `group` under a slow load: the line up to this `strain` for a power law, or what the scene gives.
+    /// The hardening of a `body` of `group` under a slow load: what belongs to this `strain`, or what the scene gives.
     fn flow_at(&self, group: usize, body: Body, strain: f64) -> Hardening {
-        let line = self.power_law_of(group, body).map(|law| law.up_to(strain).hardening());
-        line.unwrap_or(*self.quasi_static[group].of(body))
+        self.flow_of(group, body).map_or(*self.quasi_static[group].of(body), |flow| flow.at(strain))
     }
 
     /// The contacts of `group` with the hardening of their bodies for these strains, and these factors on it.
@@ -264,7 +417,7 @@ impl Scene {
         }
         let slow = |group: usize| {
             let found = self.in_impact(group, &self.impact_of(group))?;
-            let hardening = found.line.map_or(self.quasi_static(group), |line| line.hardening());
+            let hardening = self.flow_at(group, self.softer(group), found.strains.softer);
             let Hardening { yield_strength, hardening_modulus } = hardening;
             let factors = Factors::SLOW;
             Some(InImpact { yield_strength, hardening_modulus, factor: 1.0, factors, strain_rate: 0.0, ..found })
