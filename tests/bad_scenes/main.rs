@@ -164,11 +164,54 @@ fn a_character_that_xml_cannot_have_is_refused_by_its_key() {
 
 #[test]
 fn a_material_number_finds_the_name_and_another_alloy_isnt_suggested() {
-    for (asked, said) in
-        [("Steel 1.4301", "its name here is `stainless steel 304`"), ("3.7165", "`titanium Ti-6Al-4V`")]
-    {
+    for (asked, said) in [
+        ("Steel 1.4301", "its name here is `stainless steel 304`"),
+        (
+            "1.3505",
+            "several conditions, whose strengths differ: say which, `bearing steel 52100, hardened` or `bearing",
+        ),
+        ("AISI 4340", "say which, `steel AISI 4340, 30 HRC` or `steel AISI 4340, tempered at 205 C`"),
+        ("steel 1.2379", "unknown material `steel 1.2379`, expected"),
+    ] {
         refused("[target]\n", &format!("[target]\nmaterial = §\"{asked}\"\n"), &[asked, said]);
     }
+    refused_with(
+        "[[contact]]\nname = \"left\"\ntarget = { material = §\"316L\" }",
+        &["contact `left`: the strength of `316L` depends on the impact, and belongs to [target]"],
+    );
+}
+
+/// Each name and each alias of one material is that material.
+#[test]
+fn a_material_has_other_names_and_warns_where_it_is_no_metal() {
+    let folder = empty_folder();
+    let predicted = |material: &str| {
+        let text = SCENE.replace(
+            "youngs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 300e6",
+            &format!("material = \"{material}\""),
+        );
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0)
+    };
+    let listed = run(folder.path(), ["materials", "--json"]).with_status(0).json();
+    let listed = listed.as_array().unwrap();
+    let texts = |value: &serde_json::Value| {
+        value.as_array().unwrap().iter().map(|text| text.as_str().unwrap().to_string()).collect::<Vec<_>>()
+    };
+    let all: Vec<String> = listed.iter().flat_map(|material| texts(&material["aliases"])).collect();
+    for material in listed {
+        let name = material["name"].as_str().unwrap();
+        let by_name = predicted(name);
+        let warning = material["warning"].as_str();
+        assert_eq!(by_name.err.is_empty(), warning.is_none(), "{name}: {}", by_name.err);
+        for alias in
+            texts(&material["aliases"]).iter().filter(|alias| all.iter().filter(|other| other == alias).count() == 1)
+        {
+            assert_eq!(predicted(alias).json()["laws"], by_name.json()["laws"], "{alias}");
+        }
+    }
+    let said = predicted("glass").err.replace("\n         ", " ");
+    assert!(said.contains("target.material = \"glass\": it is brittle and has no yield strength here"), "{said}");
 }
 
 #[test]

@@ -101,12 +101,22 @@ fn regimes() -> String {
 }
 
 fn materials() -> String {
-    let mut table = heading(&["material", "E [Pa]", "nu", "yield strength [Pa]", "density [kg/m^3]", "source"]);
+    let mut table = heading(&["material", "other names", "E [Pa]", "nu", "strength", "density [kg/m^3]", "source"]);
     for material in entries("materials.toml", "material") {
-        let number = |key: &str| short(number(&material, key).expect("a material is complete"));
-        let [modulus, ratio, strength, density] =
-            ["youngs_modulus", "poissons_ratio", "yield_strength", "density"].map(number);
-        table += &row(&[text(&material, "name"), &modulus, &ratio, &strength, &density, text(&material, "source")]);
+        let number = |key: &str| number(&material, key).map(short);
+        let [modulus, ratio, density] =
+            ["youngs_modulus", "poissons_ratio", "density"].map(|key| number(key).expect("a material is complete"));
+        let tension = material.get("tension").map(|law| {
+            let of = |key: &str| short(law[key].as_float().expect("a number"));
+            format!("{} eps^{} Pa", of("coefficient"), of("exponent"))
+        });
+        let hardness = material.get("hardness").and_then(|text| text.as_str()).map(String::from);
+        let strength = number("yield_strength").map(|strength| format!("{strength} Pa")).or(tension).or(hardness);
+        let aliases = material.get("aliases").and_then(|list| list.as_array()).into_iter().flatten();
+        let aliases = aliases.filter_map(|alias| alias.as_str()).collect::<Vec<_>>().join(", ");
+        let source = text(&material, "source");
+        let strength = strength.unwrap_or_else(|| "none: elastic".into());
+        table += &row(&[text(&material, "name"), &aliases, &modulus, &ratio, &strength, &density, source]);
     }
     table
 }

@@ -6,7 +6,7 @@
 use crate::model::{AnyModel, paired};
 use crate::numbers::{cell, in_message, quantity};
 use crate::pairing::{published, unloading_of};
-use crate::table::Class;
+use crate::table::{Class, Material, Tension};
 use crate::units;
 use brinell_contact::impact::Impact;
 use brinell_contact::rate::{self, Rate, TABOR};
@@ -305,6 +305,21 @@ pub fn of_tensile_strength(strength: f64, metal: &Metal) -> Result<MeasuredStren
     measured(&given, point, (uncertainty, "1.05 times the tensile strength"), false, (vickers, metal))
 }
 
+/// The strength of a built-in `material` that isn't a number alone, as that of a `metal`; `None` if it has a yield strength, or stays
+/// elastic.
+pub fn of_material(material: &Material, metal: &Metal) -> Option<MeasuredStrength> {
+    let name = &material.name;
+    let metal = Metal { exponent: material.hardening_exponent, ..*metal };
+    if let Some(Tension { coefficient, exponent }) = material.tension {
+        let metal = Metal { exponent: Some(exponent), ..metal };
+        let point = (coefficient * libm::pow(VICKERS_STRAIN, exponent), VICKERS_STRAIN);
+        let way = (0.1, "yield and tensile strength of handbooks");
+        return measured(name, point, way, false, (0.0, &metal)).ok();
+    }
+    let found = of_hardness(material.hardness.as_ref()?, &metal).ok()?;
+    Some(MeasuredStrength { given: format!("{name}, {},", found.given), ..found })
+}
+
 /// The strength with the hardening exponent of the metal, or of its class.
 fn measured(
     given: &str,
@@ -474,6 +489,7 @@ fn by_rebound(number: f64, metal: &Metal) -> Result<(f64, f64), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::MATERIALS;
 
     const STEEL: Metal = Metal { youngs_modulus: 210e9, poissons_ratio: 0.3, class: Class::Steel, exponent: None };
     const ALUMINIUM: Metal =
@@ -549,6 +565,41 @@ mod tests {
         for (vickers, strength) in tension.into_iter().chain(hard) {
             agree(&of(&format!("{vickers} HV"), &STEEL), &of_tensile_strength(1e6 * strength, &STEEL).unwrap());
         }
+    }
+
+    #[test]
+    fn every_material_with_a_strength_has_one_at_the_strain_of_an_impact() {
+        let mut count = 0;
+        for material in MATERIALS.iter() {
+            let Material { youngs_modulus, poissons_ratio, class, .. } = *material;
+            let class = class.unwrap_or(Class::of_modulus(youngs_modulus));
+            let found = of_material(material, &Metal { youngs_modulus, poissons_ratio, class, exponent: None });
+            let given = [material.yield_strength.is_some(), material.tension.is_some(), material.hardness.is_some()];
+            let ways = given.into_iter().filter(|given| *given).count();
+            assert!(ways == 1 || (ways == 0 && material.warning.is_some()), "{}", material.name);
+            assert_eq!(found.is_some(), material.yield_strength.is_none() && ways == 1, "{}", material.name);
+            let strength = found.map(|found| found.at(0.02)).or(material.yield_strength).unwrap_or(1e9);
+            assert!((5e6..3.5e9).contains(&strength), "{}: {strength}", material.name);
+            count += 1;
+        }
+        assert!(count > 30, "{count}");
+    }
+
+    /// `n` solves `ln(Rp/Rm) = n (1 + ln((0.002 + Rp/E)/n))`, and `K = Rm (e/n)^n`: yield and tensile strength are those of the source.
+    #[test]
+    fn the_tension_of_a_material_goes_through_its_yield_and_its_tensile_strength() {
+        let mut count = 0;
+        for material in MATERIALS.iter() {
+            let Some(Tension { coefficient, exponent: n }) = material.tension else { continue };
+            let numbers = material.source.split(" MPa").filter_map(|part| part.rsplit(' ').next()?.parse::<f64>().ok());
+            let [yielding, tensile] = numbers.collect::<Vec<_>>()[..] else { panic!("{}", material.source) };
+            let ratio = n * (1.0 + ((0.002 + 1e6 * yielding / material.youngs_modulus) / n).ln());
+            assert!((ratio.exp() * tensile / yielding - 1.0).abs() < 5e-3, "{}: yield", material.name);
+            let found = 1e-6 * coefficient * (n / std::f64::consts::E).powf(n);
+            assert!((found / tensile - 1.0).abs() < 5e-3, "{}: {found}, not {tensile}", material.name);
+            count += 1;
+        }
+        assert_eq!(count, 18);
     }
 
     /// Materials with both: hardness and the power law through yield and tensile strength, its stress at 8 % [MPa].

@@ -209,18 +209,44 @@ pub enum Class {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     pub name: String,
-    /// Its number in EN 10027-2 or DIN 17007 (Werkstoffnummer). A scene that has it instead of the name gets an error with the name.
-    pub number: Option<String>,
+    /// Its other names, some of which belong to several conditions of an alloy.
+    #[serde(default)]
+    pub aliases: Vec<String>,
     /// What it is, if Young's modulus doesn't say it.
     pub class: Option<Class>,
     /// Young's modulus \[Pa\].
     pub youngs_modulus: f64,
     pub poissons_ratio: f64,
-    /// Yield strength \[Pa\].
-    pub yield_strength: f64,
+    /// Yield strength \[Pa\], if the material has one.
+    pub yield_strength: Option<f64>,
+    /// Flow stress through yield and tensile strength, from which its strength follows.
+    pub tension: Option<Tension>,
+    /// A hardness, from which its strength follows.
+    pub hardness: Option<String>,
+    /// `n` of the hardening that goes with the hardness, if it isn't that of the class.
+    pub hardening_exponent: Option<f64>,
     /// Density \[kg/m^3\].
     pub density: f64,
+    /// What to say wherever it is used.
+    pub warning: Option<String>,
     pub source: String,
+}
+
+impl Material {
+    /// Whether its strength is a flow stress at the strain of the impact.
+    pub fn depends_on_strain(&self) -> bool {
+        self.tension.is_some() || self.hardness.is_some()
+    }
+}
+
+/// The flow stress `K eps^n` of a tensile test.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tension {
+    /// `K` \[Pa\].
+    pub coefficient: f64,
+    /// `n` \[-\].
+    pub exponent: f64,
 }
 
 #[derive(Deserialize)]

@@ -95,15 +95,18 @@ class Law:
         self._contact = Contact(library)
 
     def _forget_readings(self) -> bool:
-        """Put the strength in the scene's impact in place of a hardness or a tensile strength, since a
-        strength is fitted; return whether there was one."""
+        """Put the strength of the scene in place of a hardness, a tensile strength or that of a material,
+        since a strength is fitted; return whether there was one."""
         readings = {"hardness", "tensile_strength", "hardening_exponent"}
-        with_one = [body for body in ("impactor", "target") if readings & {*self._data[body]}]
-        for body in with_one:
-            kept = {key: it for key, it in self._data[body].items() if key not in readings}
+        found = False
+        for body in ("impactor", "target"):
+            table = self._data[body]
             strength = self._starts.get(f"{body}.yield_strength")
-            self._data[body] = kept | ({} if strength is None else {"yield_strength": strength})
-        return bool(with_one)
+            if strength is not None and not {"yield_strength", "power_law"} & {*table}:
+                kept = {key: it for key, it in table.items() if key not in readings}
+                self._data[body] = kept | {"yield_strength": strength}
+                found = True
+        return found
 
     def _softer(self, path: str | Path, law: str) -> str:
         strengths = {

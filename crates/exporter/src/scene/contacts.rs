@@ -5,8 +5,9 @@ use super::file::{BodyTable, ContactTable, Impactor, SceneFile};
 use super::names::check_identifier;
 use super::strength::{self, Elastic, Flow, Rate};
 use crate::layout::shortened;
+use crate::measured::STEEL_RATE;
 use crate::mistake::{Mistake, check_limits, check_range};
-use crate::nearest::unknown;
+use crate::nearest::{one_of, unknown};
 use crate::numbers::in_message;
 use crate::rods::Rod;
 use crate::table::{self, MATERIALS, VARIABLES};
@@ -179,21 +180,21 @@ type NamedNumber = (&'static str, Option<Spanned<f64>>);
 fn numbers_of(
     body: Body,
     table: &BodyTable,
-    material: Option<&(&table::Material, Range<usize>)>,
+    material: Option<&(&'static table::Material, Range<usize>)>,
     shared: Option<&Numbers>,
 ) -> Result<[NamedNumber; 8], Mistake> {
-    let or = |given: Option<Spanned<f64>>, of_material: fn(&table::Material) -> f64| {
-        given.or_else(|| material.map(|(material, span)| Spanned::new(span.clone(), of_material(material))))
+    let or = |given: Option<Spanned<f64>>, of_material: fn(&table::Material) -> Option<f64>| {
+        given.or_else(|| {
+            let (material, span) = material?;
+            Some(Spanned::new(span.clone(), of_material(material)?))
+        })
     };
-    let youngs_modulus = or(table.youngs_modulus.clone(), |material| material.youngs_modulus);
+    let youngs_modulus = or(table.youngs_modulus.clone(), |material| Some(material.youngs_modulus));
     let modulus = youngs_modulus.as_ref().or_else(|| shared?.get(body.youngs_modulus()));
-    let poissons_ratio = or(table.poissons_ratio.clone(), |material| material.poissons_ratio);
+    let poissons_ratio = or(table.poissons_ratio.clone(), |material| Some(material.poissons_ratio));
     let ratio = poissons_ratio.as_ref().or_else(|| shared?.get(body.poissons_ratio()));
-    let elastic = Elastic {
-        youngs_modulus: modulus,
-        poissons_ratio: ratio,
-        class: material.and_then(|(material, _)| material.class),
-    };
+    let elastic =
+        Elastic { youngs_modulus: modulus, poissons_ratio: ratio, material: material.map(|(material, _)| *material) };
     let [yield_strength, hardening_modulus] = table.flow(body, &elastic)?;
     let values = [
         table.radius.clone(),
@@ -201,7 +202,7 @@ fn numbers_of(
         poissons_ratio,
         or(yield_strength, |material| material.yield_strength),
         hardening_modulus,
-        or(table.density.clone(), |material| material.density),
+        or(table.density.clone(), |material| Some(material.density)),
         table.length.clone(),
         table.area.clone(),
     ];
@@ -215,22 +216,42 @@ fn elastic_of<'a>(body: Body, table: &BodyTable, shared: &'a Numbers) -> Result<
     Ok(Elastic {
         youngs_modulus: shared.get(body.youngs_modulus()),
         poissons_ratio: shared.get(body.poissons_ratio()),
-        class: material.and_then(|material| material.class),
+        material,
     })
 }
 
-fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
-    MATERIALS.iter().find(|material| &material.name == name.get_ref()).ok_or_else(|| {
-        let asked = name.get_ref();
-        let has_number =
-            |material: &&table::Material| material.number.as_ref().is_some_and(|number| asked.contains(number));
-        if let Some(material) = MATERIALS.iter().find(has_number) {
-            let message = format!("unknown material `{}`; its name here is `{}`", shortened(asked), material.name);
-            return Mistake(name.span(), message);
+/// The material of this name, or of an alias that no other has.
+pub fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
+    let asked = name.get_ref();
+    if let Some(material) = MATERIALS.iter().find(|material| material.name == *asked) {
+        return Ok(material);
+    }
+    let is_it = |alias: &String| alias.eq_ignore_ascii_case(asked.trim());
+    let with_alias: Vec<_> = MATERIALS.iter().filter(|material| material.aliases.iter().any(is_it)).collect();
+    let message = match with_alias.as_slice() {
+        [material] => return Ok(material),
+        [] => {
+            // a number that is a word of what was asked
+            let has = |alias: &String| {
+                alias.contains(|c: char| c.is_ascii_digit()) && asked.split(' ').any(|word| word == alias)
+            };
+            let names = MATERIALS.iter().filter(|material| material.aliases.iter().any(has));
+            let names: Vec<_> = names.map(|material| material.name.as_str()).collect();
+            match names.as_slice() {
+                [] => unknown("material", asked, MATERIALS.iter().map(|material| material.name.as_str())),
+                names => format!("unknown material `{}`; its name here is {}", shortened(asked), one_of(names)),
+            }
         }
-        let names = MATERIALS.iter().map(|material| material.name.as_str());
-        Mistake(name.span(), unknown("material", asked, names))
-    })
+        several => {
+            let names: Vec<_> = several.iter().map(|material| material.name.as_str()).collect();
+            format!(
+                "`{}` has several conditions, whose strengths differ: say which, {}",
+                shortened(asked),
+                one_of(&names)
+            )
+        }
+    };
+    Err(Mistake(name.span(), message))
 }
 
 /// One `[[contact]]`, or the one contact of a scene without any.
@@ -298,7 +319,19 @@ fn check_own(name: &str, body: Body, table: &BodyTable) -> Result<(), Mistake> {
         ("rate", table.rate.as_ref().map(Spanned::span)),
         ("plate_thickness", table.plate_thickness.as_ref().map(Spanned::span)),
     ];
-    let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) else { return Ok(()) };
+    let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) else {
+        let Some(material) = table.material.as_ref().filter(|_| !table.gives_strength()) else { return Ok(()) };
+        if find_material(material)?.depends_on_strain() {
+            let body = body.name();
+            let message = format!(
+                "contact `{name}`: the strength of `{}` depends on the impact, and belongs to [{body}], for all contacts; here give \
+                 {body}.yield_strength, too",
+                material.get_ref()
+            );
+            return Err(Mistake(material.span(), message));
+        }
+        return Ok(());
+    };
     let body = body.name();
     Err(Mistake(span, format!("contact `{name}`: {body}.{key} belongs to [{body}], for all contacts")))
 }
@@ -432,7 +465,13 @@ impl Contacts {
 
     /// Rejects a strain rate for a law without strength.
     pub fn check_rate(&self, has_no_strength: bool) -> Result<(), Mistake> {
-        let given = Body::ALL.into_iter().find_map(|body| Some((body, self.rates.of(body).as_ref()?)));
+        let of = |body| {
+            let rate = self.rates.of(body).as_ref()?;
+            // that of a measured strength is assumed
+            let is_measured = self.flows.of(body).as_ref().is_some_and(|flow| matches!(flow, Flow::Measured(_)));
+            Some((body, rate)).filter(|_| !is_measured || *rate.get_ref() != STEEL_RATE)
+        };
+        let given = Body::ALL.into_iter().find_map(of);
         let Some((body, rate)) = given.filter(|_| has_no_strength) else { return Ok(()) };
         Err(Mistake(rate.span(), format!("{}.rate has no effect: the law has no yield strength", body.name())))
     }
@@ -458,7 +497,7 @@ impl Contacts {
         for numbers in self.all.iter_mut().map(|contact| &mut contact.own).chain([&mut self.shared]) {
             numbers.values.retain(|(name, _)| Body::ALL.iter().all(|body| body.yield_strength() != *name));
         }
-        self.flows = Both::default();
+        (self.flows, self.rates) = (Both::default(), Both::default());
     }
 
     /// The first contact with its own number `name`.

@@ -1,6 +1,7 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
 use super::bodies::Body;
+use super::contacts::find_material;
 use super::file::{BodyTable, PowerLawTable, SceneFile};
 use super::shared_bodies::number_in;
 use crate::mistake::Mistake;
@@ -137,6 +138,10 @@ fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
         ("area", &table.area, &AREA),
     ];
     let name = format!("{owner}{}", body.name());
+    let warning = table.material.as_ref().and_then(|material| {
+        let warning = find_material(material).ok()?.warning.as_ref()?;
+        Some(Mistake(material.span(), format!("{name}.material = \"{}\": {warning}", material.get_ref())))
+    });
     // a wide target is nearly flat
     let is_flat = |key: &str, value: f64| key == "radius" && body == Body::Target && value.abs() > *RADIUS.range.end();
     let doubt = |(key, value, expected): (&str, &Option<Spanned<f64>>, &Expected)| {
@@ -144,6 +149,7 @@ fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
         expected.doubt(&format!("{name}.{key}"), value)
     };
     let mut doubts: Vec<Mistake> = numbers.into_iter().filter_map(doubt).collect();
+    doubts.extend(warning);
     doubts.extend(of_power_law(&name, table.power_law.as_ref()));
     if let (Body::Target, true, Some(strength), Some(modulus)) =
         (body, doubts.is_empty(), &table.yield_strength, &table.youngs_modulus)

@@ -8,7 +8,7 @@ use crate::mistake::{Mistake, check_range};
 use crate::model::paired;
 use crate::nearest::unknown;
 use crate::numbers::in_message;
-use crate::table::Class;
+use crate::table::{Class, Material};
 use brinell_contact::hardening::{Hardening, StraightLine, modulus_of_tangent};
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
@@ -54,7 +54,15 @@ impl Flow {
 pub struct Elastic<'a> {
     pub youngs_modulus: Option<&'a Spanned<f64>>,
     pub poissons_ratio: Option<&'a Spanned<f64>>,
-    pub class: Option<Class>,
+    pub material: Option<&'static Material>,
+}
+
+impl Elastic<'_> {
+    fn metal(&self, exponent: Option<f64>) -> Option<Metal> {
+        let (youngs_modulus, poissons_ratio) = (*self.youngs_modulus?.get_ref(), *self.poissons_ratio?.get_ref());
+        let class = self.material.and_then(|material| material.class).unwrap_or(Class::of_modulus(youngs_modulus));
+        Some(Metal { youngs_modulus, poissons_ratio, class, exponent })
+    }
 }
 
 impl BodyTable {
@@ -68,12 +76,17 @@ impl BodyTable {
     pub fn measured(&self, body: Body, elastic: &Elastic) -> Result<Option<Spanned<MeasuredStrength>>, Mistake> {
         let name = body.name();
         let Some((key, span)) = self.reading() else {
-            let exponent = self.hardening_exponent.as_ref();
-            return exponent.map_or(Ok(None), |exponent| {
+            if let Some(exponent) = &self.hardening_exponent {
                 let message =
                     format!("{name}.hardening_exponent belongs to {name}.hardness or {name}.tensile_strength");
-                Err(Mistake(exponent.span(), message))
-            });
+                return Err(Mistake(exponent.span(), message));
+            }
+            let has_other = self.strengths().iter().any(|(_, value)| value.is_some()) || self.power_law.is_some();
+            let material = self.material.as_ref().zip(elastic.material).filter(|_| !has_other);
+            return Ok(material.and_then(|(place, material)| {
+                let found = measured::of_material(material, &elastic.metal(None)?)?;
+                Some(Spanned::new(place.span(), found))
+            }));
         };
         let wrong = |why: String| Mistake(span.clone(), format!("{name}.{key}{why}"));
         let others = self.strengths().into_iter().map(|(key, value)| (key, value.map(Spanned::span)));
@@ -83,18 +96,13 @@ impl BodyTable {
         if let Some((other, _)) = others.find(|(_, span)| span.is_some()) {
             return Err(wrong(format!(" and {name}.{other} say the same: give one of them")));
         }
-        let (Some(modulus), Some(ratio)) = (elastic.youngs_modulus, elastic.poissons_ratio) else {
+        let exponent = self.hardening_exponent.as_ref().map(|exponent| *exponent.get_ref());
+        let Some(metal) = elastic.metal(exponent) else {
             return Err(wrong(format!(" needs {name}.youngs_modulus and {name}.poissons_ratio, or a material")));
         };
         if let Some(exponent) = &self.hardening_exponent {
             check_range(("hardening_exponent", ""), &format!("{name}."), exponent, 0.0..=0.6)?;
         }
-        let metal = Metal {
-            youngs_modulus: *modulus.get_ref(),
-            poissons_ratio: *ratio.get_ref(),
-            class: elastic.class.unwrap_or(Class::of_modulus(*modulus.get_ref())),
-            exponent: self.hardening_exponent.as_ref().map(|exponent| *exponent.get_ref()),
-        };
         let found = match (&self.hardness, &self.tensile_strength) {
             (Some(hardness), _) => match hardness.get_ref() {
                 toml::Value::String(text) => measured::of_hardness(text, &metal)
