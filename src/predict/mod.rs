@@ -162,7 +162,18 @@ fn implausible(scene: &Scene, arguments: &Arguments, mass: f64, axes: &[Axis]) -
         name => plausible::of_quantity(name, end),
     };
     let range = |axis: &Axis| [axis.from, axis.to].into_iter().find_map(|value| end(axis, value));
-    given.chain(energy).chain(dent).chain(axes.iter().filter_map(range)).collect()
+    let rod = scene.contacts[0].rods.impactor.is_some();
+    let ball =
+        |mass: f64| plausible::of_ball("mass", mass, radius, scene.contacts[0].impactor_density).filter(|_| !rod);
+    let of_ball = arguments.mass.and_then(ball);
+    let end_of_ball = |axis: &Axis| [axis.from, axis.to].into_iter().filter(|_| axis.name == "mass").find_map(ball);
+    given
+        .chain(energy)
+        .chain(of_ball)
+        .chain(axes.iter().filter_map(end_of_ball))
+        .chain(dent)
+        .chain(axes.iter().filter_map(range))
+        .collect()
 }
 
 /// An impossible quantity or range is a wrong call. A law that can't be evaluated is not.

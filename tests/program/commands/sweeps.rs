@@ -252,6 +252,25 @@ fn a_constant_that_cannot_be_varied_is_rejected_with_those_that_can() {
     assert!(table.contains("thornton/") && !table.contains("hertz,"), "{table}");
 }
 
+/// 4 for 4 g is plausible as a mass, and not as that of this ball.
+#[test]
+fn a_mass_in_another_unit_than_the_ball_s_is_asked_about() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball");
+    for (arguments, said) in [
+        (["--mass", "4.1"], "mass = 4.1 kg is 1000 times the mass of a solid ball"),
+        (["--mass", "4.1e-6"], "did you mean 4.1e-3?"),
+        (["--sweep", "mass=1e-3:4.1"], "mass = 4.1 kg is 1000 times"),
+    ] {
+        let warned =
+            run(folder.path(), ["predict", scene.to_str().unwrap()].into_iter().chain(arguments)).with_status(0);
+        assert!(warned.err.replace("\n         ", " ").contains(said), "{arguments:?}: {}", warned.err);
+    }
+    // a hammer with such a tip
+    let hammer = run(folder.path(), ["predict", scene.to_str().unwrap(), "--mass", "1"]).with_status(0);
+    assert_eq!(hammer.err, "");
+}
+
 /// A dent of 10.3 mm in a ball of 5 mm was once printed without a word.
 #[test]
 fn sweeps_and_inverse_predictions_warn_where_the_law_is_not_valid() {

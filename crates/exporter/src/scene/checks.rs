@@ -235,7 +235,7 @@ fn check_impact(
 }
 
 /// Assumed density of the ball without an `[impact]` \[kg/m^3\].
-const STEEL: f64 = 7850.0;
+pub const STEEL: f64 = 7850.0;
 
 /// Rejects bodies that do not touch at one point.
 fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mistake> {

@@ -1,11 +1,13 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
 use super::bodies::Body;
+use super::checks::STEEL;
 use super::contacts::find_material;
 use super::file::{BodyTable, PowerLawTable, SceneFile};
 use super::shared_bodies::number_in;
 use crate::mistake::Mistake;
 use crate::numbers::{plain, quantity};
+use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 use toml::{Spanned, Value};
 
@@ -23,19 +25,19 @@ struct Expected<'a> {
 const RADIUS: Expected<'static> =
     Expected { range: 1e-6..=2.0, unit: "m", factors: &[1e-3, 1e-6], why: "balls and tips have 1 um to 2 m" };
 
-/// From soft rubber to diamond.
+/// From soft rubber to diamond. A gel is softer, but the moduli of metals in MPa are below, too.
 const MODULUS: Expected<'static> = Expected {
-    range: 1e5..=1.3e12,
+    range: 4.6e5..=1.3e12,
     unit: "Pa",
-    factors: &[1e9, 1e6],
-    why: "metals have 10 to 450 GPa, stones, glasses and ceramics 5 to 600 GPa, polymers 0.1 MPa to 10 GPa",
+    factors: &[1e9, 1e6, 1e-3, 1e-6],
+    why: "metals have 10 to 450 GPa, stones, glasses and ceramics 5 to 600 GPa, polymers 0.5 MPa to 10 GPa",
 };
 
 /// From soft polymers to ceramics.
 const STRENGTH: Expected<'static> = Expected {
     range: 1e5..=3e10,
     unit: "Pa",
-    factors: &[1e6, 1e9],
+    factors: &[1e6, 1e9, 1e-3, 1e-6],
     why: "metals have 5 MPa to 3 GPa, stones, glasses and ceramics 0.1 to 30 GPa, polymers 1 to 200 MPa",
 };
 
@@ -51,13 +53,17 @@ const HARDENING: Expected<'static> = Expected {
 const DENSITY: Expected<'static> = Expected {
     range: 20.0..=23_000.0,
     unit: "kg/m^3",
-    factors: &[1e3],
+    factors: &[1e3, 1e-3],
     why: "metals have 500 to 23000 kg/m^3, stones and glasses 2000 to 8000, polymers 800 to 2300",
 };
 
 /// From a needle to the longest piles.
 const LENGTH: Expected<'static> =
     Expected { range: 1e-4..=100.0, unit: "m", factors: &[1e-3, 1e-6], why: "rods have 0.1 mm to 100 m" };
+
+/// From a foil to the wall of a pressure vessel.
+const THICKNESS: Expected<'static> =
+    Expected { range: 1e-6..=2.0, unit: "m", factors: &[1e-3, 1e-6], why: "plates have 1 um to 2 m" };
 
 /// From a fibre to the cross-section of a building.
 const AREA: Expected<'static> =
@@ -102,6 +108,16 @@ pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
     let coupling = file.coupling.as_ref().map(Spanned::get_ref);
     let mass = coupling.and_then(|coupling| coupling.effective_mass.as_ref());
     doubts.extend(mass.and_then(|mass| MASS.doubt("coupling.effective_mass", mass)));
+    if let Some((radius, density)) = ball(file) {
+        let masses =
+            [("coupling.effective_mass", mass), ("impact.mass", impact.and_then(|impact| impact.mass.as_ref()))];
+        // both are the same mass
+        let doubt = masses.into_iter().find_map(|(name, mass)| {
+            let mass = mass?;
+            Some(Mistake(mass.span(), of_ball(name, *mass.get_ref(), radius, density)?))
+        });
+        doubts.extend(doubt);
+    }
     for body in file.body.iter().flat_map(|bodies| bodies.get_ref()).map(Spanned::get_ref) {
         let name = format!("body `{}`: ", body.name.get_ref());
         doubts.extend(MASS.doubt(&format!("{name}mass"), &body.mass));
@@ -109,6 +125,17 @@ pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
         doubts.extend(inertia.and_then(|inertia| of_inertia(&format!("{name}inertia"), inertia, *body.mass.get_ref())));
     }
     doubts
+}
+
+/// Radius \[m\] and density \[kg/m^3\], if it is given, of the impactor of `file`, unless it is a rod.
+fn ball(file: &SceneFile) -> Option<(f64, Option<f64>)> {
+    let table = &file.impactor.as_ref()?.get_ref().0;
+    let of_material = || Some(find_material(table.material.as_ref()?).ok()?.density);
+    let density = table.density.as_ref().map(|density| *density.get_ref()).or_else(of_material);
+    let radius = *table.radius.as_ref()?.get_ref();
+    // whoever is wrong about these is asked about them
+    let is_known = density.is_none_or(|density| DENSITY.range.contains(&density)) && RADIUS.range.contains(&radius);
+    (is_known && table.length.is_none()).then_some((radius, density))
 }
 
 /// The doubt about the first moment of inertia of a body with this `mass` \[kg\], from its radius of gyration.
@@ -133,6 +160,8 @@ fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
         ("yield_strength", &table.yield_strength, &STRENGTH),
         ("hardening_modulus", &table.hardening_modulus, &HARDENING),
         ("tangent_modulus", &table.tangent_modulus, &HARDENING),
+        ("tensile_strength", &table.tensile_strength, &STRENGTH),
+        ("plate_thickness", &table.plate_thickness, &THICKNESS),
         ("density", &table.density, &DENSITY),
         ("length", &table.length, &LENGTH),
         ("area", &table.area, &AREA),
@@ -218,12 +247,31 @@ pub fn of_quantity(name: &str, value: f64) -> Option<String> {
         "yield_strength" => &STRENGTH,
         "hardening_modulus" | "tangent_modulus" => &HARDENING,
         "density" => &DENSITY,
+        "plate_thickness" => &THICKNESS,
         "speed" => &SPEED,
         "mass" | "effective_mass" => &MASS,
         "drop-height" | "drop_height" => &DROP_HEIGHT,
         _ => return None,
     };
     expected.question(name, value)
+}
+
+/// A mass this near to a thousand times that of the ball is one in grams.
+const SAME_BALL: f64 = 0.15;
+
+/// The doubt about a `mass` \[kg\] that would be that of a solid ball with this radius \[m\] in another unit: grams, milligrams, tonnes.
+/// Without a `density` [kg/m^3] the ball is of steel. `name` is the name of the mass.
+pub fn of_ball(name: &str, mass: f64, radius: f64, density: Option<f64>) -> Option<String> {
+    let solid = density.unwrap_or(STEEL) * 4.0 / 3.0 * PI * radius * radius * radius;
+    let factors = [(1e-3, "1000 times"), (1e-6, "a million times"), (1e3, "a thousandth of")];
+    let (factor, times) = factors.into_iter().find(|(factor, _)| (mass * factor / solid - 1.0).abs() < SAME_BALL)?;
+    let ball = if density.is_some() { "a solid ball" } else { "a solid ball of steel" };
+    Some(format!(
+        "{name} = {} kg is {times} the mass of {ball} of this radius, {}; did you mean {}?",
+        plain(mass),
+        quantity(solid, "kg"),
+        plain(mass * factor)
+    ))
 }
 
 /// The doubt about a kinetic `energy` \[J\] of a `mass` \[kg\]: the speed that it gives; `name` is its name on the command line.

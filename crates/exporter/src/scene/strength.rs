@@ -115,7 +115,7 @@ impl BodyTable {
                 }
             },
             (None, Some(strength)) => {
-                check_range(("tensile_strength", "Pa"), &format!("{name}."), strength, 1e3..=1e11)?;
+                check_range(("tensile_strength", "Pa"), &format!("{name}."), strength, 1e-6..=1e18)?;
                 measured::of_tensile_strength(*strength.get_ref(), &metal).map_err(|why| wrong(format!(": {why}")))?
             }
             (None, None) => return Ok(None),
