@@ -7,9 +7,10 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::interface::Entry;
 use brinell_exporter::layout::{paragraph, shown};
+use brinell_exporter::numbers::quantity;
 use brinell_exporter::package::Packed;
 use brinell_exporter::plan::{FixedParameter, Plan};
-use brinell_exporter::scene::{Body, Group, Parameter, Scene};
+use brinell_exporter::scene::{Body, Group, InImpact, Parameter, Scene};
 use brinell_exporter::table::{self, Causality, VARIABLES};
 use serde_json::{Value, json};
 
@@ -91,9 +92,7 @@ impl Summary<'_> {
             "left_out": left_out, "absent": self.absent, "left_out_features": self.features,
             "left_out_laws": { "loading": loading, "unloading": unloading, "damped": damped },
         });
-        for (body, words) in strengths(scene) {
-            object["strengths"][body] = json!(words);
-        }
+        object["strengths"] = json!(strengths(scene));
         if scene.contacts[0].name.is_some() {
             let groups = 0..scene.contacts.len();
             object["contacts"] = groups.map(|group| self.group_json(group)).collect();
@@ -127,9 +126,7 @@ impl Summary<'_> {
         }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         line("law", &law(scene));
-        for (body, words) in strengths(scene) {
-            line("strength", &format!("{body}: {words}"));
-        }
+        strengths(scene).iter().for_each(|words| line("strength", words));
         if let Some(guard) = guard {
             line("guard", &guard.words());
         }
@@ -220,9 +217,18 @@ fn group_line(group: &Group) -> String {
     paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.size()), &own)
 }
 
-/// The bodies whose strength comes from a hardness or a tensile strength, and what was made of it.
-fn strengths(scene: &Scene) -> impl Iterator<Item = (&'static str, String)> {
-    Body::ALL.into_iter().filter_map(|body| Some((body.name(), scene.measured(0, body)?.words())))
+/// What was made of a hardness, a tensile strength or a material, for the impact of the scene.
+fn strengths(scene: &Scene) -> Vec<String> {
+    let found = scene.depends_on_impact().then(|| scene.in_impact(0, &scene.impact_of(0))).flatten();
+    let words = |found: &InImpact| {
+        let mut words: Vec<_> = Body::ALL.into_iter().filter_map(|body| scene.measured_words(body, found)).collect();
+        if !words.is_empty() && scene.rate(0).is_some() {
+            let strength = quantity(found.yield_strength, "Pa");
+            words.push(format!("{}: S = {strength} at the strain rate of the impact", scene.softer(0).name()));
+        }
+        words
+    };
+    found.as_ref().map(words).unwrap_or_default()
 }
 
 fn law(scene: &Scene) -> String {

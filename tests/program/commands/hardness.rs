@@ -247,7 +247,7 @@ fn what_people_know_of_a_drop_test_is_enough() {
     fs::write(folder.path().join("scene.toml"), text).unwrap();
     let exported = run(folder.path(), ["export", "scene.toml", "--json"]).with_status(0).json();
     assert!(
-        exported["strengths"]["target"].as_str().is_some_and(|words| words.starts_with("200 HBW is a flow stress")),
+        exported["strengths"][1].as_str().is_some_and(|words| words.starts_with("target: 200 HBW is a flow stress")),
         "{exported}"
     );
     // with a rate of one's own, and without any

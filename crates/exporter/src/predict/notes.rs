@@ -96,14 +96,7 @@ fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
             restitution(2.0),
         ));
     }
-    notes.extend(Body::ALL.into_iter().filter_map(|body| {
-        let measured = scene.measured(0, body)?;
-        let softer = body == scene.softer(0);
-        let strain = if softer { found.strains.softer } else { found.strains.harder };
-        let at = quantity(measured.at(strain), "Pa");
-        let shifted = format!(" At the strain of this impact, Tabor's 0.2 a/R = {}, it is {at}.", cell(strain, 1.0));
-        Some(format!("{}: {}.{}", body.name(), measured.words(), if softer { &shifted } else { "" }))
-    }));
+    notes.extend(Body::ALL.into_iter().filter_map(|body| scene.measured_words(body, &found)));
     if scene.rate(0).is_some() {
         notes.push(format!(
             "At the mean strain rate of this impact, {} 1/s, the {} is {} times as strong as at rest: S = {}.{}",

@@ -7,7 +7,7 @@ use crate::layout::shortened;
 use crate::mistake::{Mistake, check_range};
 use crate::model::paired;
 use crate::nearest::unknown;
-use crate::numbers::in_message;
+use crate::numbers::{cell, in_message, quantity};
 use crate::table::{Class, Material};
 use brinell_contact::hardening::{Hardening, StraightLine, modulus_of_tangent};
 use brinell_contact::impact::{Impact, Prediction};
@@ -326,6 +326,18 @@ impl Scene {
             Flow::Line(_) => None,
             Flow::Measured(measured) => Some(measured),
         }
+    }
+
+    /// What was made of the reading of a `body` of the first contact, and of the softer one its flow stress at the strain `found`.
+    pub fn measured_words(&self, body: Body, found: &InImpact) -> Option<String> {
+        let measured = self.measured(0, body)?;
+        let words = format!("{}: {}.", body.name(), measured.words());
+        if body != self.softer(0) {
+            return Some(words);
+        }
+        let strain = found.strains.softer;
+        let (at, strain) = (quantity(measured.at(strain), "Pa"), cell(strain, 1.0));
+        Some(format!("{words} At the strain of this impact, Tabor's 0.2 a/R = {strain}, it is {at}."))
     }
 
     /// Whether the rate of the softer body of `group` is that which its class of metal has if the scene says nothing.
