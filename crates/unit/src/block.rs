@@ -11,6 +11,7 @@ pub type Exported = Prebuilt<Library, Section>;
 /// The section that holds the block.
 pub struct Section;
 
+#[cfg(not(target_arch = "wasm32"))]
 #[used]
 #[cfg_attr(target_vendor = "apple", unsafe(link_section = "__TEXT,__brinell"))]
 #[cfg_attr(not(target_vendor = "apple"), unsafe(link_section = ".brinell"))]
@@ -22,6 +23,13 @@ const _: () = assert!(cfg!(target_endian = "little"));
 impl Memory for Section {
     const LIBRARY: u64 = identity_of(MADE_FROM);
 
+    #[cfg(target_arch = "wasm32")]
+    #[inline(always)]
+    fn block() -> &'static Block {
+        crate::module::block()
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
     #[inline(always)]
     #[expect(clippy::pointers_in_nomem_asm_block, reason = "there is nothing that could read what it points to")]
     fn block() -> &'static Block {

@@ -30,5 +30,7 @@ pub mod exported;
 mod exports;
 #[cfg(feature = "prebuilt")]
 pub mod kind;
+#[cfg(all(feature = "prebuilt", target_arch = "wasm32"))]
+mod module;
 #[cfg(feature = "cdylib")]
 mod panic;

@@ -27,6 +27,7 @@ mod process {
     #[cfg(not(windows))]
     mod system {
         use core::ffi::c_void;
+        #[cfg_attr(target_arch = "wasm32", link(wasm_import_module = "env"))]
         unsafe extern "C" {
             pub fn calloc(count: usize, size: usize) -> *mut c_void;
             pub fn free(memory: *mut c_void);

@@ -66,10 +66,23 @@ impl Logger {
     #[inline(never)]
     unsafe fn send(&self, instance_name: fmi2String, text: &Text, category: Category) {
         let Some(function) = self.function else { return };
+        let (status, category, text) = (category.status(), category.name().as_ptr(), text.as_ptr());
         // SAFETY: the importer's function gets null-terminated strings and a format without conversions.
+        #[cfg(not(target_arch = "wasm32"))]
         unsafe {
-            function(self.environment, instance_name, category.status(), category.name().as_ptr(), text.as_ptr())
-        };
+            function(self.environment, instance_name, status, category, text);
+        }
+        // a module can't call the importer; what runs it knows both
+        #[cfg(target_arch = "wasm32")]
+        {
+            #[link(wasm_import_module = "env")]
+            unsafe extern "C" {
+                fn brinell_log(instance_name: fmi2String, status: fmi2Status, category: fmi2String, text: fmi2String);
+            }
+            let _ = (function, self.environment);
+            // SAFETY: null-terminated strings in the memory of this module.
+            unsafe { brinell_log(instance_name, status, category, text) }
+        }
     }
 
     /// Logs why a call is rejected. `name` is the name of the function after `fmi2`.

@@ -13,7 +13,7 @@ use brinell_contact::rate::Rate;
 pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 
 /// Version of the layout.
-pub const VERSION: u64 = 5;
+pub const VERSION: u64 = 6;
 
 /// Capacity for kinds of variables of a contact.
 pub const KINDS: usize = 64;
@@ -41,9 +41,9 @@ pub struct Block {
     pub version: u64,
     /// Identifies the library that the data are for.
     pub library: u64,
-    /// Length of the data \[words\]; zero in a block that has not been filled in.
+    /// Length of the data up to the last list \[words\]; zero in a block that has not been filled in. Nothing reads what is behind.
     pub length: u64,
-    /// Hash of the data.
+    /// Hash of as many words.
     pub checksum: u64,
     /// The scene.
     pub data: Data,
@@ -316,7 +316,9 @@ impl Block {
             Err("this prebuilt library has no scene: `brinell export` puts one in")
         } else if self.library != library {
             Err("the data of this prebuilt library were made for another library")
-        } else if self.length != Data::WORDS as u64 || self.checksum != checksum(words.iter().skip(HEAD).copied()) {
+        } else if self.length != self.data.used() as u64
+            || self.checksum != checksum(words.iter().skip(HEAD).take(self.data.used()).copied())
+        {
             Err("the data of this prebuilt library are damaged")
         } else {
             Ok(())
@@ -327,9 +329,15 @@ impl Block {
 impl Block {
     /// A block with these `data` for a `library`.
     pub fn filled(library: u64, data: Data) -> Block {
-        let mut block = Block { length: Data::WORDS as u64, data, ..Block::unfilled(library) };
-        block.checksum = checksum(block.data.words());
+        let used = data.used();
+        let mut block = Block { length: used as u64, data, ..Block::unfilled(library) };
+        block.checksum = checksum(block.data.words().take(used));
         block
+    }
+
+    /// Its words up to the last list.
+    pub fn used_words(&self) -> impl Iterator<Item = u64> {
+        self.words().take(HEAD + self.data.used())
     }
 
     /// The words of the block as they lie in memory.
@@ -362,6 +370,12 @@ impl Data {
 
     /// Length of the data \[words\].
     pub const WORDS: usize = size_of::<Data>() / 8;
+
+    /// Length of the data up to the last list \[words\].
+    fn used(&self) -> usize {
+        let ends = self.lists.iter().map(|&[start, length]| (start as usize).wrapping_add(length as usize));
+        (Data::WORDS - POOL).wrapping_add(ends.max().unwrap_or(0))
+    }
 
     /// The data of no scene.
     pub const EMPTY: Data = Data {
