@@ -11,6 +11,7 @@ packages.json                     the packages; written last: without it the too
 usr/bin/rustc                     a script that passes the place of its libraries to the compiler, rustc-web
 usr/bin/cc-lld                    a script that takes the arguments of a C compiler, and links ELF files
 usr/lib/rustlib/HOST/bin/rust-lld  LLVM's linker for all systems, a script; the first argument is -flavor
+usr/bin/wasm2c                    makes C of modules for WebAssembly, for C source as a platform
 usr/lib/rustlib/TARGET/lib        core and compiler_builtins of each target
 usr/src/rustc-VERSION/library     with --std: the sources of Rust's libraries, for cargo's -Zbuild-std
 """
@@ -33,12 +34,19 @@ from pathlib import Path
 
 RELEASE = "bookworm-security"
 MIRROR = "https://deb.debian.org/debian-security"
+# The text of wasm2c differs between versions, so this one is pinned, and found beside the mirror of security updates.
+WABT = "debian/pool/main/w/wabt/wabt_1.0.32-1_{processor}.deb"
+WABT_SHA256 = {
+    "amd64": "f258a5cd377afac3361fc1dcb6fb10e813a88ab32c1895eba63fd7422801e9f1",
+    "arm64": "a2aa1c8b6e413fc34b8070df9256df6d10d82c65f600a01b676fac2851aeee95",
+}
 TARGETS = [
     "x86_64-unknown-linux-gnu",
     "aarch64-unknown-linux-gnu",
     "x86_64-pc-windows-msvc",
     "x86_64-apple-darwin",
     "aarch64-apple-darwin",
+    "wasm32-unknown-unknown",
 ]
 
 # Settings of crates of the standard library: their unstable features stay unstable for their users.
@@ -84,7 +92,8 @@ def main() -> None:
     parser.add_argument("--mirror", default=MIRROR, help="a mirror of Debian's security updates")
     given = parser.parse_args()
     folder, done = given.folder.resolve(), given.folder.resolve() / "packages.json"
-    if done.is_file() and (not given.std or json.loads(done.read_text())["std"]):
+    known = json.loads(done.read_text()) if done.is_file() else {}
+    if (folder / "usr/bin/wasm2c").is_file() and known.get("std", False) >= given.std and known:
         print(f"{folder} is complete")
         return
     processor = {"x86_64": "amd64", "aarch64": "arm64"}.get(platform.machine())
@@ -100,6 +109,7 @@ def main() -> None:
         if hashlib.sha256(data).hexdigest() != package["SHA256"]:
             raise SystemExit(f"{package['Filename']} has another hash than the index says")
         unpack(data, folder, pattern)
+    fetch_wasm2c(folder, given.mirror, processor)
     write_scripts(folder / "usr")
     for target in TARGETS:
         print(f"core for {target}", flush=True)
@@ -144,6 +154,16 @@ def chosen(index: str, std: bool) -> list[tuple[dict[str, str], str]]:
     if len(versions) != 1:
         raise SystemExit(f"the mirror is being updated: it has {versions}; try again later")
     return [(known[name], pattern) for name, pattern in parts]
+
+
+def fetch_wasm2c(folder: Path, mirror: str, processor: str) -> None:
+    """wasm2c of its pinned package."""
+    name = WABT.format(processor=processor)
+    print(name.rpartition("/")[2], flush=True)
+    data = fetch(f"{mirror.rpartition('/')[0]}/{name}")
+    if hashlib.sha256(data).hexdigest() != WABT_SHA256[processor]:
+        raise SystemExit(f"{name} has another hash than it had")
+    unpack(data, folder, r"usr/bin/wasm2c$")
 
 
 def unpack(package: bytes, folder: Path, pattern: str) -> None:

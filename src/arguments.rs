@@ -118,8 +118,8 @@ pub struct SspArguments {
 
 #[derive(clap::Args, Default)]
 pub struct PlatformArguments {
-    /// Platforms: linux64, aarch64-linux, win64, darwin64, aarch64-darwin, or "all" [default: this machine's; if nothing is compiled,
-    /// all prebuilt ones except aarch64-darwin, whose library is part of that of darwin64]
+    /// Platforms: linux64, aarch64-linux, win64, darwin64, aarch64-darwin, or "all"; c-code for C source [default: this machine's; if
+    /// nothing is compiled, all prebuilt ones except aarch64-darwin, whose library is part of that of darwin64, and c-code]
     #[arg(long, value_delimiter = ',', value_name = "PLATFORM")]
     platforms: Vec<String>,
     /// Put the arm64 library into linux64, for importers on ARM Linux that look only there
@@ -143,12 +143,13 @@ impl PlatformArguments {
         if chosen.is_empty() && !way.compiles() {
             let all = prebuilt::platforms();
             let is_alone = |platform: &&Platform| !all.iter().any(|other| other.has(platform));
-            chosen = all.iter().filter(is_alone).copied().collect();
+            chosen = all.iter().filter(is_alone).filter(|platform| !platform.is_source()).copied().collect();
         }
         if chosen.is_empty() {
             chosen.push(platform::here().map_err(|error| error.to_string())?);
         }
-        let mut platforms: Vec<_> = Platform::ALL.into_iter().filter(|platform| chosen.contains(platform)).collect();
+        let all = Platform::ALL.into_iter().chain([Platform::C_CODE]);
+        let mut platforms: Vec<_> = all.filter(|platform| chosen.contains(platform)).collect();
         if self.arm64_in_linux64 {
             platforms.retain(|platform| platform.folder != Platform::ARM64_IN_LINUX64.folder);
             platforms.insert(0, Platform::ARM64_IN_LINUX64);

@@ -3,13 +3,13 @@
 use crate::arguments::PrebuildArguments;
 use crate::files::FileError;
 use crate::messages::tell;
-use crate::package::{Builder, ExportError, LibraryWay, Source};
+use crate::package::{Builder, ExportError, LibraryWay, Source, c_source};
 use crate::parallel;
 use crate::prebuilt::{self, Written};
 use crate::sources;
 use brinell_exporter::layout::json_line;
 use brinell_exporter::package::PackError;
-use brinell_exporter::platform::{self, Target};
+use brinell_exporter::platform::{self, System, Target};
 use brinell_exporter::prebuilt::{LIBRARIES, Library};
 use brinell_exporter::symbols;
 use serde_json::json;
@@ -57,6 +57,9 @@ fn build_all(builder: &Builder, libraries: &[Library], target: &'static Target) 
     parallel::each(libraries, |library| {
         let (text, _) = library.source(sources::hash());
         let bytes = builder.build(&Source::Kind { text: &text }, target)?;
+        if target.system == System::WebAssembly {
+            return c_source::made(&bytes, library.name);
+        }
         let refused = |reason| PackError::Symbols { platform: target.triple, reason };
         symbols::check(&bytes, &target.alone(), false).map_err(refused)?;
         Ok(bytes)

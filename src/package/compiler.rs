@@ -44,7 +44,7 @@ impl Compilers {
         {
             let linker = match target.system {
                 System::Linux => Linker::DriverOf(toolchain.driver()),
-                System::Windows | System::MacOs => Linker::Lld(lld),
+                System::Windows | System::MacOs | System::WebAssembly => Linker::Lld(lld),
             };
             return Ok((fetched, linker));
         }
@@ -77,13 +77,13 @@ impl Compilers {
 
 /// The cross toolchain in the folder that `BRINELL_TOOLCHAIN` names: a compiler for all platforms. `packaging/toolchain.py` makes it
 /// and has its layout.
-struct Toolchain {
+pub struct Toolchain {
     folder: PathBuf,
 }
 
 impl Toolchain {
     /// The toolchain in the folder of `BRINELL_TOOLCHAIN`, if it is complete.
-    fn find() -> Option<Toolchain> {
+    pub fn find() -> Option<Toolchain> {
         let chosen = env::var_os("BRINELL_TOOLCHAIN").filter(|value| !value.is_empty())?;
         let folder = std::path::absolute(&chosen).unwrap_or(chosen.into());
         folder.join("packages.json").is_file().then_some(Toolchain { folder })
@@ -92,6 +92,11 @@ impl Toolchain {
     /// The compiler.
     fn rustc(&self) -> PathBuf {
         self.folder.join("usr/bin/rustc")
+    }
+
+    /// The program that makes C of modules for WebAssembly.
+    pub fn wasm2c(&self) -> PathBuf {
+        self.folder.join("usr/bin/wasm2c")
     }
 
     /// The linker for ELF files: it takes the arguments of a C compiler.

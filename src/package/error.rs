@@ -2,6 +2,7 @@
 
 use crate::files::FileError;
 use crate::prebuilt::PrebuiltError;
+use brinell_exporter::c_source::WASM2C;
 use brinell_exporter::layout::shown;
 use brinell_exporter::package::PackError;
 use brinell_exporter::platform::NoPlatform;
@@ -21,6 +22,12 @@ pub enum ExportError {
     Prebuilt(#[from] PrebuiltError),
     #[error("there is no Rust toolchain on PATH (see rustup.rs), and without one: {0}")]
     NoCompiler(PrebuiltError),
+    #[error("c-code is made from a prebuilt library, and then all libraries of the FMU are: leave out --compile")]
+    CompiledSource,
+    #[error("C source needs wasm2c {WASM2C} (Debian's package wabt, or that of packaging/toolchain.py): {reason}")]
+    NoWasm2c { reason: String },
+    #[error("no C source can be made of the prebuilt library `{kind}`: {reason}")]
+    Wasm2c { kind: String, reason: String },
     #[error("rustc can't be started ({0}): exporting needs a Rust toolchain on PATH, see rustup.rs")]
     NoRustc(io::Error),
     #[error("rustc is there and doesn't work: {0}")]

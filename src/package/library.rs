@@ -176,7 +176,8 @@ impl Build<'_> {
     /// The objects that are linked to the crate of the FMU.
     fn objects(&self, source: &Source) -> Vec<&'static str> {
         let windows = self.target.system == System::Windows;
-        let bytes = (windows || source.is_standalone()).then_some(Parts::BYTES_OBJECT);
+        let alone = windows || source.is_standalone() || self.target.system == System::WebAssembly;
+        let bytes = alone.then_some(Parts::BYTES_OBJECT);
         bytes.into_iter().chain(windows.then_some(VERSION)).collect()
     }
 

@@ -43,6 +43,9 @@ const WINDOWS: [&str; 6] =
 /// is signed.
 const MACOS: [&str; 6] = ["-adhoc_codesign", "-lSystem", "-x", "-S", "-no_function_starts", "-install_name"];
 
+/// The stack is below the data, and large enough to find out how much of it is needed.
+const WEB_ASSEMBLY: [&str; 3] = ["--stack-first", "-z", "stack-size=65536"];
+
 /// The input files of the linker.
 pub fn files() -> [(&'static str, &'static str); 2] {
     [SCRIPT, LIB_SYSTEM]
@@ -59,7 +62,7 @@ pub fn variables(target: &Target, folder: &Path) -> Vec<(&'static str, OsString)
                 ("MACOSX_DEPLOYMENT_TARGET", format!("{major}.{minor}").into()),
             ]
         }
-        System::Linux | System::Windows => Vec::new(),
+        System::Linux | System::Windows | System::WebAssembly => Vec::new(),
     }
 }
 
@@ -71,6 +74,7 @@ pub fn arguments(target: &Target, linker: &Linker, name: &str, objects: &[&str])
         System::Linux => ("ld.lld", ELF.to_vec()),
         System::Windows => ("lld-link", WINDOWS.to_vec()),
         System::MacOs => ("ld64.lld", [MACOS.as_slice(), &[&install_name]].concat()),
+        System::WebAssembly => ("wasm-ld", WEB_ASSEMBLY.to_vec()),
     };
     plain.extend(objects);
     let named = |linker: &Path, flavor| [format!("-Clinker={}", linker.display()), format!("-Clinker-flavor={flavor}")];
@@ -85,7 +89,12 @@ pub fn arguments(target: &Target, linker: &Linker, name: &str, objects: &[&str])
     } else {
         arguments.extend(plain.iter().map(|argument| format!("-Clink-arg={argument}")));
     }
-    // rustc would call an external program to strip a Mach-O file, which invalidates the signature
-    arguments.push(if target.system == System::MacOs { "-Cstrip=none" } else { "-Cstrip=symbols" }.into());
+    arguments.push(match target.system {
+        // rustc would call an external program to strip a Mach-O file, which invalidates the signature
+        System::MacOs => "-Cstrip=none".into(),
+        // square roots are found by their name
+        System::WebAssembly => "-Cstrip=debuginfo".into(),
+        System::Linux | System::Windows => "-Cstrip=symbols".into(),
+    });
     arguments
 }

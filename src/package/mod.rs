@@ -1,5 +1,6 @@
 //! From a plan to an `.fmu`: rustc compiles the library, or a prebuilt one is filled in, and everything is packed.
 
+pub mod c_source;
 mod compiler;
 mod diagnostics;
 mod error;
@@ -106,6 +107,12 @@ pub struct Origin {
 /// # Errors
 /// [`ExportError`]
 pub fn make(plan: &Plan, way: LibraryWay, platforms: &[Platform]) -> Result<Libraries, ExportError> {
+    // one GUID, and states that all libraries of the FMU take
+    let way = match (way, platforms.iter().any(Platform::is_source)) {
+        (LibraryWay::Compiled, true) => return Err(ExportError::CompiledSource),
+        (_, true) => LibraryWay::Prebuilt,
+        (way, false) => way,
+    };
     match way {
         LibraryWay::Compiled => compile(plan, platforms),
         LibraryWay::Prebuilt => Ok(fill_in(plan, platforms)?),

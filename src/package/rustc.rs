@@ -142,7 +142,7 @@ fn name() -> String {
 }
 
 /// A call of `program` without the user's settings and in English.
-fn command(program: &Path) -> Command {
+pub fn command(program: &Path) -> Command {
     let mut command = Command::new(program);
     let kept = |name: &&'static str| Some((*name, env::var_os(name)?));
     let kept: Vec<(&str, OsString)> = KEPT.iter().filter_map(kept).collect();

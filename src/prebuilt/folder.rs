@@ -49,7 +49,8 @@ impl PrebuiltFolder {
     /// The platforms with libraries.
     pub fn platforms(&self) -> Vec<Platform> {
         let is_there = |target: &Target| self.file(target, LIST).is_file();
-        Platform::ALL.into_iter().filter(|platform| platform.targets.iter().all(is_there)).collect()
+        let all = Platform::ALL.into_iter().chain([Platform::C_CODE]);
+        all.filter(|platform| platform.targets.iter().all(is_there)).collect()
     }
 }
 

@@ -9,7 +9,7 @@ pub use store::{StoreError, Written, write};
 use crate::sources;
 use brinell_exporter::package::join;
 use brinell_exporter::plan::Plan;
-use brinell_exporter::platform::{Platform, Target};
+use brinell_exporter::platform::{Platform, System, Target};
 use brinell_exporter::prebuilt::{self, FillError, NeedsCompiler};
 use store::Store;
 
@@ -63,6 +63,9 @@ impl StoredUnit {
         let mut library = self.store.library(&self.unit.library, target)?;
         let unfilled =
             |reason| PrebuiltError::Fill { name: self.unit.library.name.into(), target: target.triple, reason };
+        if target.system == System::WebAssembly {
+            return self.unit.fill_source(&library).map_err(unfilled);
+        }
         self.unit.fill(&mut library).map_err(unfilled)?;
         Ok(library)
     }

@@ -11,7 +11,7 @@
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
 //! | [`constants`], [`model_description`], [`documentation`] | these files |
-//! | [`platform`], [`signature`], [`symbols`], [`package`], [`prebuilt`] | libraries as bytes, and the archive |
+//! | [`platform`], [`signature`], [`symbols`], [`c_source`], [`package`], [`prebuilt`] | libraries as bytes or as C source, and the archive |
 //!
 //! Each uses only those above it. Text and bytes come in; text, bytes and mistakes go out. No file is read here, no process or thread
 //! started, no clock or environment looked at: a command, Python or a page in a browser may all use this crate.
@@ -30,7 +30,7 @@
 //! let impact = &scene.predictions[0];
 //! assert!(impact.max_force > 300.0 && impact.restitution < 0.5);
 //! let mut xml = Vec::new();
-//! model_description::write(&Plan::of(&scene), "a GUID", &mut xml)?;
+//! model_description::write(&Plan::of(&scene), "a GUID", None, &mut xml)?;
 //! assert!(String::from_utf8(xml)?.contains("modelIdentifier=\"ball\""));
 //! let mistake = Scene::parse(text.replace("5e-3", "-5e-3"), Path::new("ball.toml")).unwrap_err();
 //! assert!(mistake.to_string().starts_with("ball.toml:3:"));
@@ -40,6 +40,7 @@
 
 pub mod accuracy;
 pub mod bodies;
+pub mod c_source;
 pub mod columns;
 pub mod constants;
 pub mod documentation;

@@ -23,17 +23,17 @@ const LOG_CATEGORIES: [(&str, &str); 4] = [
     ("logAll", "all of them"),
 ];
 
-/// Writes the model description of the planned FMU with the identification `guid`. An FMU of 100,000 contacts has 640 MB of it,
+/// Writes the model description of the planned FMU with the identification `guid`, and the file of its C `source` if it has any. An FMU of 100,000 contacts has 640 MB of it,
 /// which are never in memory at once.
 ///
 /// # Errors
 /// Those of `to`.
-pub fn write(plan: &Plan, guid: &str, to: &mut dyn Write) -> io::Result<()> {
-    document(&mut Writer::new_with_indent(&mut *to, b' ', 2), plan, guid)?;
+pub fn write(plan: &Plan, guid: &str, source: Option<&str>, to: &mut dyn Write) -> io::Result<()> {
+    document(&mut Writer::new_with_indent(&mut *to, b' ', 2), plan, guid, source)?;
     to.write_all(b"\n")
 }
 
-fn document(xml: &mut Xml<'_>, plan: &Plan, guid: &str) -> io::Result<()> {
+fn document(xml: &mut Xml<'_>, plan: &Plan, guid: &str, source: Option<&str>) -> io::Result<()> {
     let Plan { scene, variables: entries, experiment, .. } = plan;
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let tool = concat!("Brinell ", env!("CARGO_PKG_VERSION"));
@@ -48,7 +48,7 @@ fn document(xml: &mut Xml<'_>, plan: &Plan, guid: &str) -> io::Result<()> {
     ];
     let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
     xml.create_element("fmiModelDescription").with_attributes(given).write_inner_content(|xml| {
-        co_simulation(xml, scene)?;
+        co_simulation(xml, scene, source)?;
         units(xml, entries)?;
         types(xml, entries)?;
         xml.create_element("LogCategories").write_inner_content(|xml| {
@@ -78,7 +78,7 @@ fn output_order(scene: &Scene) -> &'static str {
     }
 }
 
-fn co_simulation(xml: &mut Xml<'_>, scene: &Scene) -> io::Result<()> {
+fn co_simulation(xml: &mut Xml<'_>, scene: &Scene, source: Option<&str>) -> io::Result<()> {
     let takes_derivatives = constants::has_course(scene) && !scene.has_input("external_acceleration");
     let attributes = [
         ("modelIdentifier", scene.name.as_str()),
@@ -93,7 +93,18 @@ fn co_simulation(xml: &mut Xml<'_>, scene: &Scene) -> io::Result<()> {
         ("canSerializeFMUstate", "true"),
         ("providesDirectionalDerivative", "true"),
     ];
-    xml.create_element("CoSimulation").with_attributes(attributes).write_empty()?;
+    let element = xml.create_element("CoSimulation").with_attributes(attributes);
+    let Some(file) = source else {
+        element.write_empty()?;
+        return Ok(());
+    };
+    element.write_inner_content(|xml| {
+        xml.create_element("SourceFiles").write_inner_content(|xml| {
+            xml.create_element("File").with_attribute(("name", file)).write_empty()?;
+            Ok(())
+        })?;
+        Ok(())
+    })?;
     Ok(())
 }
 

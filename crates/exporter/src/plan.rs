@@ -138,7 +138,7 @@ mod tests {
     /// The model description.
     fn text_of(plan: &Plan) -> String {
         let mut bytes = Vec::new();
-        model_description::write(plan, "guid", &mut bytes).expect("memory takes everything");
+        model_description::write(plan, "guid", None, &mut bytes).expect("memory takes everything");
         String::from_utf8(bytes).expect("XML is written as UTF-8")
     }
 

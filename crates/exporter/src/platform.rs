@@ -28,6 +28,8 @@ pub enum System {
     Linux,
     Windows,
     MacOs,
+    /// None: a module for any host, which C source is made from.
+    WebAssembly,
 }
 
 impl System {
@@ -37,6 +39,7 @@ impl System {
             System::Linux => "so",
             System::Windows => "dll",
             System::MacOs => "dylib",
+            System::WebAssembly => "wasm",
         }
     }
 }
@@ -45,6 +48,7 @@ impl System {
 pub enum Processor {
     X86_64,
     Arm64,
+    Wasm32,
 }
 
 const fn platform(folder: &'static str, targets: &'static [Target]) -> Platform {
@@ -57,6 +61,8 @@ const WINDOWS_X86_64: Target = target("x86_64-pc-windows-msvc", System::Windows,
 const MACOS_X86_64: Target = target("x86_64-apple-darwin", System::MacOs, Processor::X86_64);
 const MACOS_ARM64: Target = target("aarch64-apple-darwin", System::MacOs, Processor::Arm64);
 
+const WEB_ASSEMBLY: Target = target("wasm32-unknown-unknown", System::WebAssembly, Processor::Wasm32);
+
 const fn target(triple: &'static str, system: System, processor: Processor) -> Target {
     Target { triple, system, processor }
 }
@@ -67,6 +73,7 @@ impl Target {
         match self.processor {
             Processor::Arm64 => (11, 0),
             Processor::X86_64 => (10, 12),
+            Processor::Wasm32 => (0, 0),
         }
     }
 
@@ -81,10 +88,12 @@ impl Target {
             System::Linux => "linux",
             System::Windows => "windows",
             System::MacOs => "macos",
+            System::WebAssembly => "none",
         };
         let processor = match self.processor {
             Processor::X86_64 => "x86_64",
             Processor::Arm64 => "aarch64",
+            Processor::Wasm32 => "wasm32",
         };
         (system, processor) == (env::consts::OS, env::consts::ARCH)
     }
@@ -110,6 +119,15 @@ impl Platform {
     /// The arm64 library in the folder of x86-64. Importers on ARM Linux look only in `linux64`, and there are no universal ELF
     /// files.
     pub const ARM64_IN_LINUX64: Platform = platform("linux64", &[LINUX_ARM64]);
+
+    /// C source for every other processor: the folder `sources` instead of one below `binaries`. It is made from prebuilt libraries
+    /// only.
+    pub const C_CODE: Platform = Platform { folder: "c-code", extension: "c", targets: &[WEB_ASSEMBLY] };
+
+    /// Whether it is [`Platform::C_CODE`].
+    pub fn is_source(&self) -> bool {
+        *self == Platform::C_CODE
+    }
 }
 
 /// A platform without FMUs.
@@ -157,9 +175,10 @@ pub fn targets(platforms: &[Platform]) -> Vec<&'static Target> {
 /// # Errors
 /// A sentence with the existing folders.
 pub fn named(folder: &str) -> Result<Platform, String> {
-    Platform::ALL.into_iter().find(|platform| platform.folder == folder).ok_or_else(|| {
+    let known = Platform::ALL.into_iter().chain([Platform::C_CODE]);
+    known.into_iter().find(|platform| platform.folder == folder).ok_or_else(|| {
         let folders = Platform::ALL.map(|platform| platform.folder).join(", ");
-        format!("there is no platform `{folder}`, only {folders}, and `all` for all of them")
+        format!("there is no platform `{folder}`, only {folders}, `all` for all of these, and c-code for C source")
     })
 }
 
@@ -169,7 +188,7 @@ mod tests {
 
     #[test]
     fn every_platform_is_found_by_its_folder() {
-        for platform in Platform::ALL {
+        for platform in Platform::ALL.into_iter().chain([Platform::C_CODE]) {
             assert_eq!(named(platform.folder), Ok(platform));
         }
         let refusal = named("linux32").unwrap_err();

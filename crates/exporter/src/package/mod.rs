@@ -12,7 +12,7 @@ pub use universal::join;
 use crate::plan::Plan;
 use crate::platform::Platform;
 use crate::symbols::{self, SymbolError};
-use crate::{documentation, model_description};
+use crate::{c_source, documentation, model_description};
 use brinell_tables::{ICON, LICENSES};
 pub use zip::result::ZipError;
 
@@ -52,14 +52,24 @@ pub fn pack(
     let mut packed = Vec::new();
     for (platform, library) in platforms.iter().zip(libraries) {
         let refused = |reason| PackError::Symbols { platform: platform.folder, reason };
-        let imports = symbols::check(library, platform, scene.standalone).map_err(refused)?;
+        let imports = match platform.is_source() {
+            true => c_source::NEEDED.map(String::from).into(),
+            false => symbols::check(library, platform, scene.standalone).map_err(refused)?,
+        };
         packed.push(Packed { platform: platform.folder, size: library.len(), imports });
     }
     let page = documentation::write(plan);
     let mut archive = Archive::default();
-    archive.add_written("modelDescription.xml", |to| model_description::write(plan, guid, to))?;
+    let source = platforms.iter().any(Platform::is_source).then_some(c_source::LISTED);
+    archive.add_written("modelDescription.xml", |to| model_description::write(plan, guid, source, to))?;
     archive.add("model.png", ICON)?;
     for (platform, library) in platforms.iter().zip(libraries) {
+        if platform.is_source() {
+            for (name, text) in c_source::files(library) {
+                archive.add(&format!("sources/{name}"), text)?;
+            }
+            continue;
+        }
         archive.add(&format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension), library)?;
     }
     archive.add("documentation/index.html", page.as_bytes())?;
@@ -80,7 +90,7 @@ pub fn identified(text: &str, guid: &str) -> String {
 
 /// The GUID of the planned FMU: a hash of its description, of its `data` and of the sources of its library.
 pub fn guid(plan: &Plan, data: &[&str], sources: &str) -> String {
-    let written = Hash::default().with_written(|to| model_description::write(plan, GUID_TO_COME, to));
+    let written = Hash::default().with_written(|to| model_description::write(plan, GUID_TO_COME, None, to));
     let written = written.expect("a hash takes everything");
     written.with_all(data.iter().copied()).with(sources).digits()
 }

@@ -21,6 +21,8 @@ pub enum FillError {
     Size { found: usize, expected: usize },
     #[error("its section for the data of a scene begins with other numbers than an empty one of this version")]
     NotEmpty,
+    #[error("it is no C source of this version")]
+    NoSource,
     #[error("its signature can't be renewed: {0}")]
     Signature(#[from] SignatureError),
 }

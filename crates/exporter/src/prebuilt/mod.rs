@@ -13,6 +13,7 @@ pub use fill::FillError;
 pub use fit::NeedsCompiler;
 pub use kinds::{LIBRARIES, Library};
 
+use crate::c_source;
 use crate::package::{GUID_TO_COME, guid};
 use crate::plan::Plan;
 use brinell_fmu::scene::identity_of;
@@ -25,6 +26,8 @@ pub struct PrebuiltUnit {
     pub library: Library,
     made_from: String,
     data: Data,
+    /// Its name, and the number of its variables.
+    face: (String, usize),
 }
 
 impl PrebuiltUnit {
@@ -40,7 +43,8 @@ impl PrebuiltUnit {
         let words: String = block.words().map(|word| format!("{word:016x}")).collect();
         let guid = guid(plan, &[&words, &source], sources);
         let data = fit::data_of(plan, &guid)?;
-        Ok(PrebuiltUnit { guid, library, made_from, data })
+        let face = (plan.scene.name.clone(), plan.variables.iter().map(|entry| entry.count).sum());
+        Ok(PrebuiltUnit { guid, library, made_from, data, face })
     }
 
     /// Writes the data of the scene to a copy of its library.
@@ -49,5 +53,15 @@ impl PrebuiltUnit {
     /// [`FillError`]; part of the data may then be written.
     pub fn fill(&self, library: &mut [u8]) -> Result<(), FillError> {
         fill::fill(library, identity_of(&self.made_from), self.data)
+    }
+
+    /// The C source of its `library` with the data of the scene.
+    ///
+    /// # Errors
+    /// [`FillError::NoSource`]
+    pub fn fill_source(&self, library: &[u8]) -> Result<Vec<u8>, FillError> {
+        let block = Block::filled(identity_of(&self.made_from), self.data);
+        let (name, variables) = &self.face;
+        c_source::with_scene(library, &block, name, *variables).ok_or(FillError::NoSource)
     }
 }

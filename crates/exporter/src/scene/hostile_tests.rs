@@ -53,7 +53,7 @@ fn read(case: &str) -> Result<bool, SceneError> {
         let plan = Plan::of(&scene);
         let written = constants::write(&plan, "unpacked").len() + documentation::write(&plan).len();
         let mut xml = Vec::new();
-        model_description::write(&plan, "guid", &mut xml).expect("memory can be written to");
+        model_description::write(&plan, "guid", None, &mut xml).expect("memory can be written to");
         let xml = String::from_utf8(xml).expect("XML is UTF-8");
         for word in ["\"NaN\"", "\"inf\"", "\"-inf\"", "\"INF\""] {
             let is_name = word.trim_matches('"') == scene.name;

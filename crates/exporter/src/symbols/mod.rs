@@ -145,6 +145,7 @@ fn architecture(target: &Target) -> Architecture {
     match target.processor {
         Processor::X86_64 => Architecture::X86_64,
         Processor::Arm64 => Architecture::Aarch64,
+        Processor::Wasm32 => Architecture::Wasm32,
     }
 }
 
@@ -191,6 +192,7 @@ fn check_target(library: &[u8], target: &Target) -> Result<BTreeSet<String>, Sym
         System::Linux => linux::check(library)?,
         System::Windows => windows::check(library)?,
         System::MacOs => macos::check(library, target)?,
+        System::WebAssembly => {}
     }
     Ok(imports)
 }
@@ -210,6 +212,7 @@ fn check_imports(imports: &BTreeSet<String>, libraries: &BTreeSet<String>, syste
         System::Linux => (FROM_C.to_vec(), None),
         System::Windows => (FROM_KERNEL32.to_vec(), Some("kernel32.dll")),
         System::MacOs => ([FROM_C.as_slice(), &FROM_MACOS].concat(), Some("/usr/lib/libSystem.B.dylib")),
+        System::WebAssembly => (Vec::new(), None),
     };
     if let Some(import) = imports.iter().find(|import| !functions.contains(&import.as_str())) {
         return Err(SymbolError::Import(import.clone()));
