@@ -5,6 +5,7 @@
 //! no function is reached but by its name, so that the calls form a graph, whose deepest path bounds the stack.
 
 use super::{FORMAT, FUNCTIONS};
+use brinell_fmu::scene::prebuilt::block::Block;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write;
 
@@ -20,7 +21,7 @@ pub enum ModuleError {
     Import(String),
     #[error("the depth of the stack has no bound, since {0} calls itself")]
     Recursion(String),
-    #[error("there are data behind the block of the scene")]
+    #[error("the block of the scene is not the last of the data")]
     Behind,
 }
 
@@ -84,6 +85,10 @@ impl<'a> Module<'a> {
         let global = |name: &str| leading(between(text, &format!("  instance->w2c_{name} = "), ";")?);
         let stack = global("__stack_pointer").ok_or(ModuleError::Missing("stack pointer"))?;
         let block = global("brinell_block").ok_or(ModuleError::Missing("block"))?;
+        // an instance is behind it, and takes the room that a scene leaves
+        if global("__data_end") != Some(block + size_of::<Block>() as u32) {
+            return Err(ModuleError::Behind);
+        }
         let functions = functions(text);
         let mut imports = text.match_indices("(*Z_envZ_").map(|(at, begin)| &text[at + begin.len()..]);
         let name = |rest: &'a str| rest.split(')').next().unwrap_or_default();
@@ -321,9 +326,6 @@ pub fn c_text(text: &str, kind: &str) -> Result<String, ModuleError> {
     // long lists of parameters take two lines
     let text = &text.replace(", \n    ", ", ");
     let module = Module::read(text)?;
-    if module.data.iter().any(|(address, bytes)| address + bytes.len() as u32 > module.block) {
-        return Err(ModuleError::Behind);
-    }
     let calls = Calls::of(&module);
     let words: BTreeSet<_> = FUNCTIONS.1.split(|letter: char| !is_letter(letter)).collect();
     let is_called = |(_, function): &(&&str, &Function)| words.contains(function.name.as_str());
@@ -501,4 +503,49 @@ fn renamed(line: &str, module: &Module<'_>) -> String {
         rest = behind;
     }
     renamed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ModuleError, c_text};
+
+    /// What wasm2c says of a module whose fmi2DoStep has these lines.
+    fn text(lines: &str) -> String {
+        format!(
+            "  instance->w2c___stack_pointer = 65536u;\n  instance->w2c_brinell_block = 65552u;\n  instance->w2c___data_end = {}u;\n\
+             static const u8 data[] = {{\n  0x00, 0x00, 0x00, 0x00, 0x08, 0x00, 0x00, 0x00, \n  0x08, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, \n}};\n\
+             static void init_memories(Z_unit_instance_t* instance) {{\n  LOAD_DATA(instance->w2c_memory, 65536u, data, 16);\n}}\n\
+             static const wasm_elem_segment_expr_t elem_segment_exprs_w2c_e0[] = {{\n  {{0, (wasm_rt_function_ptr_t)&w2c_law, 0}},\n}};\n\
+             static u32 w2c_brinell_fixed_size(Z_unit_instance_t* instance) {{\n  w2c_i0 = 16u;\n}}\n\
+             static f64 w2c__ZN4libm4math4sqrt4sqrt17hE(Z_unit_instance_t* instance, f64 w2c_p0) {{\n}}\n\
+             static f64 w2c_law(Z_unit_instance_t* instance, f64 w2c_p0) {{\n  w2c_i0 = instance->w2c___stack_pointer;\n  w2c_i1 = 48u;\n  w2c_i0 -= w2c_i1;\n}}\n\
+             static u32 w2c_fmi2DoStep(Z_unit_instance_t* instance, u32 w2c_p0, f64 w2c_p1, f64 w2c_p2, u32 w2c_p3) {{\n{lines}}}\n",
+            65552 + size_of::<super::Block>()
+        )
+    }
+
+    #[test]
+    fn the_call_of_a_method_becomes_a_switch_over_those_at_its_place() {
+        let call = |place: u32| {
+            text(&format!(
+                "  w2c_i1 = i32_load(&instance->w2c_memory, (u64)(w2c_i1) + {place}u);\n  w2c_d0 = CALL_INDIRECT(instance->w2c_T0, \
+                 f64 (*)(void*, f64), 0, w2c_i1, instance->w2c_T0.data[w2c_i1].module_instance, w2c_d0);\n  w2c_d0 *= w2c_d1;\n"
+            ))
+        };
+        let made = c_text(&call(12), "state").unwrap();
+        assert!(made.contains("d0 = method_0_12(m, i1, d0);\nd0 *= d1; OPAQUE(d0);\n"), "{made}");
+        assert!(made.contains("case 1: return fn2(m, p0);") && made.contains("#define STACK_SIZE 48u"), "{made}");
+        // no method is at another place
+        let made = c_text(&call(16), "state").unwrap();
+        assert!(!made.contains("case 1:") && made.contains("#define STACK_SIZE 0u"), "{made}");
+    }
+
+    #[test]
+    fn a_module_without_a_bound_or_with_a_panic_path_is_refused() {
+        let recursive =
+            c_text(&text("  w2c_i0 = w2c_fmi2DoStep(instance, w2c_i0, w2c_d0, w2c_d1, w2c_i1);\n"), "state");
+        assert!(matches!(recursive, Err(ModuleError::Recursion(name)) if name == "w2c_fmi2DoStep"));
+        let panics = c_text(&text("  (*Z_envZ_brinell_a_panic_path_survived)(instance->Z_env_instance);\n"), "state");
+        assert!(matches!(panics, Err(ModuleError::Import(name)) if name == "brinell_a_panic_path_survived"));
+    }
 }
