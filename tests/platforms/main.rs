@@ -3,10 +3,12 @@
 //! `cargo test --release --test platforms cross_compiled wheel` runs one of them.
 
 use brinell_testing::{
-    command, courses, debian, hosts, kinds, prebuilt, programs, python, skips, standalone, systems, toolchain, unit,
+    both_ways, command, courses, debian, hosts, kinds, physics, prebuilt, programs, python, skips, standalone, systems,
+    toolchain, unit,
 };
 
 mod arm64_program;
+mod c_source;
 mod cross_compiled;
 mod first_export;
 mod kinds_of_hosts;

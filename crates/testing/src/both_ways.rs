@@ -1,4 +1,4 @@
-//! A compiled and a prebuilt FMU of one scene: the same calls give the same bits and the same messages.
+//! A compiled and a prebuilt FMU of one scene, or two libraries of one FMU: the same calls give the same bits and the same messages.
 
 use super::face::{Variable, attribute};
 use super::loaded::{Instance, OK, Unit};
@@ -35,6 +35,12 @@ impl Both {
         assert!(one.0 == other.0, "the model descriptions differ in more than the GUID: {text}");
         assert_ne!(one.1, other.1, "{text}");
         Both { kind, compiled: Unit::open(&compiled), prebuilt: Unit::open(&prebuilt) }
+    }
+
+    /// Two libraries of one FMU, which was unpacked at the place of the first.
+    pub fn between(native: &Path, other: &Path, kind: &str) -> Both {
+        let [compiled, prebuilt] = [native, other].map(|library| Unit::open_library(library, native));
+        Both { kind: kind.into(), compiled, prebuilt }
     }
 
     fn of_causality(&self, causality: &str) -> Vec<&Variable> {

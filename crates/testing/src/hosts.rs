@@ -107,11 +107,17 @@ pub enum Loading {
     IntoNamespace,
     /// By the host itself.
     ByHand,
+    /// Not at all: its C source is compiled with the host.
+    Linked,
 }
 
 /// The source files of a host.
 fn sources(program: &str, loading: Loading) -> [PathBuf; 2] {
-    let by = if loading == Loading::ByHand { "load_by_hand.c" } else { "load_by_system.c" };
+    let by = match loading {
+        Loading::BySystem | Loading::IntoNamespace => "load_by_system.c",
+        Loading::ByHand => "load_by_hand.c",
+        Loading::Linked => "load_linked.c",
+    };
     [program, by].map(|name| folder().join(name))
 }
 

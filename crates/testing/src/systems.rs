@@ -24,11 +24,17 @@ fn tools() -> Result<PathBuf, String> {
     environment_of("platforms-venv", &folder().join("requirements.txt"))
 }
 
-/// The host in tests/platforms, compiled for `target`.
-fn compiled(target: &str, ending: &str) -> Result<PathBuf, String> {
+/// The compiler for `target`.
+fn compiler(target: &str) -> Result<Vec<PathBuf>, String> {
     let cache = format!("ZIG_GLOBAL_CACHE_DIR={}", target_folder().join("zig").display());
     let mut compiler = vec!["env".into(), cache.into(), tools()?];
     compiler.extend(["-m", "ziglang", "cc", "-target", target].map(PathBuf::from));
+    Ok(compiler)
+}
+
+/// The host in tests/platforms, compiled for `target`.
+fn compiled(target: &str, ending: &str) -> Result<PathBuf, String> {
+    let compiler = compiler(target)?;
     compile(&format!("host-{target}{ending}"), "host.c", Loading::BySystem, &compiler, &[])
 }
 
@@ -98,6 +104,22 @@ pub fn arm64_linux() -> Result<System, String> {
     let Qemu { start, name, .. } = qemu()?;
     let host = Host { command: vec![start, compiled("aarch64-linux-gnu.2.28", "")?], variables: Vec::new() };
     Ok(System { platform: "aarch64-linux", name, host })
+}
+
+/// The host in tests/platforms with the C `source` of an FMU, compiled with these options for `target`, on the `processor` of QEMU.
+///
+/// # Errors
+/// The reason why it is not available.
+pub fn linked(name: &str, source: &Path, (target, processor): (&str, &str), options: &[&str]) -> Result<Host, String> {
+    let Packages { folder, .. } = packages("qemu", "bookworm", &["qemu-user", "libc6-arm64-cross"], true)?;
+    let source = source.to_string_lossy();
+    let options = [&["-static", &*source], options].concat();
+    let program = compile(&format!("{name}-{target}"), "host.c", Loading::Linked, &compiler(target)?, &options)?;
+    let emulator = folder.join("usr/bin").join(format!("qemu-{processor}"));
+    let libraries = folder.join("usr/lib/x86_64-linux-gnu");
+    let unset = ["-E", "LD_LIBRARY_PATH="].map(PathBuf::from);
+    let command = [emulator].into_iter().chain(unset).chain([program]).collect();
+    Ok(Host { command, variables: vec![("LD_LIBRARY_PATH", libraries)] })
 }
 
 /// QEMU's user mode for arm64, with the C library of arm64.

@@ -23,3 +23,13 @@ pub fn toolchain() -> Option<PathBuf> {
     super::skips::skipped("libraries for other platforms", &why);
     None
 }
+
+/// The same, if it makes C source too.
+pub fn toolchain_for_c() -> Option<PathBuf> {
+    let folder = toolchain()?;
+    if folder.join("usr/bin/wasm2c").is_file() {
+        return Some(folder);
+    }
+    super::skips::skipped("C source", "the toolchain has no wasm2c; BRINELL_PLATFORMS=all fetches a new one (100 MB)");
+    None
+}

@@ -1,0 +1,282 @@
+//! C source as a platform: it gives the bits and messages of the native library, and compiles wherever it says so.
+#![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
+
+use crate::both_ways::Both;
+use crate::command::{self, empty_folder, output};
+use crate::courses;
+use crate::hosts::{Host, Interface, Loading, cc, compile, folder};
+use crate::kinds::{self, of_each_kind};
+use crate::physics::Random;
+use crate::prebuilt::without_compiler;
+use crate::python::{keeping_modules, python, site_packages_file};
+use crate::skips::skipped;
+use crate::systems;
+use crate::toolchain;
+use brinell_exporter::symbols::FUNCTIONS;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+
+/// The folder of the prebuilt libraries for this system and as C source: that of BRINELL_PREBUILT, otherwise made once; `None` without a
+/// toolchain to make them.
+static STORE: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
+    if let Some(named) = std::env::var_os("BRINELL_PREBUILT").filter(|value| !value.is_empty()) {
+        return Some(named.into());
+    }
+    let folder = toolchain::toolchain_for_c()?;
+    let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("prebuilt").join("c-code");
+    let mut command = command::brinell(Path::new(env!("CARGO_TARGET_TMPDIR")));
+    command.env("BRINELL_TOOLCHAIN", folder).args(["prebuild", "--platforms", "linux64,c-code", "-o"]).arg(&place);
+    output(&mut command).with_status(0);
+    Some(place)
+});
+
+/// A scene's FMU with a library for this system and C source, unpacked.
+struct Fmu {
+    folder: tempfile::TempDir,
+    name: String,
+    kind: String,
+}
+
+impl Fmu {
+    fn of(text: &str) -> Option<Fmu> {
+        let folder = empty_folder();
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        let mut export = without_compiler(folder.path(), STORE.as_ref()?);
+        export.args(["export", "scene.toml", "--platforms", "c-code,linux64", "-o", "unit.fmu", "--json"]);
+        let said = output(&mut export).with_status(0).json();
+        let mut unzip = Command::new("python3");
+        output(unzip.args(["-m", "zipfile", "-e"]).args([&folder.path().join("unit.fmu"), folder.path()]))
+            .with_status(0);
+        let library = fs::read_dir(folder.path().join("binaries/linux64")).unwrap().next().unwrap().unwrap().path();
+        let name = library.file_stem().unwrap().to_string_lossy().into_owned();
+        let kind = said["made"]["prebuilt"].as_str().unwrap().into();
+        Some(Fmu { folder, name, kind })
+    }
+
+    /// The FMU of the scene of this kind.
+    fn of_kind(kind: &str) -> Option<Fmu> {
+        let (_, text) = of_each_kind().into_iter().find(|(other, _)| *other == kind).expect("a scene of this kind");
+        Fmu::of(&text)
+    }
+
+    fn source(&self) -> PathBuf {
+        self.folder.path().join("sources/fmi2.c")
+    }
+
+    /// Compares the bits and the message of a host, in which the source runs, with those of the native library.
+    fn assert_same(&self, host: &Host, what: &str) {
+        let native = compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap();
+        let interface = Interface::beside(&self.native());
+        let [native, linked] = [&Host::program(native), host].map(|host| {
+            let said = host.run(&self.native(), &interface, &courses::history());
+            said.unwrap_or_else(|why| panic!("{what}: {why}"))
+        });
+        courses::assert_rich(&native.bits);
+        assert!(native.bits == linked.bits, "{what}: other bits");
+        assert_eq!(native.message, linked.message, "{what}");
+    }
+
+    fn native(&self) -> PathBuf {
+        self.folder.path().join(format!("binaries/linux64/{}.so", self.name))
+    }
+
+    /// A call of `compiler` in the folder of the sources.
+    fn compiler(&self, compiler: &str, options: &[&str]) -> Command {
+        let mut command = Command::new(compiler);
+        command.current_dir(self.folder.path().join("sources")).args(options).arg(format!("-I{}", headers().display()));
+        command
+    }
+
+    /// The source compiled to a library.
+    fn compiled(&self, compiler: &str, options: &[&str]) -> PathBuf {
+        let library = self.folder.path().join(format!("{}.so", options.concat().replace(['/', '='], "")));
+        let shared = ["-shared", "-fPIC", "-DFMI2_OVERRIDE_FUNCTION_PREFIX", "fmi2.c", "-o"];
+        output(self.compiler(compiler, options).args(shared).arg(&library)).with_status(0);
+        library
+    }
+}
+
+/// The folder of the headers.
+fn headers() -> &'static Path {
+    static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| site_packages_file("fmpy/c-code"));
+    &FOLDER
+}
+
+/// Options with which nothing is warned of.
+const STRICT: [&str; 5] = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror"];
+
+#[test]
+fn c_source_of_every_kind_gives_the_bits_and_messages_of_the_native_library() {
+    let mut random = Random(28);
+    let (mut kinds, mut messages) = (Vec::new(), 0);
+    for (kind, text) in of_each_kind() {
+        let Some(fmu) = Fmu::of(&text) else { return };
+        assert_eq!(fmu.kind, kind);
+        let both = Both::between(&fmu.native(), &fmu.compiled("gcc", &[&STRICT[..], &["-O1"]].concat()), kind);
+        messages += (0..10).map(|_| both.compare(100, &mut random)).sum::<usize>();
+        kinds.push(kind);
+    }
+    kinds.dedup();
+    assert!(kinds.len() == 10 && messages > 500, "{messages} messages of {kinds:?} were compared");
+}
+
+/// gcc's own C joins products and sums where the processor can.
+#[test]
+fn c_source_forbids_to_join_products_and_sums() {
+    let Some(fmu) = Fmu::of_kind("moved") else { return };
+    if !fs::read_to_string("/proc/cpuinfo").unwrap().contains(" fma ") {
+        return skipped("C source for processors that join products and sums", "this one doesn't");
+    }
+    let both =
+        Both::between(&fmu.native(), &fmu.compiled("gcc", &["-O2", "-march=haswell", "-Wall", "-Werror"]), "moved");
+    let mut random = Random(3);
+    let messages: usize = (0..20).map(|_| both.compare(100, &mut random)).sum();
+    assert!(messages > 0);
+}
+
+#[test]
+fn c_source_compiles_in_other_languages_without_a_warning() {
+    let Some(fmu) = Fmu::of_kind("state") else { return };
+    let warnings = ["-Wall", "-Wextra", "-pedantic", "-Werror", "-c", "fmi2.c", "-o", "other.o"];
+    let c90 = ["-std=c90", "-Dinline=", "-Wno-long-long"];
+    for (compiler, options) in
+        [("gcc", &c90[..]), ("g++", &["-x", "c++", "-std=c++11"]), ("g++", &["-x", "c++", "-std=c++17"])]
+    {
+        output(fmu.compiler(compiler, options).args(warnings)).with_status(0);
+    }
+}
+
+#[test]
+fn c_source_is_refused_where_numbers_would_differ() {
+    let Some(fmu) = Fmu::of_kind("state") else { return };
+    for (options, message) in [
+        (&["-ffast-math"][..], "compile without -ffast-math"),
+        (&["-Ofast"], "compile without -ffast-math"),
+        (&["-ffinite-math-only"], "compile without -ffast-math"),
+        (&["-mfpmath=387"], "doubles are computed in another precision"),
+        (&["-mfpmath=387", "-std=c90", "-Dinline="], "doubles are computed in another precision"),
+    ] {
+        let said = output(fmu.compiler("gcc", options).args(["-fsyntax-only", "fmi2.c"])).with_status(1);
+        assert!(said.err.contains(message), "{options:?}: {}", said.err);
+    }
+}
+
+/// The headers as the standard has them: with the prefix, if it isn't switched off. Those of fmpy have none.
+fn prefixing_headers(folder: &Path) -> PathBuf {
+    let mut text = String::from("#include_next <fmi2Functions.h>\n#ifndef FMI2_OVERRIDE_FUNCTION_PREFIX\n");
+    text += "#define PASTE(a, b) a##b\n#define PASTED(a, b) PASTE(a, b)\n";
+    for name in FUNCTIONS {
+        text += &format!("#undef {name}\n#define {name} PASTED(FMI2_FUNCTION_PREFIX, {name})\n");
+    }
+    text += "#endif\n";
+    let place = folder.join("prefixing");
+    fs::create_dir(&place).unwrap();
+    fs::write(place.join("fmi2Functions.h"), text).unwrap();
+    place
+}
+
+#[test]
+fn two_units_are_linked_into_one_program_and_need_only_memory_functions() {
+    let Some(one) = Fmu::of_kind("state") else { return };
+    let other = Fmu::of_kind("damped").unwrap();
+    let headers = format!("-I{}", prefixing_headers(one.folder.path()).display());
+    // modelIdentifiers may be equal: then the importer chooses the prefix
+    for (fmu, prefix) in [(&one, format!("{}_", one.name)), (&other, "other_".into())] {
+        let defined = format!("-DFMI2_FUNCTION_PREFIX={prefix}");
+        let options = if prefix == "other_" { vec![headers.as_str(), &defined] } else { vec![headers.as_str()] };
+        output(fmu.compiler("gcc", &options).args(["-c", "fmi2.c", "-o", "unit.o"])).with_status(0);
+        let symbols =
+            output(Command::new("nm").args(["-g"]).arg(fmu.folder.path().join("sources/unit.o"))).with_status(0).out;
+        let of = |kind: &str| {
+            symbols
+                .lines()
+                .filter_map(|line| line.split_once(&format!(" {kind} ")))
+                .map(|(_, name)| name)
+                .collect::<Vec<_>>()
+        };
+        assert!(of("T").iter().all(|name| name.starts_with(&format!("{prefix}fmi2"))), "{symbols}");
+        assert_eq!(of("T").len(), FUNCTIONS.len(), "{symbols}");
+        assert_eq!(of("U"), ["calloc", "free", "memcpy", "memmove", "memset", "realloc", "strlen"], "{symbols}");
+    }
+    let declared = |prefix: &str| format!("const char *{prefix}fmi2GetVersion(void);\n");
+    let compared = format!("return {}_fmi2GetVersion()[0] != other_fmi2GetVersion()[0];", one.name);
+    let text =
+        format!("{}{}int main(void) {{ {compared} }}\n", declared(&format!("{}_", one.name)), declared("other_"));
+    let [program, main] = ["two", "two.c"].map(|name| one.folder.path().join(name));
+    fs::write(&main, text).unwrap();
+    let units = [&one, &other].map(|fmu| fmu.folder.path().join("sources/unit.o"));
+    output(Command::new("gcc").arg(&main).args(units).arg("-o").arg(&program)).with_status(0);
+    output(&mut Command::new(program)).with_status(0);
+}
+
+/// A command with the programs of the tests' Python, such as CMake, on its path.
+fn with_cmake(program: &Path) -> Command {
+    let programs = python().parent().unwrap().display().to_string();
+    let mut command = Command::new(program);
+    keeping_modules(&mut command).env("PATH", format!("{programs}:{}", std::env::var("PATH").unwrap()));
+    command
+}
+
+#[test]
+fn fmpy_compiles_the_source() {
+    let Some(fmu) = Fmu::of_kind("moved") else { return };
+    let native = fmu.folder.path().join("native.so");
+    fs::rename(fmu.native(), &native).unwrap();
+    let script =
+        "import sys, fmpy.build, fmpy.validation\nfmpy.build.build_platform_binary(sys.argv[1], all_warnings=True)\n";
+    output(with_cmake(&python()).args(["-c", script]).arg(fmu.folder.path())).with_status(0);
+    let built = fmu.folder.path().join("built.so");
+    fs::rename(fmu.native(), &built).unwrap();
+    fs::rename(&native, fmu.native()).unwrap();
+    let both = Both::between(&fmu.native(), &built, "moved");
+    let mut random = Random(4);
+    let messages: usize = (0..10).map(|_| both.compare(100, &mut random)).sum();
+    assert!(messages > 0);
+}
+
+#[test]
+fn a_cmake_project_has_the_source_as_a_library() {
+    let Some(fmu) = Fmu::of_kind("lossy") else { return };
+    let text = format!(
+        "cmake_minimum_required(VERSION 3.10)\nproject(contact C)\nadd_library(unit STATIC {source})\n\
+         target_compile_options(unit PRIVATE -Wall -Wextra -Werror)\nadd_executable(host {host}/host.c {host}/load_linked.c)\n\
+         include_directories({headers} {host} {host}/../c)\nadd_definitions(-DFMI2_OVERRIDE_FUNCTION_PREFIX)\n\
+         target_link_libraries(host unit)\n",
+        source = fmu.source().display(),
+        host = folder().display(),
+        headers = headers().display(),
+    );
+    let project = empty_folder();
+    fs::write(project.path().join("CMakeLists.txt"), text).unwrap();
+    let cmake = |arguments: &[&str]| {
+        let program = python().with_file_name("cmake");
+        output(with_cmake(&program).current_dir(project.path()).args(arguments)).with_status(0);
+    };
+    cmake(&["-DCMAKE_BUILD_TYPE=Release", "-B", "build"]);
+    cmake(&["--build", "build"]);
+    fmu.assert_same(&Host::program(project.path().join("build/host")), "CMake");
+}
+
+/// Two of ten kinds: they have most of the code of all.
+#[test]
+fn c_source_gives_the_same_bits_on_other_processors() {
+    let targets = [
+        ("x86-linux-musl", "i386", &["-mcpu=pentium4"][..]),
+        ("aarch64-linux-musl", "aarch64", &[]),
+        ("arm-linux-musleabihf", "arm", &["-mcpu=cortex_a15"]),
+        ("arm-linux-musleabi", "arm", &[]),
+        ("s390x-linux-musl", "s390x", &[]),
+        ("powerpc-linux-musleabihf", "ppc", &[]),
+    ];
+    for (kind, text) in kinds::of_each_kind().into_iter().filter(|(kind, _)| ["rate", "friction"].contains(kind)) {
+        let Some(fmu) = Fmu::of(&text) else { return };
+        for (target, processor, options) in targets {
+            match systems::linked(&format!("linked-{kind}"), &fmu.source(), (target, processor), options) {
+                Err(why) => skipped(target, &why),
+                Ok(host) => fmu.assert_same(&host, &format!("{kind} on {target}")),
+            }
+        }
+    }
+}
