@@ -170,7 +170,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
   text = m->arguments;
   if (guid) text = put_string(m, text, guid);
   if (name) put_string(m, text, name);
-  component = unit_fmi2Instantiate(m, name ? text : 0, (u32)type, guid ? m->arguments : 0, 0, RESULT, (u32)visible,
+  component = unit_Instantiate(m, name ? text : 0, (u32)type, guid ? m->arguments : 0, 0, RESULT, (u32)visible,
                                    (u32)loggingOn);
   if (!component || m->failed) {
     free(handle);
@@ -196,50 +196,50 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const 
     put32(PLACE(m, m->arguments + 4 * i), categories[i] ? place : 0);
     if (categories[i]) place = put_string(m, place, categories[i]);
   }
-  OUT(unit_fmi2SetDebugLogging(m, COMPONENT, (u32)on, (u32)n, categories ? m->arguments : 0));
+  OUT(unit_SetDebugLogging(m, COMPONENT, (u32)on, (u32)n, categories ? m->arguments : 0));
 }
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean a, fmi2Real tolerance, fmi2Real start, fmi2Boolean b,
                                fmi2Real stop) {
   IN(c);
-  OUT(unit_fmi2SetupExperiment(m, COMPONENT, (u32)a, tolerance, start, (u32)b, stop));
+  OUT(unit_SetupExperiment(m, COMPONENT, (u32)a, tolerance, start, (u32)b, stop));
 }
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
   IN(c);
-  OUT(unit_fmi2EnterInitializationMode(m, COMPONENT));
+  OUT(unit_EnterInitializationMode(m, COMPONENT));
 }
 fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
   IN(c);
-  OUT(unit_fmi2ExitInitializationMode(m, COMPONENT));
+  OUT(unit_ExitInitializationMode(m, COMPONENT));
 }
 fmi2Status fmi2Terminate(fmi2Component c) {
   IN(c);
-  OUT(unit_fmi2Terminate(m, COMPONENT));
+  OUT(unit_Terminate(m, COMPONENT));
 }
 fmi2Status fmi2Reset(fmi2Component c) {
   IN(c);
-  OUT(unit_fmi2Reset(m, COMPONENT));
+  OUT(unit_Reset(m, COMPONENT));
 }
 fmi2Status fmi2CancelStep(fmi2Component c) {
   IN(c);
-  OUT(unit_fmi2CancelStep(m, COMPONENT));
+  OUT(unit_CancelStep(m, COMPONENT));
 }
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_set) {
   IN(c);
-  OUT(unit_fmi2DoStep(m, COMPONENT, time, step, (u32)no_set));
+  OUT(unit_DoStep(m, COMPONENT, time, step, (u32)no_set));
 }
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[]) {
   u32 references, values, status;
   IN(c);
   if (n == 1 && vr && value) {
     put32(PLACE(m, RESULT + 8), *vr);
-    status = unit_fmi2GetReal(m, COMPONENT, RESULT + 8, 1, RESULT);
+    status = unit_GetReal(m, COMPONENT, RESULT + 8, 1, RESULT);
     if (status == fmi2OK) *value = f64_reinterpret_i64(get64(PLACE(m, RESULT)));
     OUT(status);
   }
   ROOM(n, 12);
   values = m->arguments;
   references = values + 8 * (u32)n;
-  status = unit_fmi2GetReal(m, COMPONENT, put_words(m, references, vr, n), (u32)n, value ? values : 0);
+  status = unit_GetReal(m, COMPONENT, put_words(m, references, vr, n), (u32)n, value ? values : 0);
   if (status == fmi2OK && value) get_reals(m, values, value, n);
   OUT(status);
 }
@@ -249,12 +249,12 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n,
   if (n == 1 && vr && value) {
     put32(PLACE(m, RESULT + 8), *vr);
     put64(PLACE(m, RESULT), i64_reinterpret_f64(*value));
-    OUT(unit_fmi2SetReal(m, COMPONENT, RESULT + 8, 1, RESULT));
+    OUT(unit_SetReal(m, COMPONENT, RESULT + 8, 1, RESULT));
   }
   ROOM(n, 12);
   values = put_reals(m, m->arguments, value, n);
   references = m->arguments + 8 * (u32)n;
-  OUT(unit_fmi2SetReal(m, COMPONENT, put_words(m, references, vr, n), (u32)n, values));
+  OUT(unit_SetReal(m, COMPONENT, put_words(m, references, vr, n), (u32)n, values));
 }
 /* Integer, Boolean, String: 32 bits a value, in and out */
 static fmi2Status get_words(fmi2Component c, u32 (*get)(Unit *, u32, u32, u32, u32), const fmi2ValueReference vr[],
@@ -277,28 +277,28 @@ static fmi2Status set_words(fmi2Component c, u32 (*set)(Unit *, u32, u32, u32, u
   OUT(set(m, COMPONENT, put_words(m, m->arguments, vr, n), (u32)n, put_words(m, m->arguments + 4 * (u32)n, value, n)));
 }
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Integer value[]) {
-  return get_words(c, unit_fmi2GetInteger, vr, n, value);
+  return get_words(c, unit_GetInteger, vr, n, value);
 }
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Boolean value[]) {
-  return get_words(c, unit_fmi2GetBoolean, vr, n, value);
+  return get_words(c, unit_GetBoolean, vr, n, value);
 }
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer value[]) {
-  return set_words(c, unit_fmi2SetInteger, vr, n, value);
+  return set_words(c, unit_SetInteger, vr, n, value);
 }
 fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Boolean value[]) {
-  return set_words(c, unit_fmi2SetBoolean, vr, n, value);
+  return set_words(c, unit_SetBoolean, vr, n, value);
 }
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                          fmi2String value[]) { /* there are none: an error, or nothing */
   IN(c);
   ROOM(n, 8);
-  OUT(unit_fmi2GetString(m, COMPONENT, put_words(m, m->arguments, vr, n), (u32)n,
+  OUT(unit_GetString(m, COMPONENT, put_words(m, m->arguments, vr, n), (u32)n,
                          value ? m->arguments + 4 * (u32)n : 0));
 }
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2String value[]) {
   IN(c);
   ROOM(n, 8);
-  OUT(unit_fmi2SetString(m, COMPONENT, put_words(m, m->arguments, vr, n), (u32)n,
+  OUT(unit_SetString(m, COMPONENT, put_words(m, m->arguments, vr, n), (u32)n,
                          value ? m->arguments + 4 * (u32)n : 0));
 }
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -308,7 +308,7 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
   ROOM(n, 16);
   a = m->arguments;
   values = put_reals(m, a, value, n);
-  OUT(unit_fmi2SetRealInputDerivatives(m, COMPONENT, put_words(m, a + 8 * (u32)n, vr, n), (u32)n,
+  OUT(unit_SetRealInputDerivatives(m, COMPONENT, put_words(m, a + 8 * (u32)n, vr, n), (u32)n,
                                        put_words(m, a + 12 * (u32)n, order, n), values));
 }
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -317,7 +317,7 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
   IN(c);
   ROOM(n, 16);
   a = m->arguments;
-  status = unit_fmi2GetRealOutputDerivatives(m, COMPONENT, put_words(m, a + 8 * (u32)n, vr, n), (u32)n,
+  status = unit_GetRealOutputDerivatives(m, COMPONENT, put_words(m, a + 8 * (u32)n, vr, n), (u32)n,
                                              put_words(m, a + 12 * (u32)n, order, n), value ? a : 0);
   if (status == fmi2OK && value) get_reals(m, a, value, n);
   OUT(status);
@@ -333,7 +333,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
   in = out + 8 * (u32)nUnknown;
   references = in + 8 * (u32)nKnown;
   in = put_reals(m, in, dvKnown, nKnown);
-  status = unit_fmi2GetDirectionalDerivative(m, COMPONENT, put_words(m, references, unknown, nUnknown), (u32)nUnknown,
+  status = unit_GetDirectionalDerivative(m, COMPONENT, put_words(m, references, unknown, nUnknown), (u32)nUnknown,
                                              put_words(m, references + 4 * (u32)nUnknown, known, nKnown), (u32)nKnown,
                                              in, dvUnknown ? out : 0);
   if (status == fmi2OK && dvUnknown) get_reals(m, out, dvUnknown, nUnknown);
@@ -342,14 +342,14 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value) {
   u32 status;
   IN(c);
-  status = unit_fmi2GetStatus(m, COMPONENT, (u32)s, value ? RESULT : 0);
+  status = unit_GetStatus(m, COMPONENT, (u32)s, value ? RESULT : 0);
   if (status == fmi2OK && value) *value = (fmi2Status)get32(PLACE(m, RESULT));
   OUT(status);
 }
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value) {
   u32 status;
   IN(c);
-  status = unit_fmi2GetRealStatus(m, COMPONENT, (u32)s, value ? RESULT : 0);
+  status = unit_GetRealStatus(m, COMPONENT, (u32)s, value ? RESULT : 0);
   if (status == fmi2OK && value) get_reals(m, RESULT, value, 1);
   OUT(status);
 }
@@ -361,14 +361,14 @@ static fmi2Status get_status_word(fmi2Component c, u32 (*get)(Unit *, u32, u32, 
   OUT(status);
 }
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value) {
-  return get_status_word(c, unit_fmi2GetIntegerStatus, s, value);
+  return get_status_word(c, unit_GetIntegerStatus, s, value);
 }
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value) {
-  return get_status_word(c, unit_fmi2GetBooleanStatus, s, value);
+  return get_status_word(c, unit_GetBooleanStatus, s, value);
 }
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value) {
   IN(c);
-  OUT(unit_fmi2GetStringStatus(m, COMPONENT, (u32)s, value ? RESULT : 0));
+  OUT(unit_GetStringStatus(m, COMPONENT, (u32)s, value ? RESULT : 0));
 }
 
 /* States: the importer holds bytes of the module's own snapshot; one place in the memory takes the one of a call. */
@@ -381,7 +381,7 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
     put32(PLACE(m, RESULT), *state ? m->snapshot : 0);
     if (*state) bring(m, *state);
   }
-  status = unit_fmi2GetFMUstate(m, COMPONENT, state ? RESULT : 0);
+  status = unit_GetFMUstate(m, COMPONENT, state ? RESULT : 0);
   if (status == fmi2OK && !m->failed) {
     if (m->pending) *state = m->pending;
     memcpy(*state, PLACE(m, m->snapshot), m->state_size);
@@ -392,7 +392,7 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
   IN(c);
   if (state) bring(m, state);
-  OUT(unit_fmi2SetFMUstate(m, COMPONENT, state ? m->snapshot : 0));
+  OUT(unit_SetFMUstate(m, COMPONENT, state ? m->snapshot : 0));
 }
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
   u32 status;
@@ -401,7 +401,7 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
     put32(PLACE(m, RESULT), *state ? m->snapshot : 0);
     if (*state) bring(m, *state);
   }
-  status = unit_fmi2FreeFMUstate(m, COMPONENT, state ? RESULT : 0);
+  status = unit_FreeFMUstate(m, COMPONENT, state ? RESULT : 0);
   if (status == fmi2OK && state) {
     free(*state);
     *state = NULL;
@@ -412,7 +412,7 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_
   u32 status;
   IN(c);
   if (state) bring(m, state);
-  status = unit_fmi2SerializedFMUstateSize(m, COMPONENT, state ? m->snapshot : 0, size ? RESULT : 0);
+  status = unit_SerializedFMUstateSize(m, COMPONENT, state ? m->snapshot : 0, size ? RESULT : 0);
   if (status == fmi2OK && size) *size = get32(PLACE(m, RESULT));
   OUT(status);
 }
@@ -422,7 +422,7 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte b
   n = size > m->serialized_size ? m->serialized_size : (u32)size;
   ROOM(n, 1);
   if (state) bring(m, state);
-  status = unit_fmi2SerializeFMUstate(m, COMPONENT, state ? m->snapshot : 0, bytes ? m->arguments : 0, n);
+  status = unit_SerializeFMUstate(m, COMPONENT, state ? m->snapshot : 0, bytes ? m->arguments : 0, n);
   if (status == fmi2OK && bytes) memcpy(bytes, PLACE(m, m->arguments), n);
   OUT(status);
 }
@@ -433,7 +433,7 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size
   ROOM(n, 1);
   m->pending = NULL;
   if (bytes) memcpy(PLACE(m, m->arguments), bytes, n);
-  status = unit_fmi2DeSerializeFMUstate(m, COMPONENT, bytes ? m->arguments : 0, n, state ? RESULT : 0);
+  status = unit_DeSerializeFMUstate(m, COMPONENT, bytes ? m->arguments : 0, n, state ? RESULT : 0);
   if (status == fmi2OK && !m->failed) {
     *state = m->pending;
     memcpy(*state, PLACE(m, m->snapshot), m->state_size);
@@ -445,26 +445,26 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size
 /* Model Exchange, for loaders that ask for all functions: each is refused. */
 fmi2Status fmi2EnterEventMode(fmi2Component c) {
   IN(c);
-  OUT(unit_fmi2EnterEventMode(m, COMPONENT));
+  OUT(unit_EnterEventMode(m, COMPONENT));
 }
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info) {
   IN(c);
   (void)info;
-  OUT(unit_fmi2NewDiscreteStates(m, COMPONENT, 0));
+  OUT(unit_NewDiscreteStates(m, COMPONENT, 0));
 }
 fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) {
   IN(c);
-  OUT(unit_fmi2EnterContinuousTimeMode(m, COMPONENT));
+  OUT(unit_EnterContinuousTimeMode(m, COMPONENT));
 }
 fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_set, fmi2Boolean *event, fmi2Boolean *end) {
   IN(c);
   (void)event;
   (void)end;
-  OUT(unit_fmi2CompletedIntegratorStep(m, COMPONENT, (u32)no_set, 0, 0));
+  OUT(unit_CompletedIntegratorStep(m, COMPONENT, (u32)no_set, 0, 0));
 }
 fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
   IN(c);
-  OUT(unit_fmi2SetTime(m, COMPONENT, time));
+  OUT(unit_SetTime(m, COMPONENT, time));
 }
 /* The other five have an array and its length. */
 static fmi2Status refuse(fmi2Component c, u32 (*function)(Unit *, u32, u32, u32), const void *values, size_t n) {
@@ -473,17 +473,17 @@ static fmi2Status refuse(fmi2Component c, u32 (*function)(Unit *, u32, u32, u32)
   OUT(function(m, COMPONENT, 0, (u32)n));
 }
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n) {
-  return refuse(c, unit_fmi2SetContinuousStates, x, n);
+  return refuse(c, unit_SetContinuousStates, x, n);
 }
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t n) {
-  return refuse(c, unit_fmi2GetDerivatives, derivatives, n);
+  return refuse(c, unit_GetDerivatives, derivatives, n);
 }
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real indicators[], size_t n) {
-  return refuse(c, unit_fmi2GetEventIndicators, indicators, n);
+  return refuse(c, unit_GetEventIndicators, indicators, n);
 }
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n) {
-  return refuse(c, unit_fmi2GetContinuousStates, x, n);
+  return refuse(c, unit_GetContinuousStates, x, n);
 }
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n) {
-  return refuse(c, unit_fmi2GetNominalsOfContinuousStates, nominals, n);
+  return refuse(c, unit_GetNominalsOfContinuousStates, nominals, n);
 }

@@ -147,8 +147,10 @@ fn functions(text: &str) -> BTreeMap<&str, Function<'_>> {
         let parameters = parameters.split(", ").filter_map(|one| one.split_once(' ')).map(|(kind, _)| kind).collect();
         let body = lines.by_ref().take_while(|line| *line != "}").collect();
         let plain = name.strip_prefix(PREFIX).filter(|name| name.starts_with("fmi2") || name.starts_with("brinell_"));
+        // without `fmi2`, or the prefix of an FMU that is named `unit` would make an equal name
         let number = functions.len();
-        let short = plain.map_or_else(|| format!("fn{number}"), |name| format!("unit_{name}"));
+        let short =
+            plain.map_or_else(|| format!("fn{number}"), |name| format!("unit_{}", name.trim_start_matches("fmi2")));
         functions.insert(name, Function { result, parameters, body, name: short });
     }
     functions
