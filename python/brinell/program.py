@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -268,6 +269,8 @@ def curve(
 
 def tables(scene: str | Path) -> dict[str, Any]:
     """The tables of a scene file, with all numbers in SI units."""
+    if not Path(scene).exists():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(scene))
     return tomllib.loads(_run("si", scene))
 
 
