@@ -16,7 +16,7 @@
 //! Of fourth order in the length of a chord, but where springs begin to slip or to stick, and for what a list of segments
 //! remembers of a curved way. The rates after an impact are off by some 1e-6 of the largest rate that the energy allows for
 //! contacts that don't yield, and by what the springs of growing dents and of two directions are off. Work and momentum
-//! are exact to rounding, whatever the chords, and so is Coulomb's bound.
+//! are exact to rounding, whatever the chords; Coulomb's bound to the accuracy of the iteration.
 //!
 //! Reference: the mean force on a straight way is the average vector field, and its correction that of fourth order, of
 //! G. R. W. Quispel, D. I. McLaren, *J. Phys. A* 41 (2008) 045206.
