@@ -34,3 +34,5 @@ pub mod kind;
 mod module;
 #[cfg(feature = "cdylib")]
 mod panic;
+#[cfg(all(feature = "cdylib", windows, target_env = "msvc", target_arch = "x86_64"))]
+mod stack;
