@@ -397,13 +397,13 @@ fn a_scene_with_units_is_the_scene_in_si_to_the_last_bit() {
     let folder = empty_folder();
     let with = "name = \"box\"  # 5 mm\n[impactor]\nradius = \"5 mm\"\n[target]\nyoungs_modulus = \"206 GPa\"\npoissons_ratio = 0.3\n\
                 yield_strength = \"40.8 kgf/mm2\"\ndensity = \"7.85 g/cm3\"\n\
-                [impact]\nspeed = \"36 km/h\"\n\
+                [fmu]\nstep_size = \"0.5 ms\"\nstop_time = \"12 min\"\n[impact]\nspeed = \"36 km/h\"\n\
                 [[body]]\nname = \"box\"\nmass = \"300 g\"\ninertia = [\"1.2 kg cm^2\", 2.6e-4, \"350 kg mm^2\"]\n\
                 [[contact]]\nname = \"left\"\nbetween = [\"box\", \"ground\"]\nnormal = [0, 0, -1]\n\
                 arms = [[\"-40 mm\", 0, \"-25 mm\"], []]\ninitial_gap = \"30 um\"\n";
     let plain = "name = \"box\"  # 5 mm\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 2.06e11\npoissons_ratio = 0.3\n\
                  yield_strength = 4.0011132e8\ndensity = 7.85e3\n\
-                 [impact]\nspeed = 1e1\n\
+                 [fmu]\nstep_size = 5e-4\nstop_time = 7.2e2\n[impact]\nspeed = 1e1\n\
                  [[body]]\nname = \"box\"\nmass = 3e-1\ninertia = [1.2e-4, 2.6e-4, 3.5e-4]\n\
                  [[contact]]\nname = \"left\"\nbetween = [\"box\", \"ground\"]\nnormal = [0, 0, -1]\n\
                  arms = [[-4e-2, 0, -2.5e-2], []]\ninitial_gap = 3e-5\n";

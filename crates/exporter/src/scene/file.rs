@@ -249,7 +249,7 @@ impl SceneFile {
     /// Text that is not TOML, has a wrong type, or is unknown, with its place.
     pub fn read(text: &str) -> Result<SceneFile, Mistake> {
         let (tree, numbers) = parsed(text)?;
-        // a tree that borrows the numbers, too
+        // it borrows the numbers from here on
         let mut tree = tree;
         tree.get_mut().iter_mut().for_each(|(_, value)| put(value, &numbers));
         let file = SceneFile::deserialize(Deserializer::from(tree)).map_err(|error| of_parser(text, &error))?;
@@ -306,6 +306,7 @@ fn unit_of(table: &str, key: &str) -> Option<&'static str> {
         (_, "mass") => Some("kg"),
         (_, "speed") => Some("m/s"),
         (_, "length" | "drop_height" | "arms") => Some("m"),
+        (_, "step_size" | "stop_time") => Some("s"),
         (_, "area") => Some("m^2"),
         (_, "inertia") => Some("kg.m^2"),
         _ => {
