@@ -165,3 +165,21 @@ impl Constant for f64 {
         Some(number)
     }
 }
+
+/// A variant of a list as the number of its place.
+macro_rules! numbered {
+    ($list:ident) => {
+        impl $crate::laws::Constant for $list {
+            fn to_number(self) -> f64 {
+                f64::from(self as u8)
+            }
+
+            fn of_number(number: f64) -> Option<$list> {
+                let same = |(_, found): &(&str, $list)| found.to_number() == number;
+                $list::ALL.into_iter().find(same).map(|(_, found)| found)
+            }
+        }
+    };
+}
+
+pub(super) use numbered;

@@ -1,7 +1,7 @@
 //! Hunt and Crossley, with the damping factors of later authors.
 
 use super::{Damped, Factors, Shape, power_three_halves};
-use crate::laws::Constant;
+use crate::laws::numbered;
 use crate::material::Pair;
 use libm::{exp, log, log1p};
 
@@ -30,16 +30,7 @@ pub enum DampingFactor {
     HuGuo,
 }
 
-impl Constant for DampingFactor {
-    fn to_number(self) -> f64 {
-        f64::from(self as u8)
-    }
-
-    fn of_number(number: f64) -> Option<DampingFactor> {
-        let same = |(_, found): &(&str, DampingFactor)| found.to_number() == number;
-        DampingFactor::ALL.into_iter().find(same).map(|(_, found)| found)
-    }
-}
+numbered!(DampingFactor);
 
 impl DampingFactor {
     /// All factors with their names in a scene.

@@ -1,7 +1,7 @@
 //! Tsuji, Tanaka and Ishida: the Hertzian spring-dashpot of discrete-element codes.
 
 use super::{Damped, Factors, Shape};
-use crate::laws::Constant;
+use crate::laws::numbered;
 use crate::material::Pair;
 use core::f64::consts::PI;
 use libm::{exp, log, sqrt};
@@ -22,16 +22,7 @@ pub enum TsujiDamping {
     NoTension,
 }
 
-impl Constant for TsujiDamping {
-    fn to_number(self) -> f64 {
-        f64::from(self as u8)
-    }
-
-    fn of_number(number: f64) -> Option<TsujiDamping> {
-        let same = |(_, found): &(&str, TsujiDamping)| found.to_number() == number;
-        TsujiDamping::ALL.into_iter().find(same).map(|(_, found)| found)
-    }
-}
+numbered!(TsujiDamping);
 
 impl TsujiDamping {
     /// All damping formulas with their names in a scene.

@@ -120,8 +120,8 @@ pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
         Some(Loss::Plate(_)) => block::Loss::Plate,
         Some(Loss::Fitted(_)) | None => block::Loss::Fitted,
     } as u64;
-    const { assert!(Real::ALL.len() <= FIRST_INTEGER as usize) };
-    for (slot, name) in data.codes[..kinds.len().min(KINDS)].iter_mut().zip(&kinds) {
+    const { assert!(Real::ALL.len() + Integer::ALL.len() <= KINDS && KINDS <= FIRST_INTEGER as usize) };
+    for (slot, name) in data.codes.iter_mut().zip(&kinds) {
         let real = Real::ALL.iter().position(|(known, _)| known == name).map(|place| place as u8);
         let integer = || Integer::ALL.iter().position(|(known, _)| known == name).map(|place| place as u8);
         *slot = real.or_else(|| Some(FIRST_INTEGER + integer()?)).expect("every variable has a type");

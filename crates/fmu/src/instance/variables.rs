@@ -88,7 +88,7 @@ impl<S: Scene> Instance<S> {
         let (Some(history), Some(slot)) = (histories.as_ref().get(contact), rates.as_mut().get_mut(contact)) else {
             return false;
         };
-        let plain = self.clock.takes_rate(rate) && (!S::follows_rate() || is_finite_at(history, rate));
+        let plain = self.clock.takes_rate(rate) && check_rate::<S>(history, rate).is_ok();
         if plain {
             *slot = rate;
         }
@@ -105,7 +105,7 @@ impl<S: Scene> Instance<S> {
         };
         let mut plain = true;
         for (history, &rate) in histories.iter().zip(rates) {
-            plain &= self.clock.takes_rate(rate) && (!S::follows_rate() || is_finite_at(history, rate));
+            plain &= self.clock.takes_rate(rate) && check_rate::<S>(history, rate).is_ok();
         }
         if plain {
             for (slot, &rate) in slots.iter_mut().zip(rates) {

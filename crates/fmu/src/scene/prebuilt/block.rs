@@ -324,9 +324,7 @@ impl Block {
             Ok(())
         }
     }
-}
 
-impl Block {
     /// A block with these `data` for a `library`.
     pub fn filled(library: u64, data: Data) -> Block {
         let used = data.used();

@@ -117,7 +117,6 @@ impl Kind for State {
     type Contacts<T: Copy> = [T; 1];
     type Forces = Absent;
     type Momentum = Absent;
-    type Course = Present;
     type Coupling = Absent;
     type Watch = Present;
     type Shared = Absent;
@@ -134,7 +133,6 @@ impl Kind for Momentum {
     type Contacts<T: Copy> = Span<T>;
     type Forces = Present;
     type Momentum = Present;
-    type Course = Present;
     type Coupling = Absent;
     type Watch = Present;
     type Shared = Absent;
@@ -151,7 +149,6 @@ impl Kind for Moved {
     type Contacts<T: Copy> = Span<T>;
     type Forces = Present;
     type Momentum = Present;
-    type Course = Present;
     type Coupling = Any;
     type Watch = Absent;
     guarded!();
@@ -172,7 +169,6 @@ impl Kind for Lossy {
     type Contacts<T: Copy> = Span<T>;
     type Forces = Present;
     type Momentum = Present;
-    type Course = Present;
     type Coupling = Any;
     type Watch = Present;
     guarded!();
@@ -193,7 +189,6 @@ impl Kind for Rated {
     type Contacts<T: Copy> = Span<T>;
     type Forces = Present;
     type Momentum = Present;
-    type Course = Present;
     type Coupling = Any;
     type Watch = Absent;
     type Shared = Absent;
@@ -219,7 +214,6 @@ impl Kind for Damped {
     type Contacts<T: Copy> = Span<T>;
     type Forces = Present;
     type Momentum = Present;
-    type Course = Present;
     type Coupling = Any;
     type Watch = Present;
     type Shared = Absent;
@@ -244,7 +238,6 @@ macro_rules! rough {
             type Contacts<T: Copy> = Span<T>;
             type Forces = Present;
             type Momentum = Present;
-            type Course = Present;
             type Coupling = Any;
             type Watch = Present;
             together!();

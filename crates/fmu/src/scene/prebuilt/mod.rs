@@ -28,8 +28,6 @@ pub trait Kind {
     type Forces: Presence;
     /// Whether outputs may need the momentum of a step.
     type Momentum: Presence;
-    /// Whether the input may have derivatives.
-    type Course: Presence;
     /// The coupling with an importer.
     type Coupling: Coupling;
     /// Whether steps that are too long can be detected.
@@ -137,7 +135,7 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
 
     type Forces = K::Forces;
     type Momentum = K::Momentum;
-    type Course = K::Course;
+    type Course = Present;
     type Prediction = Present;
     type Coupling = K::Coupling;
     type Watch = K::Watch;
@@ -178,7 +176,7 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
 
     #[inline(always)]
     fn has_course() -> bool {
-        <K::Course as Presence>::IS_PRESENT && Self::data().has(Flag::Course)
+        Self::data().has(Flag::Course)
     }
 
     #[inline(always)]
