@@ -40,7 +40,7 @@ pub struct Arguments {
 /// The result with one law.
 struct HardnessAnswer {
     laws: String,
-    /// Yield strength [Pa], if it was requested.
+    /// Yield strength \[Pa\], if it was requested.
     yield_strength: Option<f64>,
     dent: Dent,
 }
@@ -112,7 +112,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Brinell hardness, flow stress [Pa] of the scene's target and its strain by the table that readings in scenes use: of this `hardness`,
+/// Brinell hardness, flow stress \[Pa\] of the scene's target and its strain by the table that readings in scenes use: of this `hardness`,
 /// or of the scene's strength. `None` outside that table.
 fn by_finite_elements(scene: &Scene, hardness: Option<f64>, test: (f64, f64)) -> Option<(f64, f64, f64)> {
     let [_, target] = scene.bodies_with(0, &[]);

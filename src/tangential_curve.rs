@@ -6,6 +6,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::{Mean, RoughModel, Springs};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::columns::{Column, Columns};
+use brinell_exporter::constants::MEMORY;
 use brinell_exporter::laws::Choice;
 use brinell_exporter::numbers::in_message;
 use brinell_exporter::predict::{PredictError, oblique, positive};
@@ -152,7 +153,7 @@ impl Loops {
 struct Pressed<'a> {
     model: &'a RoughModel<AnyLoading, AnyUnloading>,
     contact: History,
-    springs: Springs<16>,
+    springs: Springs<MEMORY>,
     displacement: f64,
     work: f64,
 }

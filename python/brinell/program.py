@@ -163,8 +163,8 @@ def predict(
     """Predict an impact on the first contact of a scene file.
 
     `mass` [kg] and one of `speed` [m/s], `energy` [J] and `drop_height` [m] replace those of the
-    scene; texts such as "4 g" have another unit. With `laws` (names "LOADING" or "LOADING/UNLOADING", or "all"), the result is a list with
-    a prediction for each law.
+    scene; texts such as "4 g" have another unit. With `laws` (names "LOADING" or
+    "LOADING/UNLOADING", or "all"), the result is a list with a prediction for each law.
     """
     given = {"mass": mass, "speed": speed, "energy": energy, "drop-height": drop_height}
     options = _options(given, laws)
@@ -224,9 +224,9 @@ def sweep(
     """Predictions over ranges of quantities, as columns: those that vary, `restitution`, `dent` ...;
     `valid` is 0 where the impact is outside the validity of the law.
 
-    `vary` maps the names of quantities to ranges "FROM:TO" or "FROM:TO:COUNT" in SI units or with a unit ("10 mm/s:5 m/s"): "speed",
-    "mass", "energy", "drop_height", parameters of the scene, constants of its laws. Several give
-    every combination. `mass` [kg] and `speed` [m/s] replace those of the scene.
+    `vary` maps the names of quantities to ranges "FROM:TO" or "FROM:TO:COUNT" in SI units or with a
+    unit ("10 mm/s:5 m/s"): "speed", "mass", "energy", "drop_height", parameters of the scene,
+    constants of its laws. Several give every combination. `mass` [kg] and `speed` [m/s] replace those of the scene.
 
     With "angle" [degrees from the normal] or "spin" [rad/s], varied or given, the impacts are
     oblique: `rebound_angle`, `tangential_restitution` ... `friction` and `inertia` [kg.m^2] replace

@@ -70,7 +70,7 @@ const DEVICE_IMPACT: Impact = Impact { mass: 5.45e-3, speed: 2.05 };
 /// How much stronger steel is in the impact of this device than in a slow test. It enters the choice of an exponent alone.
 const DEVICE_RATE: f64 = 1.25;
 
-/// The strain rate of hardness and tensile tests [1/s], where a strain-rate law on top of their strength starts.
+/// The strain rate of hardness and tensile tests \[1/s\], where a strain-rate law on top of their strength starts.
 pub const TEST_RATE: f64 = 1e-3;
 
 /// The rate dependence of steel if the scene gives none: that of AISI 4340.
@@ -499,7 +499,7 @@ mod tests {
         of_hardness(text, metal).unwrap_or_else(|why| panic!("{text}: {why}"))
     }
 
-    /// [MPa], by an independent computation.
+    /// \[MPa\], by an independent computation.
     #[test]
     fn strengths_are_those_of_an_independent_computation() {
         let vickers =
@@ -602,7 +602,7 @@ mod tests {
         assert_eq!(count, 18);
     }
 
-    /// Materials with both: hardness and the power law through yield and tensile strength, its stress at 8 % [MPa].
+    /// Materials with both: hardness and the power law through yield and tensile strength, its stress at 8 % \[MPa\].
     #[test]
     fn hardness_gives_the_flow_stress_of_tension_within_its_uncertainty() {
         for (hardness, metal, exponent, tension) in [

@@ -23,8 +23,8 @@ const LOG_CATEGORIES: [(&str, &str); 4] = [
     ("logAll", "all of them"),
 ];
 
-/// Writes the model description of the planned FMU with the identification `guid`, and the file of its C `source` if it has any. An FMU of 100,000 contacts has 640 MB of it,
-/// which are never in memory at once.
+/// Writes the model description of the planned FMU with the identification `guid`, and the file of its C `source` if it has any. An
+/// FMU of 100,000 contacts has 640 MB of it, which are never in memory at once.
 ///
 /// # Errors
 /// Those of `to`.

@@ -314,12 +314,12 @@ pub fn angles(text: &str) -> Result<f64, String> {
     number(text, "deg")
 }
 
-/// A spin [rad/s] on the command line.
+/// A spin \[rad/s\] on the command line.
 pub fn spins(text: &str) -> Result<f64, String> {
     number(text, "rad/s")
 }
 
-/// A moment of inertia [kg m^2] on the command line.
+/// A moment of inertia \[kg m^2\] on the command line.
 pub fn inertias(text: &str) -> Result<f64, String> {
     number(text, "kg.m^2")
 }

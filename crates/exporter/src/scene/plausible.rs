@@ -260,7 +260,7 @@ pub fn of_quantity(name: &str, value: f64) -> Option<String> {
 const SAME_BALL: f64 = 0.15;
 
 /// The doubt about a `mass` \[kg\] that would be that of a solid ball with this radius \[m\] in another unit: grams, milligrams, tonnes.
-/// Without a `density` [kg/m^3] the ball is of steel. `name` is the name of the mass.
+/// Without a `density` \[kg/m^3\] the ball is of steel. `name` is the name of the mass.
 pub fn of_ball(name: &str, mass: f64, radius: f64, density: Option<f64>) -> Option<String> {
     let solid = density.unwrap_or(STEEL) * 4.0 / 3.0 * PI * radius * radius * radius;
     let factors = [(1e-3, "1000 times"), (1e-6, "a million times"), (1e3, "a thousandth of")];
