@@ -160,7 +160,7 @@ fn restitution_on_steel<const N: usize>(laws: (&str, &str), degrees: f64, steps:
 }
 
 #[test]
-fn a_list_of_twelve_changes_rebounds_by_as_much_as_the_guide_says() {
+fn a_list_of_sixteen_changes_rebounds_by_as_much_as_the_guide_says() {
     let allowed = [
         (("hertz", "contact-radius"), 5e-6),
         (("big-alabo", "thornton"), 2e-5),
