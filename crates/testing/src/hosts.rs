@@ -12,8 +12,8 @@ use std::{fs, io};
 #[derive(Clone, Debug)]
 pub struct Interface {
     pub guid: String,
-    /// The reference of the closing rate.
-    pub input: String,
+    /// The references of the rates, with commas between them.
+    pub inputs: String,
     /// The references of the Real outputs.
     pub outputs: Vec<String>,
 }
@@ -29,12 +29,14 @@ impl Interface {
         let reference =
             |element: &&str| attribute(element, "valueReference").expect("every variable has one").to_string();
         let is = |element: &&&str, causality| attribute(element, "causality") == Some(causality);
-        let rate = variables.iter().filter(|element| is(element, "input"));
-        let rate = rate.map(reference).next().expect("a unit has an input");
+        let is_rate = |element: &&&str| attribute(element, "name").is_some_and(|name| name.contains("_rate"));
+        let rates: Vec<_> =
+            variables.iter().filter(|element| is(element, "input") && is_rate(element)).map(reference).collect();
+        assert!(!rates.is_empty(), "a unit has an input");
         let outputs = variables.iter().filter(|element| is(element, "output") && element.contains("<Real"));
         Interface {
             guid: attribute(text, "guid").expect("a unit has a GUID").into(),
-            input: rate,
+            inputs: rates.join(","),
             outputs: outputs.map(reference).collect(),
         }
     }
@@ -80,7 +82,7 @@ impl Host {
     pub fn run(&self, library: &Path, interface: &Interface, history: &Path) -> Result<Said, String> {
         let mut command = Command::new(&self.command[0]);
         command.args(&self.command[1..]).envs(self.variables.iter().map(|(name, value)| (name, value)));
-        command.arg(library).arg(&interface.guid).arg(&interface.input).args(&interface.outputs);
+        command.arg(library).arg(&interface.guid).arg(&interface.inputs).args(&interface.outputs);
         let output = command.stdin(File::open(history).expect("a history")).output();
         let output = output.map_err(|error| format!("{command:?}: {error}"))?;
         // a Windows program has other line ends

@@ -82,11 +82,8 @@ pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
     lists.add(List::Tables, tables.iter().map(Table::words));
     let runs = runs(plan, &mut lists);
     lists.add(List::Runs, runs.iter().map(Run::words));
-    let sources = sources(scene);
-    let differ = sources.iter().any(|table| *table != sources[0]);
-    if differ {
-        lists.add(List::Sources, sources.iter().copied().flatten());
-    }
+    let (sources, rows) = sources(scene);
+    lists.add(List::Sources, rows);
     if let Some(masses) = &scene.inverse_masses {
         lists.add(List::InverseMasses, inverse_masses(plan, masses).into_iter().map(|entry| [entry.to_bits()]));
     }
@@ -99,14 +96,14 @@ pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
     let kinds = constants::kinds(plan);
     let mut data = Data {
         identity: identity_of(guid),
-        flags: flags(scene) | if differ { Flag::TablesDiffer.bit() } else { 0 },
+        flags: flags(scene),
         contacts: contacts as u64,
         groups: scene.group_count() as u64,
         values: runs.last().map_or(0, |run| run.end),
         kinds: kinds.len() as u64,
         impact_mass: if scene.watches { scene.impact.mass } else { f64::NAN },
         rates: [scene.rates.target, scene.rates.impactor].map(|rate| RateNumbers::of(rate.unwrap_or(Rate::NONE))),
-        sources: sources[0],
+        sources,
         guid: guid.as_bytes().try_into().expect("a GUID has 32 digits"),
         lists: lists.ends,
         ..Data::EMPTY
@@ -194,19 +191,31 @@ fn runs(plan: &Plan, lists: &mut Lists) -> Vec<Run> {
     plan.variables.iter().filter(is_parameter).map(run).collect()
 }
 
-/// The sources of all parameters of each table.
-fn sources(scene: &Scene) -> Vec<[[u64; SOURCE_WORDS]; Parameter::ALL.len()]> {
+/// A source of a parameter as words.
+type SourceWords = [u64; SOURCE_WORDS];
+
+/// The sources of all parameters, and the rows of those that differ between tables.
+fn sources(scene: &Scene) -> ([SourceWords; Parameter::ALL.len()], Vec<SourceWords>) {
     let sources = constants::Sources::of(scene);
-    let of_table = |table: usize| {
-        Parameter::ALL.map(|(name, parameter)| {
-            block::source_words(&match sources.get(table, name) {
-                Some(Value::Settable(place)) => Source::Settable(place),
-                // for a contact before these, the index is below zero
-                Some(Value::PerContact((place, first))) => Source::PerContact(place as isize - first as isize),
-                Some(Value::Constant(value)) => Source::Constant(value),
-                None => Source::Constant(parameter.without_effect()),
-            })
+    let source = |table: usize, (name, parameter): (&str, Parameter)| {
+        block::source_words(&match sources.get(table, name) {
+            Some(Value::Settable(place)) => Source::Settable(place),
+            // for a contact before these, the index is below zero
+            Some(Value::PerContact((place, first))) => Source::PerContact(place as isize - first as isize),
+            Some(Value::Constant(value)) => Source::Constant(value),
+            None => Source::Constant(parameter.without_effect()),
         })
     };
-    (0..scene.contacts.len()).map(of_table).collect()
+    let tables = 0..scene.contacts.len();
+    let mut differing = Vec::new();
+    let of_all = Parameter::ALL.map(|parameter| {
+        let first = source(0, parameter);
+        if tables.clone().all(|table| source(table, parameter) == first) {
+            return first;
+        }
+        differing.push(parameter);
+        block::source_of_column(differing.len() - 1)
+    });
+    let rows = tables.flat_map(|table| differing.iter().map(move |&parameter| (table, parameter)));
+    (of_all, rows.map(|(table, parameter)| source(table, parameter)).collect())
 }

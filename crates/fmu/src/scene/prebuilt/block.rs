@@ -13,13 +13,13 @@ use brinell_contact::rate::Rate;
 pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 
 /// Version of the layout.
-pub const VERSION: u64 = 6;
+pub const VERSION: u64 = 7;
 
 /// Capacity for kinds of variables of a contact.
 pub const KINDS: usize = 64;
 
 /// Capacity for the [lists](List) \[words\].
-pub const POOL: usize = 4096;
+pub const POOL: usize = 16_384;
 
 /// Length of a GUID \[bytes\].
 pub const GUID: usize = 32;
@@ -75,7 +75,7 @@ pub struct Data {
     pub loss: u64,
     /// The strain rate of the target, and of the impactor.
     pub rates: [RateNumbers; 2],
-    /// Where the value of each parameter comes from; of [tables that differ](List::Sources), each has its own sources instead.
+    /// Where the value of each parameter comes from, or its [column](source_of_column) where tables differ.
     pub sources: [[u64; SOURCE_WORDS]; Parameter::ALL.len()],
     /// The GUID.
     pub guid: [u8; GUID],
@@ -95,7 +95,7 @@ pub enum List {
     Tables = 0,
     /// A row for each [`Run`] of values.
     Runs = 1,
-    /// A row for each parameter of each table, if they differ: where its value comes from.
+    /// A row for each table with a source in each column: those of the parameters whose sources differ between tables.
     Sources = 2,
     /// The inverse masses \[1/kg\].
     InverseMasses = 3,
@@ -199,6 +199,11 @@ pub fn source_words(source: &Source) -> [u64; SOURCE_WORDS] {
     }
 }
 
+/// In place of a source: the tables differ, and each has its own in this column.
+pub const fn source_of_column(column: usize) -> [u64; SOURCE_WORDS] {
+    [3, column as u64]
+}
+
 /// A part of [`List::Texts`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Text {
@@ -285,8 +290,6 @@ pub enum Flag {
     Paired = 9,
     /// The force depends on the rate.
     FollowsRate = 10,
-    /// The sources of parameters differ between tables.
-    TablesDiffer = 11,
 }
 
 impl Flag {
@@ -447,13 +450,13 @@ impl Data {
     /// The source of a parameter of the `table` with this index.
     #[inline(always)]
     pub fn source(&self, parameter: Parameter, table: impl FnOnce() -> usize) -> Option<Source> {
-        let &[kind, word] = match self.has(Flag::TablesDiffer) {
-            false => self.sources.get(parameter as usize)?,
-            true => {
+        let &[kind, word] = match self.sources.get(parameter as usize)? {
+            [3, column] => {
                 let sources: &[[u64; SOURCE_WORDS]] = self.rows(List::Sources);
-                let first = table().wrapping_mul(Parameter::ALL.len());
-                sources.get(first.wrapping_add(parameter as usize))?
+                let columns = sources.len().checked_div(self.tables())?;
+                sources.get(table().wrapping_mul(columns).wrapping_add(*column as usize))?
             }
+            source => source,
         };
         Some(match kind {
             0 => Source::Constant(f64::from_bits(word)),
