@@ -6,8 +6,10 @@
 mod book;
 mod code;
 mod comparisons;
+mod devices;
 mod links;
 mod markdown;
+mod measurements;
 mod modules;
 #[path = "../../src/parallel.rs"]
 mod parallel;

@@ -1,0 +1,179 @@
+"""Draws measurements.svg beside this file: what was measured, and what the law brinell and others say of it.
+
+    pip install matplotlib ./python
+    python docs/guide/pictures/measurements.py
+"""
+
+import csv
+import tempfile
+import warnings
+from pathlib import Path
+
+import brinell
+import matplotlib
+import numpy as np
+
+matplotlib.use("svg")
+from matplotlib import pyplot
+
+FOLDER = Path(__file__).parent
+EXPERIMENT = FOLDER.parents[2] / "data/experiment"
+BLUE, RED, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#777777"
+KGF_PER_MM2 = 9.80665e6
+LAWS = ["brinell", "big-alabo", "stronge", "ma-liu", "johnson", "kogut-etsion", "jackson-green", "thornton"]
+DEVICE = """
+name = "device"
+impactor = {{ radius = "1.5 mm", youngs_modulus = "620 GPa", poissons_ratio = 0.22 }}
+impact = {{ mass = "5.45 g", speed = 2.05 }}
+target = {{ youngs_modulus = "210 GPa", poissons_ratio = 0.3, {} }}
+"""
+# radius [mm], mass [g], speed [m/s]
+DENTED = """
+name = "device"
+impactor = {{ radius = "%s mm", youngs_modulus = "620 GPa", poissons_ratio = 0.22 }}
+impact = {{ mass = "%s g", speed = %s }}
+target = {{ youngs_modulus = "210 GPa", poissons_ratio = 0.3, {} }}
+"""
+RECORD = """
+name = "record"
+impactor = {{ radius = "0.5 mm", youngs_modulus = "630 GPa", poissons_ratio = 0.21 }}
+target = {{ youngs_modulus = "210 GPa", poissons_ratio = 0.3, yield_strength = {} }}
+"""
+GLASS = """
+name = "glass"
+impactor = { radius = "2 mm", youngs_modulus = "208 GPa", poissons_ratio = 0.3 }
+target = { youngs_modulus = "96 GPa", poissons_ratio = 0.36, density = 6100, yield_strength = "1.9 GPa" }
+law = { loading = "brinell", elastic_restitution = "waves" }
+impact = { mass = 2.6e-4, speed = 1.0 }
+"""
+
+
+def table(name):
+    """The columns of a table of numbers."""
+    lines = (EXPERIMENT / name).read_text().splitlines()
+    lines = [line for line in lines if not line.startswith("#")]
+    return np.loadtxt(lines[1:], delimiter=",").T
+
+
+class Scenes:
+    """Writes scenes to a folder and predicts their impacts."""
+
+    def __init__(self, folder):
+        self.path = Path(folder) / "scene.toml"
+
+    def __call__(self, text):
+        self.path.write_text(text)
+        return self.path
+
+
+def slow(vickers):
+    return f'hardness = "{vickers} HV10", rate = {{ model = "johnson-cook", c = 0.0 }}'
+
+
+def third(vickers):
+    return f"yield_strength = {vickers * KGF_PER_MM2 / 3.0}"
+
+
+def at_rate(vickers):
+    return f'hardness = "{vickers} HV10"'
+
+
+WAYS = (("HV/3", ":", third), ("from HV, slow", "--", slow), ("from HV, at its rate", "-", at_rate))
+
+
+def rebounds(axes, scenes):
+    """Restitution over hardness, measured and by three strengths."""
+    restitution, vickers = table("leeb_restitution.csv")
+    axes.fill_between(vickers, restitution - 0.012, restitution + 0.012, color=GREY, alpha=0.35, label="measured, +-0.012")
+    for label, style, strength in WAYS:
+        said = [brinell.predict(scenes(DEVICE.format(strength(number)))).restitution for number in vickers]
+        axes.plot(vickers, said, style, color=BLUE, label=label)
+    axes.set(xlabel="Vickers hardness [HV]", ylabel="restitution", title="rebounds of device D, law brinell")
+    axes.legend(frameon=False, fontsize=7)
+
+
+def other_laws(axes, scenes):
+    """Errors of other laws with the same strength."""
+    restitution, vickers = table("leeb_restitution.csv")
+    axes.fill_between(vickers, -1.2 / restitution, 1.2 / restitution, color=GREY, alpha=0.35, label="measured, +-0.012")
+    predictions = [brinell.predict(scenes(DEVICE.format(at_rate(number))), laws=LAWS) for number in vickers]
+    for index, law in enumerate(LAWS):
+        said = np.array([laws[index].restitution for laws in predictions])
+        style = {"linewidth": 2.5, "color": BLUE} if law == "brinell" else {"linewidth": 1.0}
+        axes.plot(vickers, 100.0 * (said / restitution - 1.0), label=law, **style)
+    axes.set(xlabel="Vickers hardness [HV]", ylabel="error of the restitution [%]", title="other laws, same strength", ylim=(-45, 65))
+    axes.legend(frameon=False, fontsize=7, ncols=2, loc="upper right")
+
+
+def dents(depths, diameters, scenes):
+    """Printed dents over hardness, and those by two strengths."""
+    with (EXPERIMENT / "leeb_dents.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["device"] in ("D", "G")]
+    for device, color in (("D", BLUE), ("G", GREEN)):
+        own = [row for row in rows if row["device"] == device]
+        row = own[0]
+        text = DENTED % (0.5 * float(row["ball_diameter_mm"]), row["mass_g"], row["speed_m_s"])
+        printed = np.array([[float(row[name]) for row in own] for name in ("vickers_hardness", "dent_depth_um", "dent_diameter_mm")])
+        depths.plot(printed[0], printed[1], "o", color=color, label=f"{device}, printed")
+        diameters.plot(printed[0], 1e3 * printed[2], "o", color=color, label=f"{device}, printed")
+        hardness = np.linspace(printed[0, 0], printed[0, -1], 15)
+        for label, style, strength in (WAYS[0], WAYS[2]):
+            said = [brinell.predict(scenes(text.format(strength(number)))) for number in hardness]
+            depths.plot(hardness, [1e6 * one.dent for one in said], style, color=color, label=f"{device}, {label}")
+            diameters.plot(hardness, [2e6 * one.largest_contact_radius for one in said], style, color=color)
+    depths.set(xlabel="Vickers hardness [HV]", ylabel="depth of the dent [um]", title="dents: depth", ylim=(0, 85))
+    diameters.set(xlabel="Vickers hardness [HV]", ylabel="diameter [um]", title="dents: diameter", ylim=0)
+    depths.legend(frameon=False, fontsize=7)
+
+
+def left_over(force, depth, loading):
+    """Recorded depths less those of a loading curve, with the best zero point and compliance."""
+    rest = depth - np.interp(force, loading[1], loading[0])
+    return rest - np.polyval(np.polyfit(force, rest, 1), force)
+
+
+def record(axes, scenes):
+    """What the best fit of each law leaves of the record of an indentation."""
+    depth, force = table("indentation_record_start.csv")
+
+    def loading(law, strength):
+        columns = brinell.curve(scenes(RECORD.format(strength)), laws=[law], to=75e-6)
+        found, pushed = (np.asarray(next(iter(columns.values()))[name]) for name in ("indentation", "force"))
+        end = np.argmax(np.diff(found) < 0.0)
+        return 1e6 * found[: end + 1], pushed[: end + 1]
+
+    for law in ("brinell", "big-alabo", "stronge", "ma-liu", "kogut-etsion"):
+        fits = [left_over(force, depth, loading(law, strength)) for strength in np.geomspace(500e6, 1500e6, 60)]
+        best = min(fits, key=lambda rest: np.sum(rest**2))
+        style = {"linewidth": 2.5, "color": BLUE} if law == "brinell" else {"linewidth": 1.0}
+        axes.plot(force, best, label=law, **style)
+    axes.set(xlabel="force [N]", ylabel="recorded depth - fit [um]", title="start of an indentation", ylim=(-0.2, 0.35))
+    axes.legend(frameon=False, fontsize=7)
+
+
+def metallic_glass(axes, scenes):
+    """Restitution over speed, and what elastic waves take."""
+    speed, restitution = table("rebounds_on_metallic_glass.csv")
+    axes.plot(speed, restitution, "o", color=RED, label="measured")
+    speeds = np.linspace(0.1, 1.2, 12)
+    axes.plot(speeds, [brinell.predict(scenes(GLASS), speed=value).restitution for value in speeds], color=BLUE, label="elastic waves")
+    axes.set(xlabel="speed [m/s]", ylabel="restitution", title="steel on metallic glass", ylim=(0.992, 1.0))
+    axes.legend(frameon=False, fontsize=7)
+
+
+def main():
+    pyplot.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.titlesize": 9, "axes.grid": True, "grid.alpha": 0.3})
+    figure, axes = pyplot.subplots(2, 3, figsize=(11.5, 6.6), layout="constrained")
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        # the ends of some curves are beyond every law
+        warnings.simplefilter("ignore", brinell.ProgramWarning)
+        scenes = Scenes(folder)
+        rebounds(axes[0, 0], scenes)
+        other_laws(axes[0, 1], scenes)
+        record(axes[0, 2], scenes)
+        dents(axes[1, 0], axes[1, 1], scenes)
+        metallic_glass(axes[1, 2], scenes)
+    figure.savefig(FOLDER / "measurements.svg", metadata={"Date": None})
+
+
+main()
