@@ -14,6 +14,7 @@ mod modules;
 #[path = "../../src/parallel.rs"]
 mod parallel;
 mod promises;
+mod record;
 mod tables;
 
 use brinell_testing::{physics, python, skips};

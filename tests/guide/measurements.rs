@@ -1,13 +1,12 @@
 //! The laws beside measurements: the tables of the page, and independent numbers.
 
 use crate::comparisons::{larger, numbers, percent, yielding};
-use crate::devices::{self, Device, SCENE, SLOW, Stress, THIRD, Way, measured, on_steel, rebounds};
-use crate::physics::AnyModel;
+use crate::devices::{self, Device, SCENE, SLOW, Stress, THIRD, Way, measured, rebounds};
 use crate::read;
+use crate::record::{Fit, least, rms};
 use crate::tables::{heading, row, shows};
 use brinell_contact::impact::Impact;
 use brinell_contact::rate::Rate;
-use brinell_contact::{Body, Loading};
 use brinell_exporter::measured::{self as exporter, STEEL_RATE};
 use brinell_exporter::predict::oblique::{self, Outcome, Setting};
 use brinell_exporter::scene::Scene;
@@ -19,30 +18,6 @@ fn range(errors: &[f64]) -> String {
     let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
     let most = errors.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     format!("{:+.1} to {:+.1} %", 100.0 * least, 100.0 * most)
-}
-
-fn rms(errors: &[f64]) -> f64 {
-    (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt()
-}
-
-/// The least of a function between two places, which has one, by golden-section search.
-fn least(function: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> f64 {
-    let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let places = |low: f64, high: f64| (high - golden * (high - low), low + golden * (high - low));
-    let (mut one, mut other) = places(low, high);
-    let (mut of_one, mut of_other) = (function(one), function(other));
-    while high - low > 1e-4 * (1.0 + low.abs()) {
-        if of_one < of_other {
-            (high, other, of_other) = (other, one, of_one);
-            one = places(low, high).0;
-            of_one = function(one);
-        } else {
-            (low, one, of_one) = (one, other, of_other);
-            other = places(low, high).1;
-            of_other = function(other);
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// A dent that makers print.
@@ -77,68 +52,6 @@ fn errors_of_dents(law: &str, way: &Way) -> [Vec<f64>; 2] {
     });
     let (depths, diameters) = errors.unzip();
     [depths, diameters]
-}
-
-/// A fit of the record of an indentation: strength, zero point and compliance are free.
-struct Fit {
-    /// \[Pa\].
-    strength: f64,
-    /// \[m/N\].
-    compliance: f64,
-    /// Of the depth \[m\].
-    rms: f64,
-}
-
-impl Fit {
-    /// The best fit by a law.
-    fn by(law: &str) -> Fit {
-        let record = record();
-        let step = |index: i32| 19.0 + 0.2 * f64::from(index);
-        let of = |logarithm: f64| Fit::with(law, logarithm.exp(), &record);
-        let first = (1..16).min_by(|one, other| of(step(*one)).rms.total_cmp(&of(step(*other)).rms)).expect("some");
-        of(least(|logarithm| of(logarithm).rms, (step(first - 1), step(first + 1))))
-    }
-
-    /// The best zero point and compliance for this strength: the recorded depth is that of the law, less the zero point, and the
-    /// compliance times the force; a straight line.
-    fn with(law: &str, strength: f64, record: &[(f64, f64)]) -> Fit {
-        let ball = Body { radius: 0.5e-3, youngs_modulus: 630e9, poissons_ratio: 0.21 };
-        let model = on_steel(law, &ball, strength);
-        let last = record.iter().enumerate().max_by(|one, other| one.1.1.total_cmp(&other.1.1)).expect("some").0;
-        let largest = depth_under(&model, record[last].1);
-        let path = model.unloading_path(largest);
-        let of = |place: usize, force: f64| match place <= last {
-            true => depth_under(&model, force),
-            false => root((path.lower, largest), |depth| path.force(depth) < force),
-        };
-        let rest = record.iter().enumerate().map(|(place, &(depth, force))| (force, depth - of(place, force)));
-        let rest: Vec<_> = rest.collect();
-        let mean = |of: &dyn Fn(&(f64, f64)) -> f64| rest.iter().map(of).sum::<f64>() / rest.len() as f64;
-        let (force, depth) = (mean(&|point| point.0), mean(&|point| point.1));
-        let compliance =
-            mean(&|point| (point.0 - force) * (point.1 - depth)) / mean(&|point| (point.0 - force).powi(2));
-        let errors: Vec<f64> = rest.iter().map(|point| point.1 - depth - compliance * (point.0 - force)).collect();
-        Fit { strength, compliance, rms: rms(&errors) }
-    }
-}
-
-/// Depth \[m\] and force \[N\] to the end of the first unloading.
-fn record() -> Vec<(f64, f64)> {
-    numbers("data/experiment/indentation_record_start.csv", "").iter().map(|row| (1e-6 * row[0], row[1])).collect()
-}
-
-/// The indentation \[m\] under this force \[N\], on the loading curve.
-fn depth_under(model: &AnyModel, force: f64) -> f64 {
-    root((0.0, 1e-4), |depth| model.loading.segment(&model.pair, depth).force(depth) < force)
-}
-
-/// The place between two up to which something holds.
-fn root((mut low, mut high): (f64, f64), is_below: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..36 {
-        let middle = 0.5 * (low + high);
-        *(if is_below(middle) { &mut low } else { &mut high }) = middle;
-    }
-    0.5 * (low + high)
 }
 
 /// Every law on every set with which laws differ.
@@ -380,15 +293,6 @@ fn the_strength_of_the_tables_is_that_of_a_scene() {
         assert!((found.strength / said.yield_strength - 1.0).abs() < 1e-8, "{vickers} HV");
         assert!((found.strain_rate / said.strain_rate - 1.0).abs() < 1e-6, "{vickers} HV");
     }
-}
-
-/// An independent fit, with another choice of points, has 865 to 874 MPa.
-#[test]
-fn the_record_of_an_indentation_gives_the_strength_of_an_independent_fit_within_8_percent() {
-    let fit = Fit::by("brinell");
-    assert!((fit.strength / 870e6 - 1.0).abs() < 0.08, "{} Pa", fit.strength);
-    // the depth has steps of 0.0625 um
-    assert!(fit.rms < 0.08e-6 && (0.0..20e-9).contains(&fit.compliance), "{} m, {} m/N", fit.rms, fit.compliance);
 }
 
 /// From the device C to D, which throws the same ball with 4.1 times the energy, a dent grows by 1.4: printed and computed at 300 and

@@ -126,29 +126,38 @@ def dents(depths, diameters, scenes):
     depths.legend(frameon=False, fontsize=7)
 
 
-def left_over(force, depth, loading):
-    """Recorded depths less those of a loading curve, with the best zero point and compliance."""
-    rest = depth - np.interp(force, loading[1], loading[0])
-    return rest - np.polyval(np.polyfit(force, rest, 1), force)
+def branches(columns):
+    """Force and depth [um] of the loading and of the unloading that a curve begins with."""
+    columns = next(iter(columns.values()))
+    depth, force = 1e6 * np.asarray(columns["indentation"]), np.asarray(columns["force"])
+    top = np.argmax(np.diff(depth) < 0.0)
+    bottom = top + np.argmax(np.diff(depth[top:]) > 0.0)
+    return (force[: top + 1], depth[: top + 1]), (force[top : bottom + 1][::-1], depth[top : bottom + 1][::-1])
 
 
 def record(axes, scenes):
-    """What the best fit of each law leaves of the record of an indentation."""
+    """What the best fit of each law leaves of the record of an indentation: strength, zero point and compliance are free."""
     depth, force = table("indentation_record_start.csv")
+    last = np.argmax(force)
 
-    def loading(law, strength):
-        columns = brinell.curve(scenes(RECORD.format(strength)), laws=[law], to=75e-6)
-        found, pushed = (np.asarray(next(iter(columns.values()))[name]) for name in ("indentation", "force"))
-        end = np.argmax(np.diff(found) < 0.0)
-        return 1e6 * found[: end + 1], pushed[: end + 1]
+    def left_over(law, strength):
+        scene = scenes(RECORD.format(strength))
+        loading, _ = branches(brinell.curve(scene, laws=[law], to=75e-6))
+        # a curve first loads to two thirds of its end
+        largest = np.interp(force[last], *loading)
+        loading, unloading = branches(brinell.curve(scene, laws=[law], to=1.5e-6 * largest))
+        said = np.concatenate([np.interp(force[: last + 1], *loading), np.interp(force[last + 1 :], *unloading)])
+        rest = depth - said
+        return rest - np.polyval(np.polyfit(force, rest, 1), force)
 
-    for law in ("brinell", "big-alabo", "stronge", "ma-liu", "kogut-etsion"):
-        fits = [left_over(force, depth, loading(law, strength)) for strength in np.geomspace(500e6, 1500e6, 60)]
+    for law in ("brinell", "big-alabo", "ma-liu", "jackson-green", "kogut-etsion"):
+        fits = [left_over(law, strength) for strength in np.geomspace(600e6, 1500e6, 50)]
         best = min(fits, key=lambda rest: np.sum(rest**2))
         style = {"linewidth": 2.5, "color": BLUE} if law == "brinell" else {"linewidth": 1.0}
-        axes.plot(force, best, label=law, **style)
-    axes.set(xlabel="force [N]", ylabel="recorded depth - fit [um]", title="start of an indentation", ylim=(-0.2, 0.35))
-    axes.legend(frameon=False, fontsize=7)
+        (line,) = axes.plot(force[: last + 1], best[: last + 1], label=law, **style)
+        axes.plot(force[last:], best[last:], ":", color=line.get_color())
+    axes.set(xlabel="force [N] (dotted: unloading)", ylabel="recorded depth - fit [um]", title="start of an indentation", ylim=(-0.6, 0.7))
+    axes.legend(frameon=False, fontsize=7, ncols=2)
 
 
 def metallic_glass(axes, scenes):
