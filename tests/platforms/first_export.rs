@@ -1,5 +1,5 @@
-//! The whole way of a user without a compiler: an empty Python environment, the wheel, an export for every machine, and
-//! its FMU on Linux, Windows and arm64 Linux.
+//! The whole way of a user without a compiler: an empty Python environment, the wheel, exports of all scenes for every machine and
+//! as C source, and their FMUs on Linux, Windows and arm64 Linux and from their source.
 //!
 //! The wheel is that of BRINELL_WHEEL, otherwise packaging/release.py makes one of the program under test. The prebuilt libraries
 //! in it are those of BRINELL_PREBUILT, otherwise of `brinell prebuild` with the toolchain of BRINELL_TOOLCHAIN.
@@ -12,6 +12,7 @@ use crate::python;
 use crate::skips;
 use crate::systems;
 use crate::toolchain;
+use std::collections::HashSet;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,10 +29,10 @@ fn store(folder: &Path) -> Option<PathBuf> {
     if let Some(store) = named("BRINELL_PREBUILT") {
         return Some(store);
     }
-    let toolchain = toolchain::toolchain()?;
+    let toolchain = toolchain::toolchain_for_c()?;
     let store = folder.join("store");
     let mut prebuild = brinell(folder);
-    prebuild.env("BRINELL_TOOLCHAIN", toolchain).args(["prebuild", "--platforms", "all", "-o"]);
+    prebuild.env("BRINELL_TOOLCHAIN", toolchain).args(["prebuild", "--platforms", "all,c-code", "-o"]);
     output(prebuild.arg(&store)).with_status(0);
     Some(store)
 }
@@ -51,9 +52,20 @@ fn wheel(folder: &Path) -> Option<PathBuf> {
     Some(folder.join("dist").join(name))
 }
 
+/// The folders of an FMU for every system, and C source.
+const PLATFORMS: [&str; 5] = ["aarch64-linux", "c-code", "darwin64", "linux64", "win64"];
+
+/// The library of the `folder` of a system among the `binaries` of an unpacked FMU.
+fn library(unpacked: &Path, folder: &str) -> PathBuf {
+    let folder = unpacked.join("binaries").join(folder);
+    let mut files = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    files.next().expect("a library").expect("a readable folder").path()
+}
+
+/// Every scene of the repository, by the program of a wheel alone, for every system and as C source.
 #[test]
 #[ignore = "350 MB to download: cargo test --release --test platforms first_export -- --ignored --nocapture"]
-fn a_wheel_in_an_empty_environment_makes_an_fmu_that_runs_on_every_system_here() {
+fn a_wheel_in_an_empty_environment_makes_fmus_that_run_on_every_system_here() {
     let folder = empty_folder();
     let folder = folder.path();
     let Some(wheel) = wheel(folder) else { return };
@@ -62,44 +74,57 @@ fn a_wheel_in_an_empty_environment_makes_an_fmu_that_runs_on_every_system_here()
     let mut pip = Command::new(environment.join("bin/python"));
     output(pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps"]).arg(&wheel))
         .with_status(0);
-    // nothing of a compiler, and nothing of the environment of this test
-    let mut export = Command::new(environment.join("bin/brinell"));
-    export.env_clear().env("PATH", folder.join("nothing")).env("HOME", folder).current_dir(folder);
-    let start = Instant::now();
-    let said = output(export.arg("export").arg(scene("steel_ball")).args(["--json", "-o", "unit.fmu"])).with_status(0);
-    let seconds = start.elapsed().as_secs_f64();
-    let libraries = said.json()["libraries"].as_object().expect("libraries").keys().cloned().collect::<Vec<_>>();
-    assert_eq!(libraries, ["aarch64-linux", "darwin64", "linux64", "win64"], "darwin64 is for two processors");
-    let fmu = folder.join("unit.fmu");
-    let size = fs::metadata(&fmu).expect("an FMU").len();
-    let _ = writeln!(stderr(), "{}: {size} bytes in {seconds:.2} s", wheel.display());
-
-    let unpacked = folder.join("unpacked");
-    output(Command::new("python3").args(["-m", "zipfile", "-e"]).args([&fmu, &unpacked])).with_status(0);
-    let interface = Interface::of(&fs::read_to_string(unpacked.join("modelDescription.xml")).expect("unpacked"));
-    let library = |platform: &str, ending: &str| unpacked.join(format!("binaries/{platform}/steel_ball.{ending}"));
     let history = courses::history();
     let ordinary =
         compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}"));
-    let run = |host: &Host, library: &Path| {
-        host.run(library, &interface, &history).unwrap_or_else(|why| panic!("{}: {why}", library.display()))
-    };
-    let expected = run(&Host::program(ordinary), &library("linux64", "so"));
-    courses::assert_rich(&expected.bits);
-    let by_fmpy = systems::by_fmpy(&fmu, &history, None).unwrap_or_else(|why| panic!("fmpy: {why}"));
-    assert!(by_fmpy.lines().count() > 400, "{} lines", by_fmpy.lines().count());
-    let others = [("aarch64-linux", "so", systems::arm64_linux()), ("win64", "dll", systems::windows())];
-    for (platform, ending, system) in others {
-        match system {
-            Err(why) => skips::skipped(platform, &why),
-            Ok(system) => {
-                assert!(
-                    run(&system.host, &library(platform, ending)).bits == expected.bits,
-                    "{}: other bits",
-                    system.name
-                );
-                let _ = writeln!(stderr(), "{platform} by {}: the same bits as here", system.name);
+    let others = [("aarch64-linux", systems::arm64_linux()), ("win64", systems::windows())];
+    let mut scenes = contents(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"));
+    scenes.retain(|name| name.ends_with(".toml"));
+    assert!(scenes.len() > 10, "{scenes:?}");
+    for name in scenes.iter().map(|name| name.trim_end_matches(".toml")) {
+        // nothing of a compiler, and nothing of the environment of this test
+        let mut export = Command::new(environment.join("bin/brinell"));
+        export.env_clear().env("PATH", folder.join("nothing")).env("HOME", folder).current_dir(folder);
+        export.arg("export").arg(scene(name)).args(["--json", "-o", "unit.fmu"]);
+        let start = Instant::now();
+        let said = output(export.args(["--platforms", &PLATFORMS.join(",")])).with_status(0);
+        let seconds = start.elapsed().as_secs_f64();
+        let libraries = said.json()["libraries"].as_object().expect("libraries").keys().cloned().collect::<Vec<_>>();
+        assert_eq!(libraries, PLATFORMS, "{name}: darwin64 is for two processors");
+        let fmu = folder.join("unit.fmu");
+        let size = fs::metadata(&fmu).expect("an FMU").len();
+        let _ = writeln!(stderr(), "{name}: {size} bytes in {seconds:.2} s");
+
+        let unpacked = folder.join(name);
+        output(Command::new("python3").args(["-m", "zipfile", "-e"]).args([&fmu, &unpacked])).with_status(0);
+        let interface = Interface::of(&fs::read_to_string(unpacked.join("modelDescription.xml")).expect("unpacked"));
+        let run = |host: &Host, library: &Path| {
+            host.run(library, &interface, &history).unwrap_or_else(|why| panic!("{}: {why}", library.display())).bits
+        };
+        let expected = run(&Host::program(ordinary.clone()), &library(&unpacked, "linux64"));
+        // the many contacts are far from their surface most of the time
+        let different = expected.lines().collect::<HashSet<_>>().len();
+        assert!(different > 15, "{name}: {different} different lines");
+        let compiled = unpacked.join("compiled.so");
+        let headers = format!("-I{}", python::site_packages_file("fmpy/c-code").display());
+        let options = ["-O1", "-shared", "-fPIC", "-DFMI2_OVERRIDE_FUNCTION_PREFIX", &headers, "-o"];
+        output(Command::new("gcc").args(options).args([&compiled, &unpacked.join("sources/fmi2.c")])).with_status(0);
+        assert!(run(&Host::program(ordinary.clone()), &compiled) == expected, "{name}: other bits from C source");
+        for (platform, system) in &others {
+            match system {
+                Err(why) => skips::skipped(platform, why),
+                Ok(system) => {
+                    assert!(
+                        run(&system.host, &library(&unpacked, platform)) == expected,
+                        "{name} on {}: other bits",
+                        system.name
+                    );
+                }
             }
+        }
+        if name == "steel_ball" {
+            let by_fmpy = systems::by_fmpy(&fmu, &history, None).unwrap_or_else(|why| panic!("fmpy: {why}"));
+            assert!(by_fmpy.lines().count() > 400, "{} lines", by_fmpy.lines().count());
         }
     }
 }

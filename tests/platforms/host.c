@@ -1,6 +1,6 @@
-/* An FMU's library in a host: host LIBRARY GUID INPUT OUTPUT... < HISTORY
+/* An FMU's library in a host: host LIBRARY GUID INPUT[,INPUT...] OUTPUT... < HISTORY
 
-   INPUT and OUTPUT are value references. Each line of HISTORY contains the value of the input and a step [s], each as the
+   INPUT and OUTPUT are value references. Each line of HISTORY contains the value of all inputs and a step [s], each as the
    16 hexadecimal digits of its bits. The outputs after each step are printed in the same format. The second half is repeated
    from a state that was serialized. After the word "end", the program prints the host, how often the FMU allocated and freed
    memory of the importer, and the message of a rejected call. The exit status is 0 if every call succeeded as expected. */
@@ -57,8 +57,8 @@ struct step {
 };
 
 struct way {
-    fmi2ValueReference input, outputs[64];
-    size_t output_count, step_count;
+    fmi2ValueReference inputs[64], outputs[64];
+    size_t input_count, output_count, step_count;
     struct step *steps;
 };
 
@@ -68,7 +68,11 @@ static void go(fmi2Component c, const struct way *way, size_t first, double *val
     for (size_t i = 0; i < way->step_count; i++) {
         const struct step *step = &way->steps[i];
         if (i >= first) {
-            demand(fmi_of_host.SetReal(c, &way->input, 1, &step->input) == fmi2OK, "SetReal");
+            double rates[64];
+            for (size_t j = 0; j < way->input_count; j++) {
+                rates[j] = step->input;
+            }
+            demand(fmi_of_host.SetReal(c, way->inputs, way->input_count, rates) == fmi2OK, "SetReal");
             demand(fmi_of_host.DoStep(c, time, step->size, fmi2True) == fmi2OK, "DoStep");
             double *row = values + i * way->output_count;
             demand(fmi_of_host.GetReal(c, way->outputs, way->output_count, row) == fmi2OK, "GetReal");
@@ -125,10 +129,16 @@ static void print(const struct way *way, const double *values) {
 
 int main(int count, char **arguments) {
     if (count < 5 || count > 4 + 64) {
-        fprintf(stderr, "usage: host LIBRARY GUID INPUT OUTPUT...\n");
+        fprintf(stderr, "usage: host LIBRARY GUID INPUT[,INPUT...] OUTPUT...\n");
         return 2;
     }
-    struct way way = {.input = (fmi2ValueReference)strtoul(arguments[3], NULL, 10), .output_count = (size_t)count - 4};
+    struct way way = {.output_count = (size_t)count - 4};
+    for (char *next = arguments[3]; *next != '\0' && way.input_count < 64; next += strcspn(next, ",") + 1) {
+        way.inputs[way.input_count++] = (fmi2ValueReference)strtoul(next, NULL, 10);
+        if (next[strcspn(next, ",")] == '\0') {
+            break;
+        }
+    }
     for (int i = 4; i < count; i++) {
         way.outputs[i - 4] = (fmi2ValueReference)strtoul(arguments[i], NULL, 10);
     }

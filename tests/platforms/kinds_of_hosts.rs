@@ -106,7 +106,7 @@ fn fmus_run_on_an_old_c_library() {
     fs::write(&source, "void *dlopen(const char *, int); void *f(void) { return dlopen(0, 1); }").unwrap();
     let made = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(&source).status().unwrap();
     assert!(made.success());
-    let interface = Interface { guid: "-".into(), input: "0".into(), outputs: vec!["0".into()] };
+    let interface = Interface { guid: "-".into(), inputs: "0".into(), outputs: vec!["0".into()] };
     let refusal = host.run(&library, &interface, &courses::history()).unwrap_err();
     assert!(refusal.contains("version `GLIBC_2.3"), "{refusal}");
 }

@@ -8,7 +8,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{fs, io};
 
-/// The parts of a model description that a host needs.
+/// The most inputs, and the most outputs, that a host takes.
+const MOST: usize = 60;
+
+/// The parts of a model description that a host needs: of an FMU with many contacts, the first of them.
 #[derive(Clone, Debug)]
 pub struct Interface {
     pub guid: String,
@@ -30,14 +33,14 @@ impl Interface {
             |element: &&str| attribute(element, "valueReference").expect("every variable has one").to_string();
         let is = |element: &&&str, causality| attribute(element, "causality") == Some(causality);
         let is_rate = |element: &&&str| attribute(element, "name").is_some_and(|name| name.contains("_rate"));
-        let rates: Vec<_> =
-            variables.iter().filter(|element| is(element, "input") && is_rate(element)).map(reference).collect();
+        let rates = variables.iter().filter(|element| is(element, "input") && is_rate(element));
+        let rates: Vec<_> = rates.map(reference).take(MOST).collect();
         assert!(!rates.is_empty(), "a unit has an input");
         let outputs = variables.iter().filter(|element| is(element, "output") && element.contains("<Real"));
         Interface {
             guid: attribute(text, "guid").expect("a unit has a GUID").into(),
             inputs: rates.join(","),
-            outputs: outputs.map(reference).collect(),
+            outputs: outputs.map(reference).take(MOST).collect(),
         }
     }
 
