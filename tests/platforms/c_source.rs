@@ -74,7 +74,7 @@ impl Fmu {
             let said = host.run(&self.native(), &interface, &courses::history());
             said.unwrap_or_else(|why| panic!("{what}: {why}"))
         });
-        courses::assert_rich(&native.bits);
+        courses::assert_moving(&native.bits);
         assert!(native.bits == linked.bits, "{what}: other bits");
         assert_eq!(native.message, linked.message, "{what}");
     }

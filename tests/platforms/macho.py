@@ -13,7 +13,7 @@ from unicorn import UC_ARCH_ARM64, UC_ARCH_X86, UC_HOOK_CODE, UC_MODE_64, UC_MOD
 from unicorn import arm64_const as arm
 from unicorn import x86_const as x86
 
-FUNCTIONS = 34
+FUNCTIONS = 44
 OLDEST = {"x86_64": (10, 12), "arm64": (11, 0)}
 CODE_DIRECTORY, ADHOC, SHA256 = 0xFADE0C02, 0x2, 2
 LOG_ARGUMENTS = 5

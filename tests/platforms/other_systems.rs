@@ -64,7 +64,7 @@ impl Fmu {
         let interface = Interface::of(&description);
         let expected = host.run(&library(&folder, "linux64"), &interface, &courses::history());
         let expected = expected.unwrap_or_else(|why| panic!("{name}: {why}"));
-        courses::assert_rich(&expected.bits);
+        courses::assert_moving(&expected.bits);
         Fmu { name: name.into(), file, folder, interface, expected }
     }
 }

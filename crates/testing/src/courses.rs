@@ -55,12 +55,18 @@ pub fn history() -> PathBuf {
 /// Checks that the outputs are worth comparing: one line for each step, most of them different.
 #[track_caller]
 pub fn assert_rich(bits: &str) {
+    assert_different(bits, STEPS / 2);
+}
+
+/// The same for any scene: bodies that the FMU moves, and contacts far from each other, touch seldom in this history.
+#[track_caller]
+pub fn assert_moving(bits: &str) {
+    assert_different(bits, 15);
+}
+
+#[track_caller]
+fn assert_different(bits: &str, least: usize) {
     let lines: Vec<_> = bits.lines().collect();
     let different: HashSet<_> = lines.iter().collect();
-    assert!(
-        lines.len() == STEPS && different.len() > STEPS / 2,
-        "{} lines, {} different",
-        lines.len(),
-        different.len()
-    );
+    assert!(lines.len() == STEPS && different.len() > least, "{} lines, {} different", lines.len(), different.len());
 }
