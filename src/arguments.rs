@@ -91,6 +91,9 @@ pub enum Command {
     /// Print a scene with all numbers in SI units, for programs that read TOML and know no units
     #[command(hide = true)]
     Si { scene: PathBuf },
+    /// Print numbers that have units in SI units, as JSON: "target.yield_strength=400 MPa"
+    #[command(hide = true)]
+    Numbers { numbers: Vec<String> },
     /// Prints the Rust source of the prebuilt library that a scene fits into
     #[command(hide = true)]
     Kind { scene: PathBuf },

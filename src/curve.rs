@@ -17,7 +17,6 @@ use brinell_exporter::plot::{Picture, Series};
 use brinell_exporter::predict::{PredictError, oblique};
 use brinell_exporter::scene::{Scene, plausible};
 use brinell_exporter::{predict, units, validity};
-use serde_json::json;
 use std::error::Error;
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -91,7 +90,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
         (None, _) => {
             let columns = columns(&choices, largest, impact).map_err(too_deep)?;
             match as_json {
-                true => json_line(&json!({ "laws": columns.json() })),
+                true => json_line(&columns.json()),
                 false => table(&columns),
             }
         }
@@ -127,7 +126,7 @@ fn tangential(
     let loops = Loops::of(scene, &choices, wanted).map_err(WrongCall::of)?;
     let text = match &arguments.output {
         Some(_) => loops.columns().csv(),
-        None if as_json => json_line(&json!({ "laws": loops.columns().json() })),
+        None if as_json => json_line(&loops.columns().json()),
         None => loops.text(),
     };
     Ok(deliver(&text, arguments.output.as_deref())?)

@@ -39,8 +39,10 @@ mod tangential_curve;
 mod truth;
 
 use arguments::{Arguments, Command, PlatformArguments};
+use brinell_exporter::layout::json_line;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::prebuilt::Library;
+use brinell_exporter::predict::axis;
 use brinell_exporter::{constants, numbers};
 use clap::Parser;
 use messages::WrongCall;
@@ -147,6 +149,10 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             print!("{}", constants::write(&Plan::of(&scene), "unpacked"));
         }
         Some(Command::Si { scene }) => print!("{}", scene_file::in_si(scene)?),
+        Some(Command::Numbers { numbers }) => {
+            let numbers = numbers.iter().map(|words| axis::in_si(words)).collect::<Result<Vec<_>, _>>();
+            print!("{}", json_line(&serde_json::json!(numbers.map_err(WrongCall)?)));
+        }
         Some(Command::Kind { scene }) => {
             let library = Library::of(&scene_file::read(scene)?);
             print!("{}", library.source_with("unpacked"));

@@ -220,7 +220,11 @@ impl Question<'_> {
         let Impact { mass, speed } = impact;
         let text = match output {
             Some(_) => sweep.columns.csv(),
-            None if self.as_json => json_line(&json!({ "mass": mass, "speed": speed, "laws": sweep.columns.json() })),
+            None if self.as_json => {
+                let mut object = sweep.columns.json();
+                (object["mass"], object["speed"]) = (json!(mass), json!(speed));
+                json_line(&object)
+            }
             None => sweep.text(setting.map_or(&SHOWN, |_| &oblique::SHOWN)),
         };
         Ok(deliver(&text, output)?)

@@ -2,6 +2,7 @@
 
 use crate::layout;
 use crate::numbers::{Prefixed, cell, prefixed};
+use crate::regime;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -66,8 +67,10 @@ impl Columns {
         text
     }
 
-    /// A list of laws, each with a list of numbers for every column. A number that is not finite becomes null.
+    /// `columns` in their order, each with its unit, which is empty for a dimensionless number; `regimes`, the names of the numbers in
+    /// a column of that name; and `laws`, each with a list of numbers for every column. A number that is not finite becomes null.
     pub fn json(&self) -> Value {
+        let head = |column: &Column| json!({ "name": column.key(), "unit": column.unit });
         let law = |(law, rows): &(String, Vec<Vec<f64>>)| {
             let mut object = Map::new();
             object.insert("law".into(), json!(law));
@@ -76,7 +79,8 @@ impl Columns {
             }
             Value::Object(object)
         };
-        self.laws.iter().map(law).collect()
+        let heads: Vec<_> = self.columns.iter().map(head).collect();
+        json!({ "columns": heads, "regimes": regime::names(), "laws": self.laws.iter().map(law).collect::<Vec<_>>() })
     }
 
     /// A table with at most `most` rows of each law, with the columns of these `names` and four digits.

@@ -14,6 +14,12 @@ pub fn words(regime: Regime) -> &'static str {
     }
 }
 
+/// The names of all regimes, in the order of their numbers.
+pub fn names() -> [&'static str; 6] {
+    use Regime::{Apart, Elastic, ElastoplasticFirst, ElastoplasticSecond, FullyPlastic, Unloaded};
+    [Apart, Elastic, ElastoplasticFirst, ElastoplasticSecond, FullyPlastic, Unloaded].map(words)
+}
+
 /// A short name for a narrow column.
 pub fn short(regime: Regime) -> &'static str {
     words(regime).split(" (").next().unwrap_or_default()

@@ -1,6 +1,7 @@
 //! `brinell predict` over ranges: tables and their warnings, and impacts with too little energy.
 
 use crate::command::{empty_folder, run, scene};
+use serde_json::json;
 use std::collections::BTreeSet;
 use std::fs;
 
@@ -155,6 +156,63 @@ fn sweeps_over_several_quantities_are_those_of_scenes_with_them() {
     assert_eq!(json["laws"][0]["largest_force"].as_array().unwrap().len(), row);
     let short = asked(&[]).out;
     assert!(short.lines().count() < 20 && short.contains("9 of 12 values"), "{short}");
+}
+
+#[test]
+fn a_sweep_over_a_list_has_its_values_in_their_order() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let asked = |range: &str| run(folder.path(), ["predict", &scene, "--sweep", range, "--json"]);
+    for (range, values) in [
+        ("speed=3,1,2", json!([3.0, 1.0, 2.0])),
+        ("speed=1 m/s,50 cm/s", json!([1.0, 0.5])),
+        ("speed=1.0,2.0", json!([1.0, 2.0])),
+        ("speed=2,", json!([2.0])),
+    ] {
+        assert_eq!(asked(range).with_status(0).json()["laws"][0]["speed"], values, "{range}");
+    }
+    for (range, words) in [
+        ("speed=1,5", "this is a decimal comma; write 1.5"),
+        ("speed=1,x,2", "`x`"),
+        ("speed=1 m/s,2 kg", "kg is a mass"),
+        ("speed=2,-1,1", "speed = -1 must be positive"),
+    ] {
+        let failed = asked(range).with_status(2).err;
+        assert!(failed.contains(words), "{range}: {failed}");
+    }
+}
+
+#[test]
+fn the_columns_of_a_table_in_json_have_units_and_the_regimes_names() {
+    let folder = empty_folder();
+    let scene = scene("mass_known").display().to_string();
+    for arguments in [&["predict", &scene, "--sweep", "speed=0.1:1:2", "--json"][..], &["curve", &scene, "--json"]] {
+        let table = run(folder.path(), arguments).with_status(0).json();
+        let columns = table["columns"].as_array().unwrap();
+        for column in columns {
+            assert!(table["laws"][0][column["name"].as_str().unwrap()].is_array(), "{column}");
+        }
+        let name = if arguments[0] == "curve" { "force" } else { "largest_force" };
+        assert!(columns.contains(&json!({ "name": name, "unit": "N" })), "{columns:?}");
+        assert_eq!(table["regimes"][4], "fully plastic");
+    }
+}
+
+#[test]
+fn numbers_with_units_become_numbers_in_si_units() {
+    let folder = empty_folder();
+    let given =
+        ["target.yield_strength=400 MPa", "bead[3].initial_gap=-5 um", "speed=3.6 km/h", "mass=2.5", "angle=0.5 rad"];
+    let numbers = run(folder.path(), ["numbers"].iter().chain(&given)).with_status(0).json();
+    assert_eq!(numbers, json!([400e6, -5e-6, 1.0, 2.5, 0.5_f64.to_degrees()]));
+    for (wrong, words) in [
+        ("mass=4 m", "mass = 4 m: m is a length; a mass has a unit like"),
+        ("yield=4 MPa", "no quantity is called `yield`; did you mean `target.yield_strength`?"),
+        ("mass", "expected NAME=NUMBER"),
+    ] {
+        let failed = run(folder.path(), ["numbers", wrong]).with_status(2).err;
+        assert!(failed.contains(words), "{failed}");
+    }
 }
 
 /// One would silently win.

@@ -22,6 +22,8 @@ pub struct Axis {
     pub to: f64,
     /// Number of values, if the user gives it.
     count: Option<usize>,
+    /// The values themselves, if the user lists them.
+    listed: Option<Vec<f64>>,
 }
 
 /// The quantities of an impact, with their units.
@@ -40,28 +42,44 @@ const WITHOUT_EFFECT: [&str; 1] = ["initial_gap"];
 const MOST: usize = 10_000;
 
 impl Axis {
-    /// The axis described by `words`: NAME=FROM:TO or NAME=FROM:TO:COUNT.
+    /// The axis described by `words`: NAME=FROM:TO, NAME=FROM:TO:COUNT, or NAME=VALUE,VALUE,...
     ///
     /// # Errors
     /// [`PredictError::Sweep`] with the mistake and the expected form.
     pub fn parse(words: &str) -> Result<Axis, PredictError> {
         let wrong = |why: &str| {
             PredictError::Sweep(format!(
-                "{words}: {why}; expected NAME=FROM:TO or NAME=FROM:TO:COUNT, such as speed=0.01:10 or \
+                "{words}: {why}; expected NAME=FROM:TO, NAME=FROM:TO:COUNT or NAME=VALUE,VALUE,..., such as speed=0.01:10 or \
                  \"target.yield_strength=200 MPa:900 MPa:8\""
             ))
         };
         let (name, range) = words.split_once('=').ok_or_else(|| wrong("no `=`"))?;
         let (name, unit) = find(name).map_err(|why| PredictError::Sweep(format!("{words}: {why}")))?;
+        let number = |text: &str| {
+            let number = units::number(text, unit).map_err(|why| wrong(&format!("`{text}`: {why}")))?;
+            if number.is_finite() { Ok(number) } else { Err(wrong(&format!("`{text}` is no finite number"))) }
+        };
         let parts: Vec<&str> = range.split(':').collect();
+        if let [list] = parts.as_slice()
+            && list.contains(',')
+        {
+            if let Some(comma) = units::decimal_comma(list) {
+                return Err(wrong(&comma));
+            }
+            // a list of one number ends in a comma
+            let list = list.strip_suffix(',').unwrap_or(list);
+            let listed = list.split(',').map(number).collect::<Result<Vec<_>, _>>()?;
+            if listed.len() > MOST {
+                return Err(wrong(&format!("{} values: at most {MOST} are allowed", listed.len())));
+            }
+            let from = listed.iter().copied().fold(f64::INFINITY, f64::min);
+            let to = listed.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            return Ok(Axis { name, unit, from, to, count: None, listed: Some(listed) });
+        }
         let (from, to, count) = match parts.as_slice() {
             [from, to] => (from, to, None),
             [from, to, count] => (from, to, Some(*count)),
             _ => return Err(wrong("no range")),
-        };
-        let number = |text: &str| {
-            let number = units::number(text, unit).map_err(|why| wrong(&format!("`{text}`: {why}")))?;
-            if number.is_finite() { Ok(number) } else { Err(wrong(&format!("`{text}` is no finite number"))) }
         };
         let (from, to) = (number(from)?, number(to)?);
         if from >= to {
@@ -71,7 +89,7 @@ impl Axis {
             Ok(count) if (2..=MOST).contains(&count) => Ok(count),
             _ => Err(wrong(&format!("COUNT = {text} must be a whole number from 2 to {MOST}"))),
         });
-        Ok(Axis { name, unit, from, to, count: count.transpose()? })
+        Ok(Axis { name, unit, from, to, count: count.transpose()?, listed: None })
     }
 
     /// Whether the values are spaced logarithmically: the range has a decade or more, and is not one of angles.
@@ -79,8 +97,11 @@ impl Axis {
         self.name != "angle" && self.from > 0.0 && self.to >= 10.0 * self.from
     }
 
-    /// The values: the user's number of them, otherwise `usual`. They include both ends unchanged.
+    /// The values: those that the user lists, or the user's number of them, otherwise `usual`. They include both ends unchanged.
     pub fn values(&self, usual: usize) -> Vec<f64> {
+        if let Some(listed) = &self.listed {
+            return listed.clone();
+        }
         let count = self.count.unwrap_or(usual);
         let part = |index: usize| index as f64 / (count - 1) as f64;
         let value = |index: usize| match index {
@@ -114,6 +135,22 @@ fn find(name: &str) -> Result<(&'static str, &'static str), String> {
             ))
         }
     }
+}
+
+/// The number in SI units that `words`, NAME=NUMBER, say of a quantity or a parameter of an FMU. In front of the parameter there may
+/// be its contact: `bead[3].initial_gap`.
+///
+/// # Errors
+/// What is wrong, and what is allowed.
+pub fn in_si(words: &str) -> Result<f64, String> {
+    let (name, text) = words.split_once('=').ok_or_else(|| format!("{words}: no `=`; expected NAME=NUMBER"))?;
+    let parts = name.match_indices('.').map(|(dot, _)| &name[dot + 1..]);
+    let variable = |own: &str| VARIABLES.iter().find(|variable| variable.name == own);
+    let unit = match std::iter::once(name).chain(parts).find_map(variable) {
+        Some(variable) => variable.unit.as_deref().unwrap_or(""),
+        None => find(name)?.1,
+    };
+    units::number(text, unit).map_err(|why| format!("{name} = {text}: {why}"))
 }
 
 /// Law and impact for these values of the quantities, on the bodies of the first contact of `scene`.
