@@ -2,7 +2,7 @@
 
 `Contact` is an FMU in use. `export`, `predict`, `sweep` and `curve` call the exporter; `study` runs
 thousands of impacts, `fit` finds the parameters that explain a measurement, and `draw` draws the
-tables of `study` and `sweep`. `brinell.mujoco` and `brinell.drake`, to be imported by themselves,
+tables of `study`, `sweep` and `curve`, which are pandas DataFrames. `brinell.mujoco` and `brinell.drake`, to be imported by themselves,
 move contacts that share bodies in MuJoCo and Drake.
 """
 
@@ -10,10 +10,15 @@ from .contact import Contact, State
 from .errors import ContactError, ContactWarning, ProgramError, ProgramWarning, UnknownName
 from .fits.fit import fit
 from .fits.result import Estimate, Fit
-from .program import Prediction, curve, export, predict, program, sweep
+from .prediction import Prediction
+from .program import export, predict, program
 from .studies.picture import draw
 from .studies.plan import Range
 from .studies.study import study
+from .sweeps import curve, sweep
+from .version import version
+
+__version__ = version()
 
 __all__ = [
     "Contact",
@@ -27,6 +32,7 @@ __all__ = [
     "Range",
     "State",
     "UnknownName",
+    "__version__",
     "curve",
     "draw",
     "export",

@@ -7,7 +7,7 @@ import argparse
 import subprocess
 import sys
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 from .errors import ContactError, ProgramError
 from .program import program
 from .studies.study import study
+
+if TYPE_CHECKING:
+    import pandas
 
 TOLD = 10
 """Largest number of failed runs that the command lists."""
@@ -43,7 +46,8 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         action="append",
         required=True,
         metavar="NAME=FROM:TO:COUNT[log]",
-        help="speed, mass or a parameter of the FMU, in SI units; or NAME=VALUE,VALUE,...",
+        help="speed, mass or a parameter of the FMU, in SI units or with a unit "
+        "('speed=10 mm/s:5 m/s:20'); or NAME=VALUE,VALUE,...",
     )
     add("--sample", default="grid", help="grid, sobol:COUNT or lhs:COUNT [default: grid]")
     add("--seed", type=int, default=0, help="seed of the samples [default: 0]")
@@ -55,8 +59,8 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         metavar="NAME=VALUE",
         help="a parameter for all runs",
     )
-    add("--mass", type=float, help="effective mass [kg], instead of the scene's")
-    add("--speed", type=float, help="closing speed [m/s], instead of the scene's")
+    add("--mass", help="effective mass [kg, or with a unit], instead of the scene's")
+    add("--speed", help="closing speed [m/s, or with a unit], instead of the scene's")
     add(
         "-o",
         "--output",
@@ -86,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             seed=given.seed,
             mass=given.mass,
             speed=given.speed,
-            parameters={name: float(value) for name, value in given.set},
+            parameters=dict(given.set),
             output=given.output,
             workers=given.workers,
             chunk=given.chunk,
@@ -119,7 +123,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _tell(table: dict[str, Any], failed: NDArray[np.int_], names: Sequence[str]) -> None:
+def _tell(table: pandas.DataFrame, failed: NDArray[np.int_], names: Sequence[str]) -> None:
     """Print the first failed runs and the reasons; the table contains all of them."""
     for index in failed[:TOLD]:
         run = ", ".join(f"{name} = {table[name][index]:g}" for name in names)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import warnings
 from ctypes import byref, c_char, c_double, c_int, c_size_t, c_void_p
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,10 +11,10 @@ from typing import Any, Self
 
 import numpy as np
 
-from .errors import ContactError, ContactWarning
+from .errors import ContactError, ContactWarning, tell
 from .library import WARNING, Instance, Library
 from .stepping import Force, Stepping
-from .variables import Gaps, Numbers, Parameters, Variables, number
+from .variables import Gaps, Numbers, Parameters, Texts, Variables, number
 
 AFTER_REFUSAL = (
     "; the contact steps again after contact.reset(), or after contact.restore() with a saved state"
@@ -36,11 +35,11 @@ class State:
 class Contact:
     """One instance of an FMU, with one contact or several.
 
-    `fmu` is the path of an FMU. `initial_gap` [m] is the distance of the bodies at the start
+    `fmu` is the path of an FMU, or of a scene (.toml), which is exported and loaded. `initial_gap` [m] is the distance of the bodies at the start
     (negative: pressed in); for several contacts, one number for each, or a mapping by name. All
     other parameters are keywords with underscores for dots, in SI units
     (`target_yield_strength=400e6`), or entries of `parameters` under their own names
-    (`{"target.yield_strength": 400e6}`). A parameter that each contact has for itself takes one
+    (`{"target.yield_strength": 400e6}`). A text has a unit: `"400 MPa"`. A parameter that each contact has for itself takes one
     number for all, or a sequence with one number for each.
 
     `force` selects what `step` returns:
@@ -65,7 +64,7 @@ class Contact:
         force: Force = "auto",
         parameters: Parameters | None = None,
         name: str = "contact",
-        **keywords: Numbers,
+        **keywords: Numbers | Texts,
     ) -> None:
         self._lock = threading.RLock()
         library = Library.of(fmu)
@@ -115,6 +114,16 @@ class Contact:
         return self._variables.mass_is_settable
 
     @property
+    def one_mass(self) -> bool:
+        """Whether all contacts have the same effective mass."""
+        return len(self._variables.masses) == 1
+
+    @property
+    def shares_bodies(self) -> bool:
+        """Whether `step` takes `inverse_masses`: its contacts may move the same bodies."""
+        return bool(self._variables.inverse_masses)
+
+    @property
     def time(self) -> float:
         """Time [s] since the start: the sum of the steps."""
         return self._time
@@ -140,7 +149,7 @@ class Contact:
         *,
         initial_gap: Gaps | None = None,
         parameters: Parameters | None = None,
-        **keywords: Numbers,
+        **keywords: Numbers | Texts,
     ) -> None:
         """Return to the start, at time 0. Parameters that are given replace the previous ones; the
         others keep their values. Warnings are logged again."""
@@ -195,8 +204,7 @@ class Contact:
 
     def _tell(self) -> None:
         for text in self._instance.warnings():
-            # at the line of the user: two frames above this one
-            warnings.warn(text, ContactWarning, stacklevel=3)
+            tell(text, ContactWarning)
 
     def step(
         self,

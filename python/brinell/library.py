@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 import os
 import shutil
+import tempfile
 import threading
 import weakref
 import zipfile
@@ -15,7 +17,8 @@ from typing import Any
 import fmpy
 from fmpy import fmi2, freeLibrary
 
-from .errors import ContactError
+from .errors import ContactError, missing
+from .program import export
 
 WARNING = 1
 
@@ -66,16 +69,33 @@ class Library:
             return path
         path = Path(path)
         if not path.is_file():
-            raise FileNotFoundError(f"there is no FMU {path}")
+            raise missing("scene" if path.suffix == ".toml" else "FMU", path)
+        if path.suffix == ".toml":
+            return _of_scene(path)
         path = path.resolve()
         status = path.stat()
         # an FMU that is exported again is a different one
         key = (path, status.st_mtime_ns, status.st_size, status.st_ino)
-        with _opening:
-            library = _open.get(key)
-            if library is None:
-                library = _open[key] = Library(path)
-            return library
+        return _opened(key, path)
+
+
+def _opened(key: tuple[Any, ...], path: Path) -> Library:
+    with _opening:
+        library = _open.get(key)
+        if library is None:
+            library = _open[key] = Library(path)
+        return library
+
+
+def _of_scene(scene: Path) -> Library:
+    """The library of the FMU of a scene, under the name of the scene. FMUs of equal bytes are loaded
+    once."""
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        path = export(scene, Path(folder) / f"{scene.stem}.fmu")
+        library = _opened((hashlib.sha256(path.read_bytes()).digest(),), path)
+    # the FMU is gone; what it was made from tells people more
+    library.path = scene.resolve()
+    return library
 
 
 def _close(handle: int, folder: str) -> None:

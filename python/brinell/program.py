@@ -1,62 +1,23 @@
-"""The exporter `brinell`, called as a program: FMUs, predictions and curves of a scene."""
+"""The exporter `brinell`, called as a program: FMUs and predictions of a scene."""
 
 from __future__ import annotations
 
-import errno
 import json
 import os
 import re
 import shutil
 import subprocess
 import tomllib
-import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
-from importlib import metadata
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, overload
 
-import numpy as np
-from numpy.typing import NDArray
+from .errors import ProgramError, ProgramWarning, missing, tell
+from .prediction import Prediction
+from .version import MODULE, installed
 
-from .errors import ProgramError, ProgramWarning
-
-Columns = dict[str, NDArray[np.float64]]
-"""Columns of a table by name, in SI units."""
-
-
-@dataclass(frozen=True)
-class Prediction:
-    """The outcome of an impact, from the energy balance."""
-
-    law: str
-    mass: float
-    """Effective mass [kg]."""
-    speed: float
-    """Closing speed [m/s]."""
-    restitution: float
-    kinetic_energy: float
-    """Kinetic energy before the impact [J]."""
-    energy_lost: float
-    """Energy dissipated by the impact [J]."""
-    largest_force: float
-    """Largest force [N]."""
-    largest_indentation: float
-    """Largest indentation [m]."""
-    largest_contact_radius: float
-    """Contact radius at the largest indentation [m]."""
-    loading_time: float
-    """Time from first contact to the largest indentation [s]."""
-    unloading_time: float
-    """Time from the largest indentation to separation [s]."""
-    dent: float
-    """Depth of the dent [m]; rate-dependent laws leave none."""
-    regime: int
-    """The regime at the largest indentation, numbered like the output `regime`."""
-    onsets: tuple[tuple[int, float], ...] = ()
-    """Pairs: a regime, and the speed [m/s] at which it begins."""
-    warnings: tuple[str, ...] = ()
-    """Warnings about the validity of the law for this impact."""
+__all__ = ["Prediction", "export", "predict", "program"]
 
 
 def program() -> Path:
@@ -68,9 +29,8 @@ def program() -> Path:
         if found is None:
             raise ProgramError(f"BRINELL = {named}: there is no such program")
         return Path(found)
-    module = Path(__file__).resolve().parent
-    built = module.parents[1] / "target" / "release" / _NAME
-    for path in (_of_the_wheel(module), shutil.which("brinell"), built):
+    built = MODULE.parents[1] / "target" / "release" / _NAME
+    for path in (_of_the_wheel(), shutil.which("brinell"), built):
         if path is not None and Path(path).is_file():
             return Path(path)
     raise ProgramError(
@@ -84,24 +44,21 @@ _NAME = "brinell.exe" if os.name == "nt" else "brinell"
 _SCRIPTS = ("bin", "Scripts")
 
 
-def _of_the_wheel(module: Path) -> Path | None:
-    """The program that was installed together with the module in the folder `module`, even if
-    the environment is not activated; None if the module is used from the repository."""
-    try:
-        distribution = metadata.distribution("brinell")
-    except metadata.PackageNotFoundError:
-        return None
-    if Path(str(distribution.locate_file("brinell"))).resolve() != module:
+def _of_the_wheel() -> Path | None:
+    """The program that was installed together with this package, even if the environment is not
+    activated; None if the package is used from the repository."""
+    distribution = installed()
+    if distribution is None:
         return None
     listed = [Path(str(file.locate())) for file in distribution.files or ()]
     # `pip install --target` lists the program where it was before the files were moved
-    moved = [module.parent / folder / _NAME for folder in _SCRIPTS]
+    moved = [MODULE.parent / folder / _NAME for folder in _SCRIPTS]
     programs = [path for path in listed if path.name == _NAME and path.parent.name in _SCRIPTS]
     return next((path.resolve() for path in programs + moved if path.is_file()), None)
 
 
-def _run(*arguments: str | Path) -> str:
-    """The JSON output of the exporter."""
+def run(*arguments: str | Path) -> tuple[str, tuple[str, ...]]:
+    """The JSON output of the exporter, and its warnings, which are warnings of Python, too."""
     command = [str(program()), *map(str, arguments), "--json"]
     try:
         result = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
@@ -112,11 +69,31 @@ def _run(*arguments: str | Path) -> str:
         # progress messages come before the error
         text = re.sub(r"^building .* \.\.\.\n(brinell: )?", "", text)
         raise ProgramError(text or f"{' '.join(command)} ended with status {result.returncode}")
+    doubts = []
     for text in result.stderr.split("brinell: warning: ")[1:]:
-        # the first line, and those of the text that were broken; where the public function was called
+        # the first line, and those of the text that were broken
         text = text.split("\nbuilding ")[0].split("\nbrinell: ")[0]
-        warnings.warn(" ".join(text.split()), ProgramWarning, stacklevel=3)
-    return result.stdout
+        doubts.append(" ".join(text.split()))
+        tell(doubts[-1], ProgramWarning)
+    return result.stdout, tuple(doubts)
+
+
+def of_scene(command: str, scene: str | Path, *options: str | Path) -> tuple[str, tuple[str, ...]]:
+    """What a command of the exporter answers about a scene, and its warnings."""
+    if not Path(scene).exists():
+        raise missing("scene", scene)
+    return run(command, scene, *options)
+
+
+def in_si(name: str, value: float | str) -> float:
+    """The number of a quantity or a parameter in SI units. The exporter reads a text with a unit:
+    "400 MPa"."""
+    if not isinstance(value, str):
+        return float(value)
+    try:
+        return float(value)
+    except ValueError:
+        return float(json.loads(run("numbers", f"{name}={value}")[0])[0])
 
 
 def export(scene: str | Path, output: str | Path | None = None) -> Path:
@@ -124,7 +101,9 @@ def export(scene: str | Path, output: str | Path | None = None) -> Path:
 
     A scene for which the installed program has no prebuilt library needs Rust."""
     more: list[str | Path] = [] if output is None else ["--output", output]
-    return Path(json.loads(_run("export", scene, *more))["fmu"])
+    if output is not None and not (folder := Path(output).absolute().parent).is_dir():
+        raise missing("folder", folder)
+    return Path(json.loads(of_scene("export", scene, *more)[0])["fmu"])
 
 
 @overload
@@ -167,114 +146,28 @@ def predict(
     "LOADING/UNLOADING", or "all"), the result is a list with a prediction for each law.
     """
     given = {"mass": mass, "speed": speed, "energy": energy, "drop-height": drop_height}
-    options = _options(given, laws)
-    data = json.loads(_run("predict", scene, *options))
+    options = options_of(given, laws)
+    text, doubts = of_scene("predict", scene, *options)
+    data = json.loads(text)
     known = {field.name for field in fields(Prediction)}
     predictions = []
     for law in data["laws"]:
         values = {name: value for name, value in law.items() if name in known}
-        values["onsets"] = tuple((it["regime"], it["speed"]) for it in law.get("onsets") or ())
-        values["warnings"] = tuple(law.get("warnings") or ())
+        values |= {"regime": law["regime_name"], "regime_number": law["regime"]}
+        values["onsets"] = tuple((it["regime_name"], it["speed"]) for it in law["onsets"])
+        values["warnings"] = (*doubts, *law["warnings"])
+        values["notes"] = tuple(data["notes"])
         predictions.append(Prediction(mass=data["mass"], speed=data["speed"], **values))
     return predictions if laws is not None else predictions[0]
 
 
-@overload
-def sweep(
-    scene: str | Path,
-    vary: Mapping[str, str],
-    *,
-    laws: None = None,
-    mass: float | str | None = None,
-    speed: float | str | None = None,
-    angle: float | str | None = None,
-    spin: float | str | None = None,
-    friction: float | None = None,
-    inertia: float | str | None = None,
-) -> Columns: ...
-
-
-@overload
-def sweep(
-    scene: str | Path,
-    vary: Mapping[str, str],
-    *,
-    laws: Sequence[str],
-    mass: float | str | None = None,
-    speed: float | str | None = None,
-    angle: float | str | None = None,
-    spin: float | str | None = None,
-    friction: float | None = None,
-    inertia: float | str | None = None,
-) -> dict[str, Columns]: ...
-
-
-def sweep(
-    scene: str | Path,
-    vary: Mapping[str, str],
-    *,
-    laws: Sequence[str] | None = None,
-    mass: float | str | None = None,
-    speed: float | str | None = None,
-    angle: float | str | None = None,
-    spin: float | str | None = None,
-    friction: float | None = None,
-    inertia: float | str | None = None,
-) -> Columns | dict[str, Columns]:
-    """Predictions over ranges of quantities, as columns: those that vary, `restitution`, `dent` ...;
-    `valid` is 0 where the impact is outside the validity of the law.
-
-    `vary` maps the names of quantities to ranges "FROM:TO" or "FROM:TO:COUNT" in SI units or with a
-    unit ("10 mm/s:5 m/s"): "speed", "mass", "energy", "drop_height", parameters of the scene,
-    constants of its laws. Several give every combination. `mass` [kg] and `speed` [m/s] replace those of the scene.
-
-    With "angle" [degrees from the normal] or "spin" [rad/s], varied or given, the impacts are
-    oblique: `rebound_angle`, `tangential_restitution` ... `friction` and `inertia` [kg.m^2] replace
-    the scene's coefficient and that of a solid sphere.
-
-    With `laws`, the result is a mapping from "LOADING/UNLOADING" to columns.
-    """
-    given = {"mass": mass, "speed": speed}
-    given |= {"angle": angle, "spin": spin, "friction": friction, "inertia": inertia}
-    options = _options(given, laws)
-    for name, values in vary.items():
-        if not isinstance(values, str):
-            raise TypeError(f"{name} = {values!r}: a range 'FROM:TO' or 'FROM:TO:COUNT' is needed")
-        options.append(f"--sweep={name}={values}")
-    if not vary:
-        raise ValueError("nothing is varied; for example, vary={'speed': '0.1:10'}")
-    tables = _tables(_run("predict", scene, *options))
-    return tables if laws is not None else next(iter(tables.values()))
-
-
-@overload
-def curve(scene: str | Path, *, laws: None = None, to: float | str | None = None) -> Columns: ...
-
-
-@overload
-def curve(
-    scene: str | Path, *, laws: Sequence[str], to: float | str | None = None
-) -> dict[str, Columns]: ...
-
-
-def curve(
-    scene: str | Path, *, laws: Sequence[str] | None = None, to: float | str | None = None
-) -> Columns | dict[str, Columns]:
-    """One cycle of loading, unloading and reloading up to the indentation `to` [m], as columns:
-    `indentation`, `force`, `contact_radius`, `stiffness`, `work` ...; with `laws` those of each law
-    by its name."""
-    tables = _tables(_run("curve", scene, *_options({"to": to}, laws)))
-    return tables if laws is not None else next(iter(tables.values()))
-
-
 def tables(scene: str | Path) -> dict[str, Any]:
     """The tables of a scene file, with all numbers in SI units."""
-    if not Path(scene).exists():
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(scene))
-    return tomllib.loads(_run("si", scene))
+    return tomllib.loads(of_scene("si", scene)[0])
 
 
-def _options(values: Mapping[str, float | str | None], laws: Sequence[str] | None) -> list[str]:
+def options_of(values: Mapping[str, float | str | None], laws: Sequence[str] | None) -> list[str]:
+    """The options of the exporter for these values and laws."""
     options = []
     for name, value in values.items():
         if value is not None:
@@ -287,13 +180,3 @@ def _options(values: Mapping[str, float | str | None], laws: Sequence[str] | Non
             raise TypeError(f"laws = {laws!r}: a list of names is needed")
         options += ["--laws", ",".join(laws)]
     return options
-
-
-def _tables(text: str) -> dict[str, Columns]:
-    """The columns of each law in the output of the exporter."""
-    tables = {}
-    for table in json.loads(text)["laws"]:
-        law = table.pop("law")
-        # a number that a law does not have is null
-        tables[law] = {name: np.array(column, dtype=np.float64) for name, column in table.items()}
-    return tables

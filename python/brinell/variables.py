@@ -9,15 +9,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import ContactError, UnknownName
+from .errors import ContactError, UnknownName, nearest
 from .library import Library
+from .program import in_si
 
 RATE = "indentation_rate"
 Numbers = float | Sequence[float] | NDArray[np.float64]
 """One number, or one for each contact of the FMU."""
-Gaps = Numbers | Mapping[str, float]
-"""Like `Numbers`, or a mapping from the names of contacts."""
-Parameters = Mapping[str, Numbers]
+Texts = str | Sequence[str]
+"""One number with its unit, or one for each contact of the FMU: "400 MPa"."""
+Gaps = Numbers | Texts | Mapping[str, float | str]
+"""Like `Numbers` or `Texts`, or a mapping from the names of contacts."""
+Parameters = Mapping[str, Numbers | Texts]
 """By name. A parameter that each contact has for itself takes one number for all, or one for each."""
 
 
@@ -71,8 +74,8 @@ class Variables:
         """The number of tangential directions, 0 without friction."""
         return len(self.components("tangential_rate")) // len(self.contacts)
 
-    def shaped(self, names: Sequence[str], values: Sequence[float]) -> Any:
-        """Values of `components`: a number or an array over the contacts, with two tangential
+    def shaped(self, names: Sequence[str], values: Any) -> Any:
+        """An array for C of values of `components`: a number or an array over the contacts, with two tangential
         directions of their two components each."""
         count = len(self.contacts)
         if len(names) == count:
@@ -95,8 +98,9 @@ class Variables:
         """The error for an unknown name."""
         names = tuple(self._all) if names is None else names
         shown = ", ".join(names[:40]) + (", ..." if len(names) > 40 else "")
+        near = nearest(name, names)
         return UnknownName(
-            f"{self._path.name} has no {kind} {name!r}; there are: {shown or 'none'}"
+            f"{self._path.name} has no {kind} {name!r}{near}; there are: {shown or 'none'}"
         )
 
     def given(
@@ -106,7 +110,7 @@ class Variables:
         keywords: Parameters,
     ) -> dict[str, float]:
         """The parameters that a caller passes in three ways, under their own names."""
-        given: dict[str, Numbers] = dict(parameters or {})
+        given: dict[str, Numbers | Texts] = dict(parameters or {})
         if keywords:
             known = {_plain(name): name for name in self.parameters}
             # a parameter that each contact has for itself is known by the part of its name after the contact
@@ -122,7 +126,7 @@ class Variables:
         known_names = set(self.parameters)
         for name, value in given.items():
             if name in known_names:
-                all_of_them[name] = number(name, value)
+                all_of_them[name] = _parameter(name, value)
                 continue
             own = self.every(name)
             if not own or not known_names.issuperset(own):
@@ -130,25 +134,25 @@ class Variables:
             all_of_them |= zip(own, self._each(name, value), strict=True)
         return all_of_them
 
-    def _each(self, name: str, value: Numbers) -> list[float]:
+    def _each(self, name: str, value: Numbers | Texts) -> list[float]:
         """A number for each contact."""
         count = len(self.contacts)
         if isinstance(value, str | bytes) or np.ndim(value) == 0:
-            return [number(name, value)] * count
+            return [_parameter(name, value)] * count
         if np.shape(value) != (count,):
             raise ContactError(
                 f"{name} = {value!r}: it takes one number, or {count}, one for each contact"
             )
-        return [number(name, one) for one in np.asarray(value).tolist()]
+        return [_parameter(name, one) for one in np.asarray(value).tolist()]
 
-    def _gaps(self, gap: Gaps) -> dict[str, float]:
+    def _gaps(self, gap: Gaps) -> Parameters:
         names = self.owners("initial_gap")
         if not names:
             raise self.unknown("parameter", "initial_gap", self.parameters)
         if isinstance(gap, Mapping):
             return {f"{contact}.initial_gap": value for contact, value in gap.items()}
         if np.ndim(gap) == 0:
-            return dict.fromkeys(names, number("initial_gap", gap))
+            return dict.fromkeys(names, _parameter("initial_gap", gap))
         own = self.every("initial_gap")
         if np.shape(gap) != (len(self.contacts),) or not own:
             raise ContactError(
@@ -156,7 +160,18 @@ class Variables:
                 f"and the parameters {', '.join(names)}; "
                 'parameters_per_contact = ["initial_gap"] in its scene gives each its own'
             )
-        return dict(zip(own, np.asarray(gap, dtype=float).tolist(), strict=True))
+        return dict(
+            zip(
+                own,
+                [_parameter("initial_gap", one) for one in np.asarray(gap).tolist()],
+                strict=True,
+            )
+        )
+
+
+def _parameter(name: str, value: Any) -> float:
+    """The value of a parameter in SI units; a text has a unit."""
+    return in_si(name, value) if isinstance(value, str) else number(name, value)
 
 
 def number(name: str, value: Any) -> float:

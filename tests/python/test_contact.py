@@ -11,8 +11,8 @@ from pathlib import Path
 import brinell
 import numpy as np
 import pytest
-from brinell import Contact, ContactError, ContactWarning, UnknownName
-from units import UNITS, bounce, contact
+from brinell import Contact, ContactError, ContactWarning, ProgramError, UnknownName
+from units import SCENES, UNITS, bounce, contact
 
 RESTITUTION = 0.4402119197956618  # of 4 g at 1 m/s, by the balance of energies
 
@@ -314,7 +314,7 @@ def test_a_gap_is_a_number(gap):
 
 
 def test_files_that_are_no_units(tmp_path):
-    with pytest.raises(FileNotFoundError, match="no FMU .*nowhere.fmu"):
+    with pytest.raises(FileNotFoundError, match="no FMU.*nowhere.fmu"):
         Contact(tmp_path / "nowhere.fmu")
     with pytest.raises(FileNotFoundError):
         Contact(tmp_path)
@@ -323,6 +323,39 @@ def test_files_that_are_no_units(tmp_path):
         Contact(tmp_path / "text.fmu")
     with pytest.raises(TypeError):
         Contact(3)
+
+
+def test_a_scene_is_exported_and_loaded():
+    scene = SCENES / "mass_known.toml"
+    with brinell.Contact(scene) as made, contact("mass_known") as known:
+        assert made.path == scene and "mass_known.toml" in repr(made)
+        assert bounce(made).hex() == bounce(known).hex()
+        with brinell.Contact(scene, target_yield_strength="400 MPa") as again:
+            assert again._instance.library is made._instance.library, "loaded once"
+
+
+def test_parameters_are_texts_with_a_unit():
+    texts = {"target_yield_strength": "400 MPa", "initial_gap": "5 um"}
+    with contact("steel_ball", **texts) as made:
+        assert made["target.yield_strength"] == 4e8 and made["indentation"] == -5e-6
+        made.reset(parameters={"target.yield_strength": "0.5 GPa"})
+        assert made["target.yield_strength"] == 5e8
+        with pytest.raises(ProgramError, match="target.yield_strength = 4 kg: kg is a mass"):
+            made.reset(target_yield_strength="4 kg")
+    gaps = [f"{index} um" for index in range(20)]
+    with contact("each", initial_gap=gaps, effective_mass="4 g") as bed:
+        assert bed["indentation"] == pytest.approx(-1e-6 * np.arange(20), abs=1e-18)
+        assert set(bed["effective_mass"]) == {4e-3}
+
+
+def test_an_unknown_name_tells_the_nearest():
+    with contact("steel_ball") as made:
+        with pytest.raises(UnknownName, match="'indentatoin' .did you mean 'indentation'"):
+            made["indentatoin"]
+        with pytest.raises(UnknownName, match="did you mean 'target.yield_strength'"):
+            made.reset(target_yeild_strength=4e8)
+        with pytest.raises(UnknownName, match="no variable 'xyz'; there are"):
+            made["xyz"]
 
 
 def test_a_unit_that_is_exported_again_is_another_one(tmp_path):

@@ -1,11 +1,15 @@
 """Results of the exporter as numbers and arrays."""
 
 import re
+import sys
+import tomllib
+from xml.dom import minidom
 
 import brinell
 import numpy as np
 import pytest
 from brinell import ProgramError, ProgramWarning
+from brinell.prediction import quantity
 from units import SCENES, bounce
 
 SCENE = SCENES / "mass_known.toml"
@@ -38,6 +42,55 @@ def test_the_impact_of_a_prediction():
     assert brinell.predict(SCENE, speed=100.0).warnings
 
 
+def test_a_prediction_has_the_rebound_the_contact_time_and_the_regime_by_name():
+    found = brinell.predict(SCENE, drop_height="5 cm")
+    assert found.rebound_speed == found.restitution * found.speed
+    assert found.rebound_height == pytest.approx(0.05 * found.restitution**2, rel=1e-14)
+    assert found.contact_time == found.loading_time + found.unloading_time
+    assert (found.regime, found.regime_number) == ("elastoplastic (second region)", 3)
+    assert [name for name, _ in found.onsets] == [
+        "elastoplastic (first region)",
+        "elastoplastic (second region)",
+        "fully plastic",
+    ]
+    assert any("dent" in note for note in found.notes)
+
+
+def test_a_prediction_is_a_table_in_a_notebook_and_text_in_a_terminal():
+    found = brinell.predict(SCENE, speed=100.0)
+    for text in (found._repr_html_(), str(found)):
+        for part in ("4 g at 100 m/s", "contact time", "fully plastic", "warning:", "wave speed"):
+            assert part in text, part
+    html = minidom.parseString(f"<p>{found._repr_html_()}</p>")
+    cells = [cell.firstChild.data for cell in html.getElementsByTagName("td")]
+    assert cells[0] == "0.1315" and "13.15 m/s" in cells
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "words"),
+    [
+        (12.8175e-6, "m", "12.82 um"),
+        (4e-3, "kg", "4 g"),
+        (12.0, "kg", "12 kg"),
+        (1500.0, "kg", "1500 kg"),
+        (2e-6, "kg", "2 mg"),
+        (1500.0, "m/s", "1500 m/s"),
+        (-2.5e6, "N", "-2.5 MN"),
+        (0.0, "m", "0 m"),
+        (0.44021, "", "0.4402"),
+        (float("nan"), "s", "nan s"),
+    ],
+)
+def test_quantities_in_words(value, unit, words):
+    assert quantity(value, unit) == words
+
+
+def test_the_version_is_that_of_the_repository():
+    manifest = SCENES.parent / "Cargo.toml"
+    data = tomllib.loads(manifest.read_text(encoding="utf-8"))
+    assert brinell.__version__ == data["workspace"]["package"]["version"]
+
+
 def test_several_laws():
     both = brinell.predict(SCENE, laws=["brinell", "hertz"])
     assert [it.law for it in both] == ["brinell/brinell", "hertz"]
@@ -47,16 +100,60 @@ def test_several_laws():
     assert damped.dent == 0.0 and 0.0 < damped.restitution < 1.0
 
 
-def test_a_sweep_is_arrays_of_predictions():
+def test_a_sweep_is_a_table_of_predictions():
     columns = brinell.sweep(SCENE, {"speed": "0.1:10"})
-    assert columns["speed"][0] == 0.1 and columns["speed"][-1] == 10.0
+    assert columns["speed"].iloc[0] == 0.1 and columns["speed"].iloc[-1] == 10.0
     middle = len(columns["speed"]) // 2
     one = brinell.predict(SCENE, speed=columns["speed"][middle])
     assert columns["restitution"][middle] == pytest.approx(one.restitution, rel=1e-14)
     assert columns["dent"][middle] == pytest.approx(one.dent, rel=1e-14)
     assert columns["largest_force"].dtype == np.float64
-    speeds = {"speed": "0.1:1"}
-    assert set(brinell.sweep(SCENE, speeds, laws=["hertz", "stronge"], mass=1.0)) > {"hertz"}
+    assert columns["regime"][middle] == one.regime and columns["valid"].all()
+    assert list(columns)[:2] == ["law", "speed"]
+
+
+def test_every_column_of_a_table_has_its_unit():
+    swept = brinell.sweep(SCENE, {"target.yield_strength": "2e8:4e8:2"})
+    units = swept.attrs["units"]
+    assert list(units) == list(swept)
+    assert (units["target.yield_strength"], units["dent"], units["regime"]) == ("Pa", "m", "")
+    curve = brinell.curve(SCENE)
+    assert list(curve.attrs["units"]) == list(curve) and curve.attrs["units"]["force"] == "N"
+
+
+def test_a_sweep_with_several_laws_has_rows_of_each():
+    laws = ["hertz", "stronge"]
+    swept = brinell.sweep(SCENE, {"speed": "0.1:1:5"}, laws=laws, mass=1.0)
+    assert swept["law"].value_counts().tolist() == [5, 5] and swept.index.is_unique
+    assert swept.groupby("law")["restitution"].min()["hertz"] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ([1.0, 3.0, 2.0], [1.0, 3.0, 2.0]),
+        ([2.0], [2.0]),
+        (np.linspace(1.0, 2.0, 3), [1.0, 1.5, 2.0]),
+        (["1 m/s", "3.6 km/h"], [1.0, 1.0]),
+        ("1 m/s,200 cm/s", [1.0, 2.0]),
+        ("1:4 m/s:3log", [1.0, 2.0, 4.0]),
+        (brinell.Range(1.0, 4.0, 3), [1.0, 2.5, 4.0]),
+    ],
+)
+def test_a_sweep_takes_the_same_values_as_a_study(values, expected):
+    assert brinell.sweep(SCENE, {"speed": values})["speed"].tolist() == pytest.approx(expected)
+
+
+def test_without_pandas_a_sweep_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    for call in (
+        lambda: brinell.sweep(SCENE, {"speed": "1:2:2"}),
+        lambda: brinell.curve(SCENE),
+        lambda: brinell.study(SCENE, {"speed": "1:2:2"}),
+    ):
+        with pytest.raises(ModuleNotFoundError, match="pip install pandas"):
+            call()
+    assert brinell.predict(SCENE).restitution > 0.0
 
 
 def test_a_sweep_over_several_quantities_is_every_combination():
@@ -113,7 +210,7 @@ def test_angles_are_drawn_over_the_speed(tmp_path):
 @pytest.mark.parametrize(
     ("names", "results", "words"),
     [
-        (["sped"], ["dent"], "'sped' is no column.*allowed are dent, .*speed"),
+        (["sped"], ["dent"], "'sped' is no column .did you mean 'speed'.*allowed are speed, .*dent"),
         (["speed"], ["force"], "'force' is no column"),
         (["speed"], [], "at least one name and one result"),
         (["speed", "mass"], ["dent"], "a picture shows one law"),
@@ -127,32 +224,49 @@ def test_a_picture_that_cannot_be_drawn_is_refused(tmp_path, names, results, wor
     assert not (tmp_path / "x.svg").exists()
 
 
-def test_a_curve_is_arrays_whose_work_is_the_integral_of_the_force():
+def test_a_curve_is_a_table_whose_work_is_the_integral_of_the_force():
     curve = brinell.curve(SCENE, to=1e-5)
     assert curve["indentation"].max() == 1e-5
-    work = np.sum(0.5 * (curve["force"][1:] + curve["force"][:-1]) * np.diff(curve["indentation"]))
-    assert curve["work"][-1] - curve["work"][0] == pytest.approx(work, rel=1e-3)
-    assert set(brinell.curve(SCENE, laws=["hertz"])) == {"hertz"}
+    force, work = curve["force"].to_numpy(), curve["work"].to_numpy()
+    integral = np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(curve["indentation"]))
+    assert work[-1] - work[0] == pytest.approx(integral, rel=1e-3)
+    assert set(brinell.curve(SCENE, laws=["hertz"])["law"]) == {"hertz"}
 
 
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: brinell.predict("nowhere.toml"), "nowhere.toml"),
-        (lambda: brinell.export("nowhere.toml"), "nowhere.toml"),
-        (lambda: brinell.curve("nowhere.toml"), "nowhere.toml"),
         (lambda: brinell.predict(SCENE, speed=-1.0), "speed = -1 must be positive"),
         (lambda: brinell.predict(SCENE, mass=float("nan")), "mass"),
         (lambda: brinell.predict(SCENE, speed=1.0, energy=1.0), "cannot be used with"),
         (lambda: brinell.predict(SCENE, laws=["rubber"]), "unknown loading law `rubber`"),
         (lambda: brinell.curve(SCENE, to=-1.0), "to = -1"),
-        (lambda: brinell.export(SCENE, "/nowhere/at/all.fmu"), "/nowhere/at/all.fmu"),
+        (lambda: brinell.sweep(SCENE, {"sped": "1:2"}), "did you mean `speed`"),
     ],
 )
 def test_the_program_says_what_is_wrong(call, words):
     with pytest.raises(ProgramError, match=words) as error:
         call()
     assert not str(error.value).startswith(("brinell:", "building"))
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: brinell.predict("nowhere.toml"),
+        lambda: brinell.export("nowhere.toml"),
+        lambda: brinell.curve("nowhere.toml"),
+        lambda: brinell.sweep("nowhere.toml", {"speed": "1:2"}),
+        lambda: brinell.study("nowhere.toml", {"speed": "1:2"}, progress=False),
+        lambda: brinell.Contact("nowhere.toml"),
+        lambda: brinell.Contact("nowhere.fmu"),
+        lambda: brinell.export(SCENE, "nowhere.toml/x.fmu"),
+    ],
+)
+def test_a_file_that_is_missing_is_named(call):
+    with pytest.raises(FileNotFoundError, match="there is no (scene|FMU|folder).*nowhere") as error:
+        call()
+    assert "nowhere" in error.value.filename
 
 
 def test_what_the_program_doubts_is_a_warning_of_python_where_it_was_called(tmp_path):
@@ -171,9 +285,9 @@ def test_what_the_program_doubts_is_a_warning_of_python_where_it_was_called(tmp_
         with pytest.warns(ProgramWarning, match="radius = 5 m; did you mean 5e-3") as told:
             call()
         assert len(told) == 1
-    with pytest.warns(ProgramWarning) as told:
-        brinell.predict(scene)
-    assert told[0].filename == __file__
+        assert told[0].filename == __file__
+    with pytest.warns(ProgramWarning):
+        assert "did you mean 5e-3" in brinell.predict(scene).warnings[0]
 
 
 def test_numbers_with_a_unit(tmp_path):
@@ -193,8 +307,10 @@ def test_wrong_types():
         brinell.predict(SCENE, speed=True)
     with pytest.raises(TypeError, match="list of names"):
         brinell.predict(SCENE, laws="hertz")
-    with pytest.raises(TypeError, match="FROM:TO"):
-        brinell.sweep(SCENE, {"speed": (1.0, 2.0)})
+    with pytest.raises(TypeError):
+        brinell.sweep(SCENE, {"speed": 1.0})
+    with pytest.raises(ValueError, match="a list has at most 1000, 'FROM:TO:COUNT'"):
+        brinell.sweep(SCENE, {"speed": np.linspace(1.0, 2.0, 1001)})
     with pytest.raises(ValueError, match="nothing is varied"):
         brinell.sweep(SCENE, {})
 

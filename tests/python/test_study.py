@@ -35,14 +35,14 @@ def quick(unit, vary, **arguments):
 
 
 def test_ranges():
-    assert list(plan.read("1:3:3").values()) == [1.0, 2.0, 3.0]
-    assert plan.read("1:100:3log").values() == pytest.approx([1.0, 10.0, 100.0], rel=1e-14)
-    assert list(plan.read("2,1,5e-1")) == [2.0, 1.0, 0.5]
-    assert plan.read("1:2") == Range(1.0, 2.0) and plan.read("1:2:log").logarithmic
-    values = plan.read("0.1:0.7:50log").values()
+    assert list(plan.read("1:3:3", "speed").values()) == [1.0, 2.0, 3.0]
+    assert plan.read("1:100:3log", "speed").values() == pytest.approx([1.0, 10.0, 100.0], rel=1e-14)
+    assert list(plan.read("2,1,5e-1", "speed")) == [2.0, 1.0, 0.5]
+    assert plan.read("1:2", "speed") == Range(1.0, 2.0) and plan.read("1:2:log", "speed").logarithmic
+    values = plan.read("0.1:0.7:50log", "speed").values()
     assert (values[0], values[-1]) == (0.1, 0.7)
-    assert list(plan.read("3:1:2").values()) == [3.0, 1.0] and list(
-        plan.read("3:4:1").values()
+    assert list(plan.read("3:1:2", "speed").values()) == [3.0, 1.0] and list(
+        plan.read("3:4:1", "speed").values()
     ) == [3.0]
 
 
@@ -66,7 +66,7 @@ def test_ranges():
 )
 def test_what_is_no_range(text):
     with pytest.raises(ValueError, match="range|values"):
-        plan.read(text)
+        plan.read(text, "speed")
 
 
 def test_a_grid_has_every_pair_once():
@@ -139,6 +139,24 @@ def test_an_impact_that_is_longer_than_a_step_is_run_to_its_end(unit):
     )
     assert list(table["error"]) == ["", ""]
     assert (table["restitution"] > 0.0).all() and (table["restitution"] <= 1.0 + 1e-12).all()
+
+
+def test_a_study_is_a_table_with_units(unit):
+    table = quick(unit, {"target.yield_strength": [3e8, 4e8]})
+    units = table.attrs["units"]
+    assert list(units) == list(table) and table["restitution"].between(0.0, 1.0).all()
+    assert [units[name] for name in ("target.yield_strength", "speed", "dent")] == ["Pa", "m/s", "m"]
+
+
+def test_numbers_of_a_study_are_texts_with_a_unit(unit):
+    vary = {"speed": "10 mm/s:1 m/s:3log", "target.yield_strength": ["300 MPa", 4e8]}
+    texts = quick(unit, vary, mass="4 g", parameters={"impactor.radius": "4 mm"})
+    vary = {"speed": "0.01:1:3log", "target.yield_strength": [3e8, 4e8]}
+    assert texts.equals(quick(unit, vary, mass=4e-3, parameters={"impactor.radius": 4e-3}))
+    with pytest.raises(ValueError, match="speed = '1 kg:2' is not a range .*kg is a mass"):
+        quick(unit, {"speed": "1 kg:2"})
+    with pytest.raises(ProgramError, match="impactor.radius = 4 kg: kg is a mass"):
+        quick(unit, {"speed": "1:2:2"}, parameters={"impactor.radius": "4 kg"})
 
 
 def test_failed_runs_have_a_reason_and_the_others_their_results(unit):
@@ -232,7 +250,7 @@ def test_a_chunk_that_fails_in_another_way_is_recorded(unit, monkeypatch):
     [
         ({"vary": {"hardness": "1:2"}}, KeyError, "speed, mass, impactor.radius"),
         ({"output": "x.txt"}, ValueError, ".parquet, .csv"),
-        ({"output": "/nowhere/at/all/x.csv"}, FileNotFoundError, "no such folder"),
+        ({"output": "/nowhere/at/all/x.csv"}, FileNotFoundError, "no folder"),
         ({"scheduler": "nothing"}, Exception, "nothing|resolve"),
     ],
 )

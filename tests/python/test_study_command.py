@@ -22,11 +22,13 @@ def test_the_command_line(tmp_path):
         "study",
         SCENE,
         "--vary",
-        "target.yield_strength=200e6:900e6:4",
+        "target.yield_strength=200 MPa:900 MPa:4",
         "--vary",
         "speed=0.1:10:5log",
         "--set",
-        "impactor.radius=4e-3",
+        "impactor.radius=4 mm",
+        "--mass",
+        "4 g",
         "-o",
         out,
         "-o",
@@ -38,6 +40,7 @@ def test_the_command_line(tmp_path):
     assert done.stdout.startswith("20 runs, 0 failed") and "20/20" in done.stderr
     table = store.read(out)
     assert set(table["impactor.radius"]) == {4e-3} and len(table["speed"]) == 20
+    assert table["target.yield_strength"].max() == 900e6 and set(table["mass"]) == {4e-3}
     done = command("study", SCENE, "--vary", "speed=1:2", "--sample", "sobol:8", "--quiet")
     assert done.returncode == 0 and done.stderr == "" and done.stdout.startswith("8 runs")
 

@@ -18,7 +18,17 @@ from ..library import Library
 
 Table = dict[str, NDArray[Any]]
 """Columns by name: numbers, and strings in `error` and `warning`."""
-RESULTS = ("restitution", "rebound_speed", "max_indentation", "dent", "energy_lost", "impulse")
+RESULTS = {
+    "restitution": "",
+    "rebound_speed": "m/s",
+    "max_indentation": "m",
+    "dent": "m",
+    "energy_lost": "J",
+    "impulse": "N.s",
+}
+"""The results of a run, with their units."""
+UNITS = {"speed": "m/s", "mass": "kg", **RESULTS, "error": "", "warning": ""}
+"""The units of all columns but those of parameters."""
 LONG = 1.0
 """The first step [s]: longer than almost any impact. If the impact is not over, further steps
 follow, each ten times as long."""

@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .impacts import Table
+from ..errors import nearest
 
 if TYPE_CHECKING:
+    import pandas
     from matplotlib.figure import Figure
+
+Table = Mapping[str, Any]
+"""Columns by name."""
 
 RESULTS = ("restitution", "dent")
 UNITS = {
@@ -25,21 +29,20 @@ UNITS = {
 
 def draw(
     path: str | Path,
-    table: Table | Mapping[str, Table],
+    table: pandas.DataFrame | Table,
     names: Sequence[str],
     results: Sequence[str] = RESULTS,
 ) -> None:
     """Draw `results` over the varied quantities `names`, all of them columns of the table of
-    `study` or `sweep`; the extension of `path` selects the format.
+    `study`, `sweep` or `curve`; the extension of `path` selects the format.
 
-    One name gives curves, two give a map, more give dots over each. Over one name, a mapping from
-    laws to tables (`sweep` with `laws`) gives a curve of each law.
+    One name gives curves, two give a map, more give dots over each. Over one name, a table with
+    several laws gives a curve of each.
     """
     import matplotlib
     from matplotlib.figure import Figure
 
-    path = Path(path)
-    tables = {"": table} if all(isinstance(one, np.ndarray) for one in table.values()) else table
+    path, tables = Path(path), _by_law(table)
     _check(tables, names, results)
     ((_, first), *others) = tables.items()
     # several names: a row of each result, and a column of each name
@@ -65,12 +68,24 @@ def draw(
         figure.savefig(path, metadata=metadata)
 
 
+def _by_law(table: pandas.DataFrame | Table) -> dict[str, dict[str, NDArray[Any]]]:
+    """The columns of each law; of the only one if the table does not tell laws apart."""
+    columns = {name: np.asarray(table[name]) for name in map(str, table)}
+    if "law" not in columns:
+        return {"": columns}
+    laws = columns.pop("law")
+    every = {law: laws == law for law in dict.fromkeys(laws.tolist())}
+    return {
+        law: {name: column[rows] for name, column in columns.items()} for law, rows in every.items()
+    }
+
+
 def _check(tables: Mapping[str, Table], names: Sequence[str], results: Sequence[str]) -> None:
-    for law, table in tables.items():
+    for table in tables.values():
         for name in (*names, *results):
             if name not in table:
-                of = f" of {law}" if law else ""
-                raise ValueError(f"{name!r} is no column{of}; allowed are {', '.join(table)}")
+                near = nearest(name, table)
+                raise ValueError(f"{name!r} is no column{near}; allowed are {', '.join(table)}")
     if not names or not results:
         raise ValueError("a picture needs at least one name and one result")
     if len(names) > 1 and len(tables) > 1:
@@ -84,7 +99,7 @@ def _label(name: str) -> str:
 
 
 def _values(table: Table, name: str) -> NDArray[Any]:
-    return (1e6 if name == "dent" else 1.0) * table[name]
+    return np.asarray((1e6 if name == "dent" else 1.0) * table[name])
 
 
 def _map(figure: Figure, axes: Any, table: Table, names: Sequence[str], result: str) -> None:

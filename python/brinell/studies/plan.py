@@ -9,6 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import ProgramError
+from ..program import in_si
+
 Array = NDArray[np.float64]
 
 
@@ -44,25 +47,26 @@ class Range:
         return self.at(np.linspace(0.0, 1.0, self.count))
 
 
-Varied = Range | Sequence[float] | Array | str
+Varied = Range | Sequence[float | str] | Array | str
 
 
-def read(text: str) -> Range | Array:
+def read(text: str, name: str) -> Range | Array:
     """Parse `FROM:TO`, `FROM:TO:COUNT`, `FROM:TO:COUNTlog`, `FROM:TO:log`, or comma-separated
-    values."""
+    values of the quantity `name`, in SI units or with a unit."""
     try:
         if ":" not in text:
-            return np.array([float(part) for part in text.split(",")])
+            return np.array([in_si(name, part) for part in text.split(",")])
         first, last, *rest = text.split(":")
         match = re.fullmatch(r"(\d*)(log)?", rest[0] if rest else "")
         if len(rest) > 1 or match is None:
             raise ValueError
         count = int(match[1]) if match[1] else Range.count
-        ends = float(first), float(last)
-    except ValueError:
+        ends = in_si(name, first), in_si(name, last)
+    except (ValueError, ProgramError) as error:
+        why = f" ({error})" if isinstance(error, ProgramError) else ""
         raise ValueError(
-            f"{text!r} is not a range: allowed are FROM:TO:COUNT, FROM:TO:COUNTlog and "
-            "comma-separated values"
+            f"{name} = {text!r} is not a range{why}: allowed are FROM:TO:COUNT, FROM:TO:COUNTlog "
+            "and comma-separated values"
         ) from None
     return Range(*ends, count, match[2] is not None)
 
@@ -74,9 +78,11 @@ def runs(vary: Mapping[str, Varied], sample: str = "grid", seed: int = 0) -> dic
     """
     if not vary:
         raise ValueError("nothing is varied; for example, vary={'speed': '0.1:10:50log'}")
-    given = {name: read(value) if isinstance(value, str) else value for name, value in vary.items()}
+    given = {
+        name: read(value, name) if isinstance(value, str) else value for name, value in vary.items()
+    }
     if sample == "grid":
-        axes = [_axis(name, value) for name, value in given.items()]
+        axes = [axis(name, value) for name, value in given.items()]
         grids = np.meshgrid(*axes, indexing="ij")
         return {name: grid.ravel() for name, grid in zip(given, grids, strict=True)}
     match = re.fullmatch(r"(sobol|lhs):([1-9]\d*)", sample)
@@ -93,8 +99,13 @@ def runs(vary: Mapping[str, Varied], sample: str = "grid", seed: int = 0) -> dic
     }
 
 
-def _axis(name: str, value: Range | Sequence[float] | Array) -> Array:
-    values = value.values() if isinstance(value, Range) else np.asarray(value, dtype=float)
+def axis(name: str, value: Range | Sequence[float | str] | Array) -> Array:
+    """The values of the quantity `name` in a grid, in SI units."""
+    if isinstance(value, Range):
+        return value.values()
+    if any(isinstance(one, str) for one in value):
+        value = [in_si(name, one) for one in value]
+    values = np.asarray(value, dtype=float)
     if values.ndim != 1 or not len(values) or not np.isfinite(values).all():
         raise ValueError(f"{name} = {value!r}: a list of finite numbers is needed")
     return values

@@ -11,16 +11,21 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ContactError
+from ..errors import ContactError, missing
 from ..library import Library
+from ..program import in_si
+from ..sweeps import pandas_of
 from ..variables import Variables
 from . import impacts, plan, scene
-from .impacts import Table
+from .impacts import UNITS, Table
+
+if TYPE_CHECKING:
+    import pandas
 
 # The instance of a chunk takes as long as five runs, and its part of the result on the disk as long as twenty: a
 # hundred runs are worth it. A chunk of a thousand loses little when its process ends.
@@ -38,21 +43,22 @@ def study(
     *,
     sample: str = "grid",
     seed: int = 0,
-    mass: float | None = None,
-    speed: float | None = None,
-    parameters: Mapping[str, float] | None = None,
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    parameters: Mapping[str, float | str] | None = None,
     output: str | Path | Sequence[str | Path] = (),
     workers: int | None = None,
     chunk: int | None = None,
     scheduler: str | None = None,
     progress: bool = True,
-) -> Table:
+) -> pandas.DataFrame:
     """Run thousands of impacts of a scene's first contact; return a table with a row for each.
 
     `vary` maps the varied quantities to their values: "speed" [m/s], "mass" [kg], and any parameter
-    of the FMU, in SI units. Each value is a `Range`, a string (`"0.1:10:50log"`) or a list of
-    values. `sample` is "grid", "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and `parameters` hold
-    for all runs; the default is those of the scene.
+    of the FMU. Each value is a `Range`, a text (`"0.1:10:50log"`) or a list of values. `sample` is
+    "grid", "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and `parameters` hold for all runs; the
+    default is those of the scene. Numbers are in SI units, texts may have a unit: "1 m/s", "200
+    MPa:900 MPa:40". The units of the columns are in `attrs["units"]`.
 
     `output` names files; their extensions select the format: .parquet and .csv for the table, .svg
     and .png for a picture. With a table among them, an interrupted study continues where it was.
@@ -63,13 +69,19 @@ def study(
     A run that fails has its reason in the column `error`, and NaN as its results.
     """
     outputs = _outputs(output)
+    dataframe = pandas_of("brinell.study").DataFrame
     values = plan.runs(vary, sample, seed)
+    mass, speed = (
+        None if number is None else in_si(name, number)
+        for name, number in (("mass", mass), ("speed", speed))
+    )
+    fixed = {name: in_si(name, number) for name, number in (parameters or {}).items()}
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         known = mass if mass is not None or "mass" not in values else float(values["mass"][0])
         unit, usual = _unit(Path(scene_file), Path(folder), known)
         usual |= {"speed": speed} if speed is not None else {}
         usual |= {"mass": mass} if mass is not None else {}
-        columns = _columns(values, {**usual, **(parameters or {})})
+        columns = _columns(values, {**usual, **fixed})
         # in memory until the end: processes that are forked have it without unpacking it again
         library = Library.of(unit)
         _check(library, columns)
@@ -77,12 +89,20 @@ def study(
         workers = workers or _workers(len(rows), scheduler)
         size = chunk or max(FEWEST, min(MOST, len(rows) // CHUNKS))
         table = _run(library, names, rows, size, outputs, workers, scheduler, progress)
+        units = UNITS | {name: _unit_of(library, name) for name in names if name not in UNITS}
     for path in outputs:
         if path.suffix in (".svg", ".png"):
             from .picture import draw
 
             draw(path, table, list(values))
-    return table
+    made: pandas.DataFrame = dataframe(table)
+    made.attrs["units"] = {name: units[name] for name in table}
+    return made
+
+
+def _unit_of(library: Library, name: str) -> str:
+    """The unit of a parameter."""
+    return library.variables[name].unit or ""
 
 
 def _outputs(output: str | Path | Sequence[str | Path]) -> list[Path]:
@@ -92,7 +112,7 @@ def _outputs(output: str | Path | Sequence[str | Path]) -> list[Path]:
         if path.suffix not in ENDINGS:
             raise ValueError(f"{path}: a study can be written to {', '.join(ENDINGS)}")
         if not path.absolute().parent.is_dir():
-            raise FileNotFoundError(f"{path}: there is no such folder")
+            raise missing("folder", path.absolute().parent)
     return paths
 
 
@@ -122,7 +142,9 @@ def _workers(runs: int, scheduler: str | None) -> int:
 def _check(library: Library, columns: Mapping[str, Rows]) -> None:
     variables = Variables(library)
     if not variables.knows_mass or len(variables.contacts) != 1:
-        raise ContactError(f"{library.path}: a study needs an FMU with one contact that knows the mass")
+        raise ContactError(
+            f"{library.path}: a study needs an FMU with one contact that knows the mass"
+        )
     for name in ("effective_mass", "initial_gap", *(set(columns) - {"speed", "mass"})):
         if name not in variables.parameters:
             raise variables.unknown("parameter", name, ("speed", "mass", *variables.parameters))
