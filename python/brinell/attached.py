@@ -1,4 +1,4 @@
-"""Contacts that share bodies in an engine: what does not depend on the engine."""
+"""Contacts between bodies of an engine: what does not depend on the engine."""
 
 from __future__ import annotations
 
@@ -19,10 +19,14 @@ from .library import Library
 SINGULAR = 1e-9
 """Directions in which the inverse masses are smaller than this part of the largest are those of
 redundant contacts, such as the fourth foot of a box: nothing moves along them."""
+ALONE = 1e-9
+"""Contacts whose inverse masses couple by less than this part of their own share no body."""
 APART = 1e-2
 """Time derivatives are differences between this part of a step later and earlier."""
 
 Array = NDArray[np.float64]
+Attachable = str | Path | Library | Contact
+"""The path of an FMU or of a scene, which is exported, or a contact that exists."""
 
 
 @dataclass(frozen=True)
@@ -80,14 +84,16 @@ class Attached(ABC):
     tangents in each direction."""
 
     def __init__(
-        self, pairs: Sequence[Pair], unit: str | Path | Library, parameters: dict[str, Any]
+        self, pairs: Sequence[Pair], contact: Attachable, parameters: dict[str, Any]
     ) -> None:
         self._shapes = pairs
         self.gaps, _ = self._distances()
         count = len(pairs)
         self.forces, self.tangential_forces = np.zeros(count), np.zeros((count, 3))
         self._tangents = np.zeros((0, count, 3))
-        self.contact = contact = Contact(unit, **parameters)
+        if not isinstance(contact, Contact):
+            contact, parameters = Contact(contact, **parameters), {}
+        self.contact = contact
         self._directions = contact.directions
         rows = count * (1 + self._directions)
         self.inverse_masses = np.zeros((rows, rows))
@@ -99,10 +105,22 @@ class Attached(ABC):
                 raise ContactError(
                     f"{count} contacts of the engine: {contact.path.name} has {shown}"
                 )
-            contact.reset(initial_gap=self.gaps)
+            if not contact.shares_bodies:
+                self._check_alone()
+            contact.reset(initial_gap=self.gaps, **parameters)
         except BaseException:
             contact.close()
             raise
+
+    def _check_alone(self) -> None:
+        """Whether the FMU moves each pair of bodies by itself."""
+        contact, name = self.contact, self.contact.path.name
+        if not contact.knows_mass or not contact.mass_is_settable:
+            raise ContactError(
+                f"{name} can't be given the masses of the engine: [coupling] of its scene needs "
+                'effective_mass for one contact, or inverse_masses = "input" for contacts that '
+                "share bodies and for friction"
+            )
 
     def close(self) -> None:
         """Free the FMU."""
@@ -310,6 +328,8 @@ class Attached(ABC):
         """A step of the FMU; the impulses [N s] of all rows and their moments [N s^2]."""
         contact, h = self.contact, self._timestep
         count, directions = len(gaps), self._directions
+        if not contact.shares_bodies:
+            return self._step_alone(rates, accelerations, gaps)
         given: dict[str, Any] = {"gap": gaps, "inverse_masses": self.inverse_masses}
         if directions > 0:
             given["tangential_rate"] = self._by_contact(rates)
@@ -325,6 +345,32 @@ class Attached(ABC):
             h * np.concatenate((self.forces, forces.ravel())),
             np.concatenate((moments, more.ravel())),
         )
+
+    def _step_alone(self, rates: Array, accelerations: Array, gaps: Array) -> tuple[Array, Array]:
+        """The same with an FMU that moves each pair of bodies by its effective mass."""
+        contact, h = self.contact, self._timestep
+        own = np.diagonal(self.inverse_masses)
+        coupled = np.abs(self.inverse_masses - np.diag(own)).max()
+        if coupled > ALONE * own.max():
+            raise ContactError(
+                f"{contact.path.name} moves each contact alone, but these contacts share bodies: "
+                'inverse_masses = "input" under [coupling] of its scene must stand in place of '
+                "effective_mass"
+            )
+        masses = 1.0 / own
+        if contact.one_mass and np.ptp(masses) > ALONE * masses.max():
+            raise ContactError(
+                f"{contact.path.name} has one effective_mass, and these contacts have {masses} kg: "
+                'parameters_per_contact = ["effective_mass"] in its scene gives each its own'
+            )
+        before = np.atleast_1d(contact["indentation"])
+        given = float(masses[0]) if contact.one_mass else masses
+        forces = contact.step(h, rates, accelerations, gap=gaps, mass=given)
+        self.forces = np.atleast_1d(forces)
+        # what a contact that pushes lacks of the way without its force
+        lacking = h * (rates + 0.5 * h * accelerations)
+        lacking -= np.atleast_1d(contact["indentation"]) - before
+        return h * self.forces, np.where(self.forces > 0.0, lacking / own, 0.0)
 
     def _by_contact(self, rows: Array) -> Array:
         """The tangential part of a number for each row, as the FMU takes it."""

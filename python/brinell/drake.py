@@ -1,10 +1,9 @@
-"""Contacts that share bodies in Drake: one FMU moves all of them together, in the plant's own steps."""
+"""Contacts between bodies of Drake by an FMU, in the plant's own steps."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,9 +13,8 @@ from pydrake.multibody.tree import JacobianWrtVariable, RigidBody
 from pydrake.systems.analysis import Simulator
 
 from . import attached
-from .attached import Array, Pair
+from .attached import Array, Attachable, Pair
 from .errors import ContactError
-from .library import Library
 
 WITHIN = 1e-6
 """Part of a step by which the time may differ from a multiple of it."""
@@ -46,21 +44,26 @@ class Plane:
 def attach(
     plant: MultibodyPlant,
     simulator: Simulator,
-    pairs: Sequence[tuple[Sphere, Sphere | Plane]],
-    unit: str | Path | Library,
+    pairs: tuple[Sphere, Sphere | Plane] | Sequence[tuple[Sphere, Sphere | Plane]],
+    contact: Attachable,
     **parameters: Any,
 ) -> Attached:
     """Let an FMU compute the contacts of these pairs: `Attached.step` then takes the place of
     `simulator.AdvanceTo`, by one step of the plant.
 
     `plant` is discrete and finalized: the system of `simulator`, or a part of its diagram. `pairs`
-    are a sphere and a plane, or two spheres of different bodies, in the order of the contacts of
-    the FMU.
+    are a sphere and a plane, or two spheres of different bodies: one pair, or several in the order
+    of the contacts of the FMU.
 
-    `unit` is an FMU whose scene has `inverse_masses = "input"` under `[coupling]`, and
-    `parameters_per_contact = ["initial_gap"]` for contacts with a `count`. Its contacts start at
-    the distances in `simulator`. A scene with `[friction]` should have `directions = 2`.
-    `parameters` are those of `Contact`.
+    `contact` is the path of an FMU or of a scene, or a `Contact`, which then starts anew. Its
+    contacts start at the distances in `simulator`, and have the masses of the plant. `[coupling]` of
+    its scene has
+
+    - `effective_mass`, for one contact, or for several that share no body;
+    - `inverse_masses = "input"`, for contacts that share bodies and for friction; with
+      `parameters_per_contact = ["initial_gap"]` for contacts with a `count`.
+
+    A scene with `[friction]` should have `directions = 2`. `parameters` are those of `Contact`.
 
     Drake must not compute the contact of a pair, too: the bodies have no collision geometry, or
     a collision filter excludes the pair. The bodies must be free to follow the impulses but for
@@ -73,9 +76,11 @@ def attach(
         raise ContactError(
             "time_step = 0: attach needs a discrete plant, MultibodyPlant(time_step)"
         )
-    for index, pair in enumerate(pairs):
+    is_one = len(pairs) == 2 and isinstance(pairs[0], Sphere | Plane)
+    several: Any = [pairs] if is_one else pairs
+    for index, pair in enumerate(several):
         _check(f"pair {index}", pair)
-    return Attached(plant, simulator, pairs, unit, parameters)
+    return Attached(plant, simulator, several, contact, parameters)
 
 
 def _check(name: str, pair: tuple[Sphere, Sphere | Plane]) -> None:
@@ -106,7 +111,7 @@ class Attached(attached.Attached):
         plant: MultibodyPlant,
         simulator: Simulator,
         pairs: Sequence[tuple[Sphere, Sphere | Plane]],
-        unit: str | Path | Library,
+        contact: Attachable,
         parameters: dict[str, Any],
     ) -> None:
         self.plant, self.simulator, self._pairs = plant, simulator, pairs
@@ -116,7 +121,7 @@ class Attached(attached.Attached):
         for first, other in pairs:
             reach = other.radius if isinstance(other, Sphere) else 0.0
             shapes.append(Pair(first.radius, reach, isinstance(other, Plane)))
-        super().__init__(shapes, unit, parameters)
+        super().__init__(shapes, contact, parameters)
 
     def _steps(self) -> int:
         """The number of steps of the plant until now."""

@@ -1,19 +1,17 @@
-"""Contacts that share bodies in MuJoCo: one FMU moves all of them together, in the engine's own steps."""
+"""Contacts between geoms of MuJoCo by an FMU, in the engine's own steps."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import mujoco
 import numpy as np
 
 from . import attached
-from .attached import Array
-from .errors import ContactError, UnknownName
-from .library import Library
+from .attached import Array, Attachable
+from .errors import ContactError, UnknownName, nearest
 
 SPHERE, PLANE = mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_PLANE
 CAPSULE, BOX = mujoco.mjtGeom.mjGEOM_CAPSULE, mujoco.mjtGeom.mjGEOM_BOX
@@ -22,8 +20,8 @@ CAPSULE, BOX = mujoco.mjtGeom.mjGEOM_CAPSULE, mujoco.mjtGeom.mjGEOM_BOX
 def attach(
     model: mujoco.MjModel,
     data: mujoco.MjData,
-    pairs: Sequence[tuple[str, str]],
-    unit: str | Path | Library,
+    pairs: tuple[str, str] | Sequence[tuple[str, str]],
+    contact: Attachable,
     *,
     corner: float | None = None,
     **parameters: Any,
@@ -31,18 +29,24 @@ def attach(
     """Let an FMU compute the contacts of these pairs of geoms: `Attached.step` then takes the place
     of `mj_step`.
 
-    `pairs` are names of geoms, in the order of the contacts of the FMU:
+    `pairs` are names of geoms, of one pair or of several in the order of the contacts of the FMU:
 
     - a sphere and a plane, or two spheres: one contact;
     - a capsule and a plane: its two ends, the positive one first;
     - a box and a plane: its eight corners, spheres of the radius `corner` [m] inside the box, in
       the order of their coordinates (x first, negative ones first).
 
-    `unit` is an FMU whose scene has `inverse_masses = "input"` under `[coupling]`, and
-    `parameters_per_contact = ["initial_gap"]` for contacts with a `count`. Its contacts start at
-    the distances in `data`. A scene with `[friction]` should have `directions = 2`; with one, only
-    the first tangent of each contact has friction, which is across the normal along an axis of the
-    other geom. `parameters` are those of `Contact`.
+    `contact` is the path of an FMU or of a scene, or a `Contact`, which then starts anew. Its
+    contacts start at the distances in `data`, and have the masses of the model. `[coupling]` of its
+    scene has
+
+    - `effective_mass`, for one contact, or for several that share no body;
+    - `inverse_masses = "input"`, for contacts that share bodies and for friction; with
+      `parameters_per_contact = ["initial_gap"]` for contacts with a `count`.
+
+    A scene with `[friction]` should have `directions = 2`; with one, only the first tangent of each
+    contact has friction, which is across the normal along an axis of the other geom. `parameters`
+    are those of `Contact`.
 
     MuJoCo's own contact of a pair must be off: `contype="0" conaffinity="0"`, or an `<exclude>`.
     The integrator must be Euler, MuJoCo's default. The bodies must be free to follow the impulses
@@ -52,8 +56,9 @@ def attach(
     if model.opt.integrator != mujoco.mjtIntegrator.mjINT_EULER:
         name = mujoco.mjtIntegrator(model.opt.integrator).name.removeprefix("mjINT_").lower()
         raise ContactError(f"integrator = {name}: attach needs MuJoCo's default, Euler")
-    spheres = [pair for names in pairs for pair in _pairs_of(model, names, corner)]
-    return Attached(model, data, spheres, unit, parameters)
+    several: Any = [pairs] if len(pairs) == 2 and isinstance(pairs[0], str) else pairs
+    spheres = [pair for names in several for pair in _pairs_of(model, names, corner)]
+    return Attached(model, data, spheres, contact, parameters)
 
 
 @dataclass(frozen=True)
@@ -76,8 +81,11 @@ def _pairs_of(model: mujoco.MjModel, names: tuple[str, str], corner: float | Non
     geoms = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name) for name in names]
     for name, geom in zip(names, geoms, strict=True):
         if geom < 0:
-            there = ", ".join(model.geom(index).name for index in range(model.ngeom))
-            raise UnknownName(f"the model has no geom {name!r}; there are: {there}")
+            named = [model.geom(index).name for index in range(model.ngeom)]
+            there = ", ".join(named)
+            raise UnknownName(
+                f"the model has no geom {name!r}{nearest(name, named)}; there are: {there}"
+            )
     geoms.sort(key=lambda geom: model.geom_type[geom] == PLANE)
     kinds = [mujoco.mjtGeom(model.geom_type[geom]) for geom in geoms]
     on_plane = kinds[0] in (SPHERE, CAPSULE, BOX) and kinds[1] == PLANE
@@ -89,7 +97,7 @@ def _pairs_of(model: mujoco.MjModel, names: tuple[str, str], corner: float | Non
         )
     if _collide(model, *geoms):
         raise ContactError(
-            f"pair {shown}: MuJoCo's own contact is on; switch it off with contype=\"0\" "
+            f'pair {shown}: MuJoCo\'s own contact is on; switch it off with contype="0" '
             'conaffinity="0" at the geoms, or with <exclude> for their bodies'
         )
     first, other = geoms
@@ -135,12 +143,12 @@ class Attached(attached.Attached):
         model: mujoco.MjModel,
         data: mujoco.MjData,
         pairs: Sequence[_Pair],
-        unit: str | Path | Library,
+        contact: Attachable,
         parameters: dict[str, Any],
     ) -> None:
         self.model, self.data, self._pairs = model, data, pairs
         mujoco.mj_kinematics(model, data)
-        super().__init__(pairs, unit, parameters)
+        super().__init__(pairs, contact, parameters)
 
     @property
     def _timestep(self) -> float:

@@ -22,7 +22,7 @@ speed = 0.3
 [[contact]]
 name = "foot"
 count = {count}
-parameters_per_contact = ["initial_gap"]
+parameters_per_contact = ["initial_gap"{more}]
 """
 INPUTS = '[coupling]\ninverse_masses = "input"'
 
@@ -32,11 +32,13 @@ def unit(tmp_path_factory):
     """Exports an FMU of `count` feet that share bodies, once."""
     folder, made = tmp_path_factory.mktemp("units"), {}
 
-    def export(count, directions=0, coupling=INPUTS):
-        name = f"feet{count}" + ("" if coupling == INPUTS else "_alone") + "_rough" * directions
+    def export(count, directions=0, coupling=INPUTS, own_masses=False):
+        kind = "" if coupling == INPUTS else "_alone" if coupling else "_plain"
+        name = f"feet{count}{kind}" + "_rough" * directions + "_own" * own_masses
         if name not in made:
             scene = folder / f"{name}.toml"
             values = {"name": name, "coupling": coupling, "count": count}
+            values["more"] = ', "effective_mass"' if own_masses else ""
             rough = f"[friction]\ncoefficient = 0.3\ndirections = {directions}"
             values["friction"] = rough if directions else ""
             values["outputs"] = ', "tangential_energy", "friction_work"' if directions else ""

@@ -194,11 +194,12 @@ def test_what_is_refused_names_the_pair(unit):
         ([("foot0", "block")], ContactError, r"pair 'foot0' and 'block': sphere and box; allowed are a sphere, a capsule or a box and a plane"),
         (["foot0"], ContactError, r"pair 'foot0': two names of geoms are needed"),
         ([("block", "floor")], ContactError, r"pair 'block' and 'floor': corner = None: a box needs the radius"),
+        ([("foot0", "flor")], UnknownName, r"no geom 'flor' \(did you mean 'floor'\?\); there are"),
         (PAIRS[:3], ContactError, r"3 contacts of the engine: feet4.fmu has foot\[1\], foot\[2\]"),
     ):
         with pytest.raises(error, match=text):
             brinell.mujoco.attach(model, data, pairs, unit(4))
-    with pytest.raises(ContactError, match=r"feet4_alone.fmu has no such inputs; inverse_masses = \"input\""):
+    with pytest.raises(ContactError, match=r"moves each contact alone, but these contacts share bodies: inverse_masses"):
         brinell.mujoco.attach(model, data, PAIRS, unit(4, coupling="[coupling]\neffective_mass = 0.1")).step()
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
     with pytest.raises(ContactError, match="integrator = rk4: attach needs MuJoCo's default, Euler"):
@@ -300,3 +301,81 @@ def test_ends_of_capsules_and_corners_of_boxes_are_spheres(unit):
                 assert np.sum(attached.contact["dissipated_energy"]) > 1e-4
             ends.append(np.concatenate((data.qpos, data.qvel)))
         assert ends[0] == pytest.approx(ends[1], abs=1e-9)
+
+
+# a contact that knows the mass
+
+
+def dropped(path, mass=4e-3, height=0.01, steps=100, **arguments):
+    """A ball of this mass [kg] that falls from a height [m], with the lost energy [J]."""
+    ball = f'<body name="ball" pos="0 0 {0.005 + height}"><freejoint/><geom name="ball" size="5e-3" mass="{mass}"/></body>'
+    model, data = world(FLOOR + ball)
+    with brinell.mujoco.attach(model, data, ("ball", "floor"), path, **arguments) as attached:
+        for _ in range(steps):
+            attached.step()
+        return data.qpos[2], data.qvel[2], attached.contact["dissipated_energy"]
+
+
+ALONE = "[coupling]\neffective_mass = 0.1"
+
+
+def test_one_pair_bounces_by_its_own_mass_as_by_inverse_masses(unit):
+    expected = dropped(unit(1))
+    assert expected[2] > 1e-5
+    assert dropped(unit(1, coupling=ALONE)) == pytest.approx(expected, rel=1e-12, abs=1e-15)
+
+
+def test_a_contact_that_exists_and_a_scene_can_be_attached(unit):
+    path = unit(1, coupling=ALONE)
+    expected = dropped(path, target_yield_strength="400 MPa")
+    assert expected != dropped(path)
+    contact = brinell.Contact(path)
+    assert dropped(contact, target_yield_strength="400 MPa") == expected
+    assert contact.closed
+    assert dropped(path.with_suffix(".toml"), target_yield_strength=4e8) == expected
+
+
+def test_pairs_that_share_no_body_each_move_by_their_own_mass(unit):
+    balls = "".join(
+        f'<body name="{name}" pos="{x} 0 .01"><freejoint/><geom name="{name}" size="5e-3" mass="{mass}"/></body>'
+        for name, x, mass in (("light", 0.0, 4e-3), ("heavy", 0.1, 4e-2))
+    )
+    ends = []
+    pairs = [("light", "floor"), ("heavy", "floor")]
+    for path in (unit(2), unit(2, coupling=ALONE, own_masses=True)):
+        model, data = world(FLOOR + balls)
+        with brinell.mujoco.attach(model, data, pairs, path) as attached:
+            for _ in range(60):
+                attached.step()
+            ends.append(np.concatenate((data.qpos, data.qvel)))
+    assert ends[0] == pytest.approx(ends[1], rel=1e-12, abs=1e-14)
+    model, data = world(FLOOR + balls)
+    with (
+        brinell.mujoco.attach(model, data, pairs, unit(2, coupling=ALONE)) as attached,
+        pytest.raises(ContactError, match=r"one effective_mass, .*0.004 0.04 *\] kg: parameters_per_contact"),
+    ):
+        attached.step()
+
+
+def test_the_mass_of_a_pair_follows_the_pose(unit):
+    """A bob on two hinges above the floor: its effective mass changes while it swings."""
+    arm = (
+        '<body pos="0 0 .3"><joint axis="0 1 0"/><geom size="5e-3" mass="0.05"/><geom name="elbow" pos=".2 0 0" size="5e-3" mass="0.05"/>'
+        '<body pos=".2 0 0"><joint axis="0 1 0"/><geom name="bob" size="5e-3" pos=".15 0 0" mass="0.1"/></body></body>'
+    )
+    ends = []
+    for path in (unit(1), unit(1, coupling=ALONE)):
+        model, data = world(FLOOR + arm)
+        with brinell.mujoco.attach(model, data, ("bob", "floor"), path) as attached:
+            masses = []
+            for _ in range(400):
+                attached.step()
+                masses.append(1.0 / attached.inverse_masses[0, 0])
+            assert attached.contact["dissipated_energy"] > 1e-4 and max(masses) > 1.5 * min(masses)
+        ends.append(np.concatenate((data.qpos, data.qvel)))
+    assert ends[0] == pytest.approx(ends[1], rel=1e-6, abs=1e-7)
+
+
+def test_a_contact_that_the_engine_cannot_give_its_masses_is_refused(unit):
+    with pytest.raises(ContactError, match=r"plain.fmu can't be given the masses .*effective_mass for one contact"):
+        dropped(unit(1, coupling=""))
