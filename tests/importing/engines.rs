@@ -195,11 +195,16 @@ fn read(page: &str) -> String {
 static BALL: LazyLock<PathBuf> =
     LazyLock::new(|| unit::export(&unit::write_scene("ball", block(&read("mujoco.md"), "toml"))));
 
+/// What a page says below this heading.
+fn below(page: &str, heading: &str) -> String {
+    let page = read(page);
+    let (_, section) = page.split_once(&format!("\n## {heading}\n")).expect("the page has this section");
+    section.into()
+}
+
 /// What a page says of several contacts of one body.
 fn several(page: &str) -> String {
-    let page = read(page);
-    let (_, section) = page.split_once("## Several contacts of one body").expect("the page has this section");
-    section.into()
+    below(page, "Several contacts of one body")
 }
 
 /// The unit of the box on the page on MuJoCo.
@@ -228,6 +233,13 @@ fn prints(page: &str, packages: &[&str], unit: &Path) {
 #[test]
 fn the_page_on_mujoco_prints_what_it_shows() {
     page("mujoco", &["mujoco"]);
+}
+
+#[test]
+fn the_ball_that_is_moved_by_hand_in_mujoco_prints_what_it_shows() {
+    if have(&["mujoco"], "the ball by hand of the page mujoco") {
+        prints(&below("mujoco.md", "By hand"), &["mujoco"], &BALL);
+    }
 }
 
 #[test]
@@ -293,4 +305,24 @@ fn studies_run_completely_and_are_resumed() {
 #[test]
 fn fits_find_what_made_a_measurement() {
     pytest(&["test_fit.py"], &["scipy", "matplotlib"], "fits");
+}
+
+#[test]
+fn the_notebook_shows_what_it_prints() {
+    let packages = ["nbclient", "ipykernel", "scipy", "pyarrow", "tqdm", "matplotlib"];
+    pytest(&["test_notebook.py"], &packages, "the notebook");
+}
+
+#[test]
+fn the_module_is_strictly_typed() {
+    if !have(&["mypy"], "types of the Python module") {
+        return;
+    }
+    let output = interpreter(&["mypy"])
+        .args(["-m", "mypy", "--no-color-output", "brinell", "--cache-dir"])
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("types"))
+        .current_dir(root().join("python"))
+        .output()
+        .expect("the environment has an interpreter");
+    assert!(output.status.success(), "{}", text(&output));
 }

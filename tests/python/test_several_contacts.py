@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from brinell import ContactError, UnknownName
+from brinell import ContactError, ProgramError, UnknownName
 from units import bits, contact
 
 H = 1e-5
@@ -150,7 +150,7 @@ def test_one_number_is_one_for_all_and_a_reset_keeps_what_is_not_given():
 def test_parameters_of_each_contact_that_are_refused():
     with pytest.raises(ContactError, match=r"it takes one number, or 20"):
         contact("each", target_yield_strength=[1e8, 2e8])
-    with pytest.raises(TypeError, match="a number is needed"):
+    with pytest.raises(ProgramError, match="soft: a number in pascals is expected"):
         contact("each", target_yield_strength="soft")
     with pytest.raises(UnknownName, match="hardness"):
         contact("each", hardness=[1.0] * COUNT)
