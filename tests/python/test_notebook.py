@@ -13,7 +13,8 @@ def shown(cells):
     """What each cell shows as text or a table; the bytes of a picture depend on its fonts."""
     return [
         [
-            output.get("text") or [text for kind, text in output["data"].items() if kind[:4] == "text"]
+            output.get("text")
+            or {kind: text for kind, text in output["data"].items() if kind.startswith("text/")}
             for output in cell.get("outputs", [])
         ]
         for cell in cells
