@@ -35,12 +35,12 @@ class State:
 class Contact:
     """One instance of an FMU, with one contact or several.
 
-    `fmu` is the path of an FMU, or of a scene (.toml), which is exported and loaded. `initial_gap` [m] is the distance of the bodies at the start
-    (negative: pressed in); for several contacts, one number for each, or a mapping by name. All
-    other parameters are keywords with underscores for dots, in SI units
-    (`target_yield_strength=400e6`), or entries of `parameters` under their own names
-    (`{"target.yield_strength": 400e6}`). A text has a unit: `"400 MPa"`. A parameter that each contact has for itself takes one
-    number for all, or a sequence with one number for each.
+    `fmu` is the path of an FMU, or of a scene (.toml), which is exported and loaded. `initial_gap`
+    [m] is the distance of the bodies at the start (negative: pressed in); for several contacts, one
+    number for each, or a mapping by name. All other parameters are keywords with underscores for
+    dots, in SI units (`target_yield_strength=400e6`), or entries of `parameters` under their own
+    names (`{"target.yield_strength": 400e6}`). A text has a unit: `"400 MPa"`. A parameter that each
+    contact has for itself takes one number for all, or a sequence with one number for each.
 
     `force` selects what `step` returns:
 

@@ -55,7 +55,8 @@ def attach(
     are a sphere and a plane, or two spheres of different bodies: one pair, or several in the order
     of the contacts of the FMU.
 
-    `contact` is the path of an FMU or of a scene, or a `Contact`, which then starts anew. Its
+    `contact` is the path of an FMU or of a scene, or a `Contact`, which starts anew and is
+    closed with what `attach` returns. Its
     contacts start at the distances in `simulator`, and have the masses of the plant. `[coupling]` of
     its scene has
 

@@ -36,7 +36,8 @@ def attach(
     - a box and a plane: its eight corners, spheres of the radius `corner` [m] inside the box, in
       the order of their coordinates (x first, negative ones first).
 
-    `contact` is the path of an FMU or of a scene, or a `Contact`, which then starts anew. Its
+    `contact` is the path of an FMU or of a scene, or a `Contact`, which starts anew and is
+    closed with what `attach` returns. Its
     contacts start at the distances in `data`, and have the masses of the model. `[coupling]` of its
     scene has
 

@@ -75,8 +75,8 @@ class Variables:
         return len(self.components("tangential_rate")) // len(self.contacts)
 
     def shaped(self, names: Sequence[str], values: Any) -> Any:
-        """An array for C of values of `components`: a number or an array over the contacts, with two tangential
-        directions of their two components each."""
+        """The values of `components` in an array for C: a number or an array over the contacts, with
+        two tangential directions of their two components each."""
         count = len(self.contacts)
         if len(names) == count:
             return values[0] if count == 1 else np.array(values)

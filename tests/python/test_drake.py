@@ -288,3 +288,17 @@ def test_what_is_refused_names_the_pair(unit):
     continuous.Finalize()
     with pytest.raises(ContactError, match=r"time_step = 0: attach needs a discrete plant, MultibodyPlant\(time_step\)"):
         brinell.drake.attach(continuous, simulator, [], unit(2))
+
+
+def test_one_pair_bounces_by_its_own_mass_as_by_inverse_masses(unit):
+    ends = []
+    for path in (unit(1), unit(1, coupling="[coupling]\neffective_mass = 0.1")):
+        simulator, plant, context = world({"ball": ball(4e-3, 5e-3)})
+        put(plant, context, "ball", [0.0, 0.0, 0.015])
+        pair = (Sphere(plant.GetBodyByName("ball"), 5e-3), Plane())
+        with brinell.drake.attach(plant, simulator, pair, path) as attached:
+            for _ in range(100):
+                attached.step()
+            assert attached.contact["dissipated_energy"] > 1e-5
+        ends.append(np.array(plant.GetPositionsAndVelocities(context)))
+    assert ends[0] == pytest.approx(ends[1], rel=1e-11, abs=1e-14)

@@ -1,4 +1,4 @@
-"""Contacts that share bodies in MuJoCo: distances, inverse masses, momentum, energy, and what is refused."""
+"""Contacts in MuJoCo: distances, inverse masses, momentum, energy, and what is refused."""
 
 import brinell
 import brinell.mujoco

@@ -210,9 +210,14 @@ def test_angles_are_drawn_over_the_speed(tmp_path):
 @pytest.mark.parametrize(
     ("names", "results", "words"),
     [
-        (["sped"], ["dent"], "'sped' is no column .did you mean 'speed'.*allowed are speed, .*dent"),
+        (
+            ["sped"],
+            ["dent"],
+            "'sped' is no column .did you mean 'speed'.*allowed are speed, .*dent",
+        ),
         (["speed"], ["force"], "'force' is no column"),
         (["speed"], [], "at least one name and one result"),
+        (["speed"], ["regime"], "the column 'regime' has texts"),
         (["speed", "mass"], ["dent"], "a picture shows one law"),
     ],
 )

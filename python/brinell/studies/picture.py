@@ -19,12 +19,6 @@ Table = Mapping[str, Any]
 """Columns by name."""
 
 RESULTS = ("restitution", "dent")
-UNITS = {
-    "speed": "m/s", "mass": "kg", "radius": "m", "strength": "Pa", "modulus": "Pa", "height": "m", "energy": "J",
-    "angle": "deg", "spin": "rad/s", "force": "N", "indentation": "m", "time": "s", "work": "J", "lost": "J",
-    "impulse": "N.s",
-}  # fmt: skip
-"""Units by the last word of a name."""
 
 
 def draw(
@@ -34,16 +28,17 @@ def draw(
     results: Sequence[str] = RESULTS,
 ) -> None:
     """Draw `results` over the varied quantities `names`, all of them columns of the table of
-    `study`, `sweep` or `curve`; the extension of `path` selects the format.
+    `study` or `sweep`; the extension of `path` selects the format.
 
     One name gives curves, two give a map, more give dots over each. Over one name, a table with
-    several laws gives a curve of each.
+    several laws gives a curve of each. Labels have the units of `attrs["units"]`.
     """
     import matplotlib
     from matplotlib.figure import Figure
 
     path, tables = Path(path), _by_law(table)
     _check(tables, names, results)
+    units = getattr(table, "attrs", {}).get("units", {})
     ((_, first), *others) = tables.items()
     # several names: a row of each result, and a column of each name
     rows, columns = (len(results), len(names)) if len(names) > 2 else (1, len(results))
@@ -51,7 +46,8 @@ def draw(
     figure.set_layout_engine("constrained")
     for index, result in enumerate(results):
         if len(names) == 2:
-            _map(figure, figure.add_subplot(rows, columns, index + 1), first, names, result)
+            place = figure.add_subplot(rows, columns, index + 1)
+            _map(figure, place, first, names, result, units)
             continue
         for column, name in enumerate(names):
             axes = figure.add_subplot(rows, columns, index * len(names) + column + 1)
@@ -60,7 +56,7 @@ def draw(
                 style = "." if len(names) > 1 else "-"
                 values = _values(one, result)[order]
                 axes.plot(one[name][order], values, style, markersize=2, label=law)
-            _axes(axes, first, name, _label(result))
+            _axes(axes, first, name, units, _label(result, units))
             if others and index == 0:
                 axes.legend(fontsize="small")
     with matplotlib.rc_context({"svg.hashsalt": "brinell"}):
@@ -86,15 +82,17 @@ def _check(tables: Mapping[str, Table], names: Sequence[str], results: Sequence[
             if name not in table:
                 near = nearest(name, table)
                 raise ValueError(f"{name!r} is no column{near}; allowed are {', '.join(table)}")
+            if not np.issubdtype(table[name].dtype, np.number) and table[name].dtype != bool:
+                raise ValueError(f"the column {name!r} has texts; a picture shows numbers")
     if not names or not results:
         raise ValueError("a picture needs at least one name and one result")
     if len(names) > 1 and len(tables) > 1:
         raise ValueError(f"over {len(names)} quantities, a picture shows one law: {list(tables)}")
 
 
-def _label(name: str) -> str:
+def _label(name: str, units: Mapping[str, str]) -> str:
     """The name with its unit."""
-    unit = "µm" if name == "dent" else UNITS.get(name.replace(".", "_").rsplit("_", 1)[-1])
+    unit = "µm" if name == "dent" else units.get(name)
     return f"{name} [{unit}]" if unit else name
 
 
@@ -102,7 +100,14 @@ def _values(table: Table, name: str) -> NDArray[Any]:
     return np.asarray((1e6 if name == "dent" else 1.0) * table[name])
 
 
-def _map(figure: Figure, axes: Any, table: Table, names: Sequence[str], result: str) -> None:
+def _map(
+    figure: Figure,
+    axes: Any,
+    table: Table,
+    names: Sequence[str],
+    result: str,
+    units: Mapping[str, str],
+) -> None:
     x, y = (table[name] for name in names)
     values = _values(table, result)
     columns, rows = np.unique(x), np.unique(y)
@@ -112,21 +117,29 @@ def _map(figure: Figure, axes: Any, table: Table, names: Sequence[str], result: 
         drawn = axes.pcolormesh(columns, rows, grid, shading="nearest", rasterized=True)
     else:
         drawn = axes.scatter(x, y, c=values, s=6)
-    figure.colorbar(drawn, ax=axes, label=_label(result))
-    _axes(axes, table, names[0], "")
-    _axes(axes, table, names[1], "", vertical=True)
+    figure.colorbar(drawn, ax=axes, label=_label(result, units))
+    _axes(axes, table, names[0], units, "")
+    _axes(axes, table, names[1], units, "", vertical=True)
 
 
-def _axes(axes: Any, table: Table, name: str, label: str, *, vertical: bool = False) -> None:
+def _axes(
+    axes: Any,
+    table: Table,
+    name: str,
+    units: Mapping[str, str],
+    label: str,
+    *,
+    vertical: bool = False,
+) -> None:
     """Label an axis, and make it logarithmic if the values are spread logarithmically."""
     values = np.unique(table[name])
     middle = values[len(values) // 2]
     # in a logarithmic range, the middle value is nearer to the geometric than to the other mean
     spread = values[0] > 0.0 and middle < 0.75 * 0.5 * (values[0] + values[-1])
     if vertical:
-        axes.set(ylabel=_label(name), yscale="log" if spread else "linear")
+        axes.set(ylabel=_label(name, units), yscale="log" if spread else "linear")
         return
-    axes.set(xlabel=_label(name), xscale="log" if spread else "linear")
+    axes.set(xlabel=_label(name, units), xscale="log" if spread else "linear")
     if label:
         axes.set(ylabel=label)
         axes.grid(alpha=0.3)

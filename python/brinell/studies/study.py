@@ -90,13 +90,13 @@ def study(
         size = chunk or max(FEWEST, min(MOST, len(rows) // CHUNKS))
         table = _run(library, names, rows, size, outputs, workers, scheduler, progress)
         units = UNITS | {name: _unit_of(library, name) for name in names if name not in UNITS}
+    made: pandas.DataFrame = dataframe(table)
+    made.attrs["units"] = {name: units[name] for name in table}
     for path in outputs:
         if path.suffix in (".svg", ".png"):
             from .picture import draw
 
-            draw(path, table, list(values))
-    made: pandas.DataFrame = dataframe(table)
-    made.attrs["units"] = {name: units[name] for name in table}
+            draw(path, made, list(values))
     return made
 
 
