@@ -2,8 +2,8 @@
 
 `Contact` is an FMU in use. `export`, `predict`, `sweep` and `curve` call the exporter; `study` runs
 thousands of impacts, `fit` finds the parameters that explain a measurement, and `draw` draws the
-tables of `study` and `sweep`. Tables are pandas DataFrames. `brinell.mujoco` and `brinell.drake`, to be imported by themselves,
-move contacts that share bodies in MuJoCo and Drake.
+tables of `study` and `sweep`. Tables are pandas DataFrames. `brinell.mujoco` and `brinell.drake`, to
+be imported by themselves, compute contacts between bodies of MuJoCo and Drake.
 """
 
 from .contact import Contact, State

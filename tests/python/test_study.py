@@ -38,7 +38,9 @@ def test_ranges():
     assert list(plan.read("1:3:3", "speed").values()) == [1.0, 2.0, 3.0]
     assert plan.read("1:100:3log", "speed").values() == pytest.approx([1.0, 10.0, 100.0], rel=1e-14)
     assert list(plan.read("2,1,5e-1", "speed")) == [2.0, 1.0, 0.5]
-    assert plan.read("1:2", "speed") == Range(1.0, 2.0) and plan.read("1:2:log", "speed").logarithmic
+    assert (
+        plan.read("1:2", "speed") == Range(1.0, 2.0) and plan.read("1:2:log", "speed").logarithmic
+    )
     values = plan.read("0.1:0.7:50log", "speed").values()
     assert (values[0], values[-1]) == (0.1, 0.7)
     assert list(plan.read("3:1:2", "speed").values()) == [3.0, 1.0] and list(
@@ -106,7 +108,8 @@ def test_plans_that_are_refused(vary, sample, words):
 
 
 @pytest.mark.parametrize(
-    "name", ["steel_ball", "coupled", "mass_known", "elastic", "two_contacts", "everything", "damped"]
+    "name",
+    ["steel_ball", "coupled", "mass_known", "elastic", "two_contacts", "everything", "damped"],
 )
 def test_each_run_is_what_is_predicted(name):
     # rate-dependent laws are integrated
@@ -145,7 +148,11 @@ def test_a_study_is_a_table_with_units(unit):
     table = quick(unit, {"target.yield_strength": [3e8, 4e8]})
     units = table.attrs["units"]
     assert list(units) == list(table) and table["restitution"].between(0.0, 1.0).all()
-    assert [units[name] for name in ("target.yield_strength", "speed", "dent")] == ["Pa", "m/s", "m"]
+    assert [units[name] for name in ("target.yield_strength", "speed", "dent")] == [
+        "Pa",
+        "m/s",
+        "m",
+    ]
 
 
 def test_numbers_of_a_study_are_texts_with_a_unit(unit):
