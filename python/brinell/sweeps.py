@@ -54,8 +54,8 @@ def sweep(
     if not vary:
         raise ValueError("nothing is varied; for example, vary={'speed': '0.1:10'}")
     options += [f"--sweep={name}={_range(name, values)}" for name, values in vary.items()]
-    pandas_of("brinell.sweep")
-    return _frame(of_scene("predict", scene, *options)[0])
+    pandas = pandas_of("brinell.sweep")
+    return _frame(pandas, of_scene("predict", scene, *options)[0])
 
 
 def curve(
@@ -65,8 +65,8 @@ def curve(
     `law`, `indentation`, `force`, `contact_radius`, `stiffness`, `work` ... in the SI units of
     `attrs["units"]`, for the scene's law or for each of `laws`."""
     options = options_of({"to": to}, laws)
-    pandas_of("brinell.curve")
-    return _frame(of_scene("curve", scene, *options)[0])
+    pandas = pandas_of("brinell.curve")
+    return _frame(pandas, of_scene("curve", scene, *options)[0])
 
 
 def pandas_of(function: str) -> Any:
@@ -96,9 +96,9 @@ def _range(name: str, values: plan.Varied) -> str:
     return ",".join(map(repr, listed.tolist())) + ("," if len(listed) == 1 else "")
 
 
-def _frame(text: str) -> DataFrame:
+def _frame(pandas: Any, text: str) -> DataFrame:
     """The table of all laws in an answer of the exporter."""
-    pandas, data = pandas_of("this"), json.loads(text)
+    data = json.loads(text)
     units = {"law": ""} | {column["name"]: column["unit"] for column in data["columns"]}
     parts = [
         # a number that a law does not have is null
