@@ -207,7 +207,7 @@ fn numbers_with_units_become_numbers_in_si_units() {
     assert_eq!(numbers, json!([400e6, -5e-6, 1.0, 2.5, 0.5_f64.to_degrees()]));
     for (wrong, words) in [
         ("mass=4 m", "mass = 4 m: m is a length; a mass has a unit like"),
-        ("yield=4 MPa", "no quantity is called `yield`; did you mean `target.yield_strength`?"),
+        ("target.yeild_strength=4 MPa", "did you mean `target.yield_strength`?"),
         ("mass", "expected NAME=NUMBER"),
     ] {
         let failed = run(folder.path(), ["numbers", wrong]).with_status(2).err;
