@@ -43,6 +43,24 @@ fn predict_gives_the_impact_of_the_scene() {
     close(onsets[2] / onsets[0], 201.188636084190, 1e-12);
 }
 
+/// In some laws a regime begins within a segment.
+#[test]
+fn each_regime_begins_at_its_onset() {
+    for laws in ["brinell", "big-alabo", "kogut-etsion", "jackson-green", "stronge", "brake-2015"] {
+        let onsets = predicted(&["--laws", laws])["laws"][0]["onsets"].clone();
+        let onsets = onsets.as_array().unwrap();
+        assert!(!onsets.is_empty(), "{laws}");
+        for onset in onsets {
+            let regime_at = |part: f64| {
+                let speed = (part * number(&onset["speed"])).to_string();
+                predicted(&["--laws", laws, "--speed", &speed])["laws"][0]["regime"].clone()
+            };
+            assert_eq!(regime_at(1.0 + 1e-9), onset["regime"], "{laws}");
+            assert_ne!(regime_at(1.0 - 1e-9), onset["regime"], "{laws}");
+        }
+    }
+}
+
 #[test]
 fn speed_energy_and_height_of_fall_say_the_same_impact() {
     let by_speed = predicted(&["--mass", "0.01", "--speed", "2"]);

@@ -141,17 +141,29 @@ pub fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
     let mut onsets = Vec::new();
     let Some(model) = choice.model.elastoplastic() else { return onsets };
     let (law, pair) = (model.loading, model.pair);
-    let mut regime = law.regime(&pair, 0.0);
-    let mut corner = law.next_corner(&pair, 0.0);
+    let at = |indentation| law.regime(&pair, indentation);
+    let (mut below, mut corner) = (0.0, law.next_corner(&pair, 0.0));
     while corner < brinell_contact::regime::LARGEST_INDENTATION {
-        let above = law.regime(&pair, corner);
-        if above != regime {
-            onsets.push((above, (2.0 * law.work(&pair, corner) / mass).sqrt()));
-            regime = above;
+        while at(corner) != at(below) {
+            below = end_of_regime(at, below, corner);
+            onsets.push((at(below), (2.0 * law.work(&pair, below) / mass).sqrt()));
         }
-        corner = law.next_corner(&pair, corner);
+        (below, corner) = (corner, law.next_corner(&pair, corner));
     }
     onsets
+}
+
+/// The indentation in `below..=above` at which the regime of `below` ends: `above`, a corner of the law, or by bisection the first one
+/// before it.
+fn end_of_regime(at: impl Fn(f64) -> Regime, below: f64, above: f64) -> f64 {
+    let regime = at(below);
+    let (mut within, mut beyond) = (below, above);
+    let mut middle = above.next_down();
+    while within < middle && middle < beyond {
+        *(if at(middle) == regime { &mut within } else { &mut beyond }) = middle;
+        middle = 0.5 * (within + beyond);
+    }
+    beyond
 }
 
 /// The method of the predictions for these laws, in words.
