@@ -1,6 +1,7 @@
 //! Reading and writing of files for the user.
 
 use brinell_exporter::layout::shown;
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -178,6 +179,46 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
     // a missing folder is created in its nearest existing ancestor
     let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
     draft().tempfile_in(there).map(drop).map_err(FileError::at(path))
+}
+
+/// A kind of folder of the user's: the variable that has it on Windows; its place below `HOME` on macOS; the variable that has it on
+/// other systems, and without it the place below `HOME`.
+pub struct UserFolder {
+    windows: &'static str,
+    macos: &'static str,
+    variable: &'static str,
+    home: &'static str,
+}
+
+pub const CACHE: UserFolder =
+    UserFolder { windows: "LOCALAPPDATA", macos: "Library/Caches", variable: "XDG_CACHE_HOME", home: ".cache" };
+pub const CONFIGURATION: UserFolder = UserFolder {
+    windows: "APPDATA",
+    macos: "Library/Application Support",
+    variable: "XDG_CONFIG_HOME",
+    home: ".config",
+};
+
+/// The folder `brinell` in a folder of the user's on the operating system `os`; `variable` gives the environment.
+///
+/// # Errors
+/// The name of the variable that it needs.
+pub fn user_folder(
+    variable: impl Fn(&str) -> Option<OsString>,
+    os: &str,
+    kind: &UserFolder,
+) -> Result<PathBuf, &'static str> {
+    // the XDG Base Directory Specification ignores relative paths
+    let absolute = |name: &str| variable(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let base = match os {
+        "windows" => absolute(kind.windows).ok_or(kind.windows)?,
+        _ => {
+            let below = if os == "macos" { kind.macos } else { kind.home };
+            let home = || absolute("HOME").map(|home| home.join(below));
+            absolute(kind.variable).or_else(home).ok_or("HOME")?
+        }
+    };
+    Ok(base.join("brinell"))
 }
 
 /// The folder that contains `path`.

@@ -141,7 +141,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
         Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
         Some(Command::Merge { fmus, output }) => merge::run(fmus, output, json)?,
-        Some(Command::Materials) => materials::run(json),
+        Some(Command::Materials) => materials::run(json)?,
         Some(Command::Completions { shell }) => about::completions(*shell),
         Some(Command::Man { output }) => about::manual(output)?,
         Some(Command::Constants { scene }) => {

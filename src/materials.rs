@@ -1,19 +1,34 @@
-//! `brinell materials`: the built-in materials.
+//! `brinell materials`: the materials of one's own in the current folder and of the user, and the built-in ones.
 
+use crate::scene_file;
 use brinell_exporter::layout::{json_line, paragraph, table};
 use brinell_exporter::measured::{self, Metal};
+use brinell_exporter::mistake::SceneError;
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::table::{Class, MATERIALS, Material};
+use serde_json::{Value, json};
+use std::path::Path;
 
 /// The command: prints the list.
-pub fn run(as_json: bool) {
+///
+/// # Errors
+/// A mistake in a table of one's own, with its place.
+pub fn run(as_json: bool) -> Result<(), SceneError> {
+    let tables = scene_file::materials(Path::new(""))?;
+    let own = tables.iter().flat_map(|table| table.materials.iter().map(|material| (table.place, material)));
+    let all: Vec<_> = own.chain(MATERIALS.iter().map(|material| (BUILT_IN, material))).collect();
     if as_json {
-        print!("{}", json_line(&*MATERIALS));
-        return;
+        let value = |(place, material): &(&str, &Material)| {
+            let mut value = json!(material);
+            value["place"] = json!(place);
+            value
+        };
+        print!("{}", json_line(&all.iter().map(value).collect::<Vec<Value>>()));
+        return Ok(());
     }
     let heading = ["material", "E", "nu", "strength", "density"];
     let mut rows = vec![heading.map(String::from).to_vec()];
-    rows.extend(MATERIALS.iter().map(|material| {
+    rows.extend(all.iter().map(|(_, material)| {
         vec![
             material.name.clone(),
             quantity(material.youngs_modulus, "Pa"),
@@ -23,11 +38,21 @@ pub fn run(as_json: bool) {
         ]
     }));
     print!("{}\nsources\n", table(&rows, 1, 0));
-    let widest = MATERIALS.iter().map(|material| material.name.len()).max().unwrap_or(0);
-    for material in MATERIALS.iter() {
-        print!("{}", paragraph(&format!("  {:<widest$}  ", material.name), &material.source));
+    let widest = all.iter().map(|(_, material)| material.name.len()).max().unwrap_or(0);
+    for (place, material) in all {
+        let source = match place {
+            BUILT_IN => material.source.clone(),
+            place => {
+                [place, &material.source].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ")
+            }
+        };
+        print!("{}", paragraph(&format!("  {:<widest$}  ", material.name), &source));
     }
+    Ok(())
 }
+
+/// The place of a material of the program.
+const BUILT_IN: &str = "built in";
 
 /// Its yield strength, the flow stress at 3 % plastic strain where that depends on the strain, or a dash.
 fn strength(material: &Material) -> String {

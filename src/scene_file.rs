@@ -1,10 +1,17 @@
 //! Scene files: reading them, and warnings about what is in them.
 
+use crate::files::{CONFIGURATION, folder_of, user_folder};
 use crate::messages::warn;
-use brinell_exporter::mistake::{self, Mistake, SceneError};
-use brinell_exporter::scene::{self, Scene};
+use brinell_exporter::layout::shown;
+use brinell_exporter::mistake::{self, SceneError};
+use brinell_exporter::scene::{self, Beside, MaterialTable, Scene};
 use std::io::{self, Read};
 use std::path::Path;
+
+/// The name of a table of materials of one's own, and where it may lie.
+const TABLE: &str = "materials.toml";
+const BESIDE: &str = "materials.toml beside the scene";
+const OF_USER: &str = "materials.toml in the user's configuration folder";
 
 /// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
 const LARGEST: u64 = 256 << 20;
@@ -33,14 +40,43 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
 /// As for [`read`].
 pub fn read_aloud(path: &Path) -> Result<Scene, SceneError> {
     let (scene, doubts) = read_with_doubts(path)?;
-    for doubt in doubts {
-        warn(&doubt.in_file(&scene.text, path).to_string());
-    }
+    doubts.iter().for_each(|doubt| warn(&doubt.to_string()));
     Ok(scene)
 }
 
-fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
-    Scene::of_bytes(bytes(path)?, path)
+fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<SceneError>), SceneError> {
+    let text = mistake::text(bytes(path)?, path)?;
+    Scene::parse_beside(&text, path, &beside(&text, path)?)
+}
+
+/// What lies beside the scene with this `text` at `path`.
+fn beside(text: &str, path: &Path) -> Result<Beside, SceneError> {
+    let folder = folder_of(path);
+    let read = |name: String| {
+        let path = folder.join(&name);
+        let found = bytes(&path).map_err(|error| match error {
+            SceneError::Unreadable { source, .. } => format!("{} can't be read: {source}", shown(&path)),
+            other => other.to_string(),
+        });
+        (name, found)
+    };
+    let files = scene::files_named(text).into_iter().map(read).collect();
+    Ok(Beside { files, materials: materials(folder)? })
+}
+
+/// The tables of materials of one's own: that in the `folder` of a scene, then that of the user.
+///
+/// # Errors
+/// A mistake in a table, with its place.
+pub fn materials(folder: &Path) -> Result<Vec<MaterialTable>, SceneError> {
+    let of_user = user_folder(|name| std::env::var_os(name), std::env::consts::OS, &CONFIGURATION).ok();
+    let tables = [(Some(folder.join(TABLE)), BESIDE), (of_user.map(|folder| folder.join(TABLE)), OF_USER)];
+    let tables = tables.into_iter().filter_map(|(path, place)| Some((path?, place)));
+    let read = |(path, place): (std::path::PathBuf, &'static str)| {
+        let text = mistake::text(bytes(&path)?, &path)?;
+        MaterialTable::parse(&text, &path, place)
+    };
+    tables.filter(|(path, _)| path.is_file()).map(read).collect()
 }
 
 /// The text of the scene at `path` with all numbers in SI units.
@@ -48,7 +84,8 @@ fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
 /// # Errors
 /// As for [`read`].
 pub fn in_si(path: &Path) -> Result<String, SceneError> {
-    scene::in_si(&mistake::text(bytes(path)?, path)?, path)
+    let text = mistake::text(bytes(path)?, path)?;
+    scene::in_si(&text, path, &beside(&text, path)?)
 }
 
 /// The contents of the file at `path`, which may be a device that never ends.

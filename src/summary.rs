@@ -126,6 +126,7 @@ impl Summary<'_> {
         }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         line("law", &law(scene));
+        scene.materials.iter().for_each(|words| line("material", words));
         strengths(scene).iter().for_each(|words| line("strength", words));
         if let Some(guard) = guard {
             line("guard", &guard.words());
@@ -217,19 +218,45 @@ fn group_line(group: &Group) -> String {
     paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.size()), &own)
 }
 
-/// What was made of a hardness, a tensile strength or a material, for the impact of the scene.
+/// What was made of the hardness, the tensile strength, the tensile test or the material of the bodies, for the impact of the scene: once for
+/// all contacts that say the same.
 fn strengths(scene: &Scene) -> Vec<String> {
-    let found = scene.depends_on_impact().then(|| scene.in_impact(0, &scene.impact_of(0))).flatten();
-    let words = |found: &InImpact| {
-        let mut words: Vec<_> = Body::ALL.into_iter().filter_map(|body| scene.measured_words(body, found)).collect();
-        if !words.is_empty() && scene.rate(0).is_some() {
-            let strength = quantity(found.yield_strength, "Pa");
-            words.push(format!("{}: S = {strength} at the strain rate of the impact", scene.softer(0).name()));
-        }
-        words
+    let of = |group: usize| -> Vec<String> {
+        let has_words = Body::ALL.iter().any(|body| scene.measured(group, *body).is_some());
+        let found = has_words.then(|| scene.in_impact(group, &scene.impact_of(group))).flatten();
+        let words = |found: InImpact| {
+            let words = Body::ALL.into_iter().filter_map(|body| scene.measured_words(group, body, &found));
+            let rate = scene.rate(group).map(|_| {
+                let strength = quantity(found.yield_strength, "Pa");
+                format!("{}: S = {strength} at the strain rate of the impact", scene.softer(group).name())
+            });
+            words.chain(rate).collect()
+        };
+        found.map(words).unwrap_or_default()
     };
-    found.as_ref().map(words).unwrap_or_default()
+    let by_group = scene.by_bodies(of);
+    let mut all: Vec<String> = Vec::new();
+    for (group, words) in scene.contacts.iter().zip(by_group) {
+        let owner = if by_name(scene) { format!("{}: ", group.label()) } else { String::new() };
+        let said = |word: &String| all.iter().any(|known| known.ends_with(word.as_str()));
+        let new: Vec<_> = words.iter().filter(|word| !said(word)).map(|word| format!("{owner}{word}")).collect();
+        all.extend(new);
+        if all.len() >= MOST_STRENGTHS {
+            break;
+        }
+    }
+    all
 }
+
+/// Whether contacts have strengths of their own.
+fn by_name(scene: &Scene) -> bool {
+    let own =
+        |group: &Group| Body::ALL.iter().any(|body| group.own.iter().any(|own| own.name == body.yield_strength()));
+    scene.contacts.iter().any(own)
+}
+
+/// The largest number of lines about strengths.
+const MOST_STRENGTHS: usize = 20;
 
 fn law(scene: &Scene) -> String {
     let laws = match (scene.damped, scene.unloading) {

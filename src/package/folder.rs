@@ -2,6 +2,7 @@
 //! below a folder that only the user can write to.
 
 use super::error::{ExportError, FolderError};
+use crate::files::{CACHE, user_folder};
 use crate::files::{FileError, private_folder};
 use brinell_exporter::package::Hash;
 use std::ffi::OsString;
@@ -124,17 +125,7 @@ fn cache_folder(variable: impl Fn(&str) -> Option<OsString>, os: &str) -> Result
         // the compiler runs in another folder than the program
         return Ok(std::path::absolute(&chosen).unwrap_or(chosen));
     }
-    // the XDG Base Directory Specification ignores relative paths
-    let absolute = |name: &str| path(name).filter(|path| path.is_absolute());
-    let base = match os {
-        "windows" => absolute("LOCALAPPDATA").ok_or(FolderError::None("LOCALAPPDATA"))?,
-        _ => {
-            let below = if os == "macos" { "Library/Caches" } else { ".cache" };
-            let home = || absolute("HOME").map(|home| home.join(below));
-            absolute("XDG_CACHE_HOME").or_else(home).ok_or(FolderError::None("HOME"))?
-        }
-    };
-    Ok(base.join("brinell"))
+    user_folder(variable, os, &CACHE).map_err(FolderError::None)
 }
 
 /// Creates `folder` and its parents, for their owner alone.

@@ -126,9 +126,15 @@ impl Answer<'_> {
             ("largest indentation", quantity(prediction.max_indentation, "m")),
             ("largest contact radius", radius),
             ("depth of the dent", quantity(prediction.residual_indentation, "m")),
+        ];
+        // unloading hardly narrows a dent
+        if prediction.residual_indentation > 0.0 {
+            rows.push(("diameter of the dent", quantity(2.0 * prediction.max_contact_radius, "m")));
+        }
+        rows.extend([
             ("restitution", quantity(prediction.restitution, "")),
             ("rebound speed", quantity(prediction.restitution * self.impact.speed, "m/s")),
-        ];
+        ]);
         if let Some(height) = self.rebound_height(prediction) {
             rows.push(("rebound height", quantity(height, "m")));
         }

@@ -8,7 +8,7 @@ use crate::{package, parallel};
 use brinell_contact::rate::Factors;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform;
-use brinell_exporter::scene::{Body, Both, Coupling, Group, Parameter, Scene};
+use brinell_exporter::scene::{Coupling, Group, Parameter, Scene};
 use brinell_exporter::table::VARIABLES;
 use std::collections::BTreeMap;
 
@@ -79,14 +79,10 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         let gap = parameters.iter().position(|parameter| parameter.name == "initial_gap").unwrap_or(parameters.len());
         parameters.insert(gap, Parameter::shared("effective_mass", value, true));
     }
-    // a body with its own strength has no hardening that depends on the impact
-    let own = |body: Body| scene.contacts[0].own.iter().any(|own| own.name == body.yield_strength());
-    let flows = Both::each(|body| scene.flows.of(body).clone().filter(|_| !own(body)));
     let unit = Scene {
         parameters,
         contacts: vec![Group { name: None, count: None, own: Vec::new(), ..scene.contacts[0].clone() }],
         outputs: OUTPUTS.iter().chain(more).map(|name| (*name).to_string()).collect(),
-        flows,
         quasi_static: vec![scene.quasi_static[0]],
         factors: vec![Factors::SLOW],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),

@@ -57,8 +57,12 @@ fn an_unknown_key_of_a_contact_is_refused_with_the_known_ones() {
     refused_in_left("§colour = 1", &keys);
     refused_in_left("impactor = { §mass = 1 }", &["`mass`", "`radius`", "`youngs_modulus`", "`poissons_ratio`"]);
     refused_in_left("target = { §hard = 1 }", &["`hard`", "`material`", "`yield_strength`", "`surface`"]);
-    let words = ["contact `left`: target.hardness belongs to [target], for all contacts"];
-    refused_in_left("target = { hardness = §\"200 HV10\" }", &words);
+    let words = ["contact `left`: target.plate_thickness belongs to [target], for all contacts"];
+    refused_in_left("target = { plate_thickness = §0.01 }", &words);
+    refused_in_left(
+        "target = { hardness = §\"200 HK\" }",
+        &["contact `left`: target.hardness = \"200 HK\": a hardness is"],
+    );
     refused_in_left("target = { surface = §\"old\" }", &["`old`", "`dented`", "`fresh`"]);
     refused_in_left("target = { material = §\"cheese\" }", &["material", "`cheese`", "`mild steel`"]);
     refused_in_left("[contact.§law]\nloading = \"hertz\"", &["`law`", "`target`"]);

@@ -175,10 +175,6 @@ fn a_material_number_finds_the_name_and_another_alloy_isnt_suggested() {
     ] {
         refused("[target]\n", &format!("[target]\nmaterial = §\"{asked}\"\n"), &[asked, said]);
     }
-    refused_with(
-        "[[contact]]\nname = \"left\"\ntarget = { material = §\"316L\" }",
-        &["contact `left`: the strength of `316L` depends on the impact, and belongs to [target]"],
-    );
 }
 
 /// Each name and each alias of one material is that material.

@@ -7,7 +7,7 @@
 //! | [`model`], [`parameters`], [`pairing`], [`law_check`], [`law_text`], [`validity`] | laws by name: their constants, which go together, where they hold |
 //! | [`scene`] | a checked scene |
 //! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
-//! | [`measured`] | the flow stress that a hardness or a tensile strength says |
+//! | [`tension`], [`measured`] | the flow stress that a tensile test, a hardness or a tensile strength says |
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
 //! | [`constants`], [`model_description`], [`documentation`] | these files |
@@ -76,6 +76,7 @@ pub mod signature;
 mod strength_text;
 pub mod symbols;
 pub mod table;
+pub mod tension;
 pub mod units;
 pub mod validity;
 pub mod xml;

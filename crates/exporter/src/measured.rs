@@ -1,4 +1,4 @@
-//! The strength that a hardness or a tensile strength says: a flow stress with the strain at which it holds, and how sure it is.
+//! The strength that a hardness, a tensile strength or a tensile test says: a flow stress with the strain at which it holds, and how sure it is.
 //!
 //! A perfectly plastic law has one strength, the flow stress at the strain of its own dent, `0.2 a/R` (Tabor 1951). A hardness test makes
 //! a deeper dent than an impact, so its flow stress is taken along the hardening `sigma ~ eps^n` to the strain of the impact.
@@ -6,8 +6,10 @@
 use crate::model::{AnyModel, paired};
 use crate::numbers::{cell, in_message, quantity};
 use crate::pairing::{published, unloading_of};
-use crate::table::{Class, Material, Tension};
-use crate::units;
+use crate::table::{Class, Material};
+use crate::tension::Tension;
+use crate::{table, units};
+use brinell_contact::hardening::Hardening;
 use brinell_contact::impact::Impact;
 use brinell_contact::rate::{self, Rate, TABOR};
 use brinell_contact::{Body, Model, OtherBody, Pair, Surface, TwoBodies};
@@ -69,6 +71,9 @@ const DEVICE_IMPACT: Impact = Impact { mass: 5.45e-3, speed: 2.05 };
 
 /// How much stronger steel is in the impact of this device than in a slow test. It enters the choice of an exponent alone.
 const DEVICE_RATE: f64 = 1.25;
+
+/// A strain of impacts \[-\], for which messages name the flow stress of a tensile test.
+const IMPACT_STRAIN: f64 = 0.03;
 
 /// The strain rate of hardness and tensile tests \[1/s\], where a strain-rate law on top of their strength starts.
 pub const TEST_RATE: f64 = 1e-3;
@@ -139,16 +144,33 @@ pub struct MeasuredStrength {
     /// Relative uncertainty of the stress in an impact: one standard deviation \[-\].
     pub uncertainty: f64,
     /// How the stress was found.
-    way: &'static str,
+    way: String,
     pub class: Class,
     /// Whether the test was an impact, so that its rate is in the strength already.
     pub has_rate: bool,
+    /// The tensile test, if it was one.
+    pub tension: Option<Tension>,
+    /// Whether the law takes its hardening in the impact, too.
+    hardens: bool,
 }
 
 impl MeasuredStrength {
     /// Flow stress \[Pa\] at a plastic `strain`.
     pub fn at(&self, strain: f64) -> f64 {
         self.stress * libm::pow(strain / self.strain, self.exponent)
+    }
+
+    /// What stands for it in an impact with this plastic `strain`: the tangent of a tensile test there, `(1 - n) S + (n S/eps) eps_p`, for a
+    /// law that hardens; else the flow stress alone.
+    pub fn hardening(&self, strain: f64) -> Hardening {
+        let stress = self.at(strain);
+        let part = if self.hardens { self.exponent } else { 0.0 };
+        Hardening { yield_strength: (1.0 - part) * stress, hardening_modulus: part * stress / strain }
+    }
+
+    /// Whether the law takes its hardening in the impact.
+    pub fn hardens(&self) -> bool {
+        self.hardens
     }
 
     /// Whether it is that of steel in a slow test.
@@ -162,7 +184,7 @@ impl MeasuredStrength {
         let assumed =
             if self.exponent_is_assumed { format!(", assumed for {}", self.class.name()) } else { String::new() };
         format!(
-            "{given} is a flow stress of {} at a plastic strain of {} ({way}, +-{} %); hardening exponent {}{assumed}",
+            "{given} is a flow stress of {} at a plastic strain of {} ({way}; standard deviation {} %); hardening exponent {}{assumed}",
             quantity(self.stress, "Pa"),
             cell(self.strain, 1.0),
             cell(100.0 * self.uncertainty, 1.0),
@@ -293,7 +315,9 @@ pub fn of_hardness(text: &str, metal: &Metal) -> Result<MeasuredStrength, String
 /// A sentence with what is wrong.
 pub fn of_tensile_strength(strength: f64, metal: &Metal) -> Result<MeasuredStrength, String> {
     let uncertainty = match metal.class {
-        Class::Steel | Class::Aluminium => 0.07,
+        Class::Steel => 0.07,
+        // 4 % at the strain of the test, and an exponent of 0.13 +- 0.07 from there to an impact
+        Class::Aluminium => 0.08,
         Class::Austenitic => 0.1,
         Class::Other => 0.15,
     };
@@ -305,12 +329,24 @@ pub fn of_tensile_strength(strength: f64, metal: &Metal) -> Result<MeasuredStren
     measured(&given, point, (uncertainty, "1.05 times the tensile strength"), false, (vickers, metal))
 }
 
-/// The strength of a built-in `material` that isn't a number alone, as that of a `metal`; `None` if it has a yield strength, or stays
+/// What a tensile `test` says of the flow stress of a `metal`. `hardens` is whether the law of the scene takes hardening.
+///
+/// # Errors
+/// None but those that every strength has.
+pub fn of_tensile_test(given: &str, test: Tension, hardens: bool, metal: &Metal) -> Result<MeasuredStrength, String> {
+    let metal = Metal { exponent: Some(test.law.exponent), ..*metal };
+    let stress = test.law.coefficient * libm::pow(IMPACT_STRAIN, test.law.exponent);
+    let way = (test.uncertainty, test.way.as_str());
+    let found = measured(given, (stress, IMPACT_STRAIN), way, false, (0.0, &metal))?;
+    Ok(MeasuredStrength { hardens, tension: Some(test), ..found })
+}
+
+/// The strength of a `material` that isn't a number alone, as that of a `metal`; `None` if it has a yield strength, or stays
 /// elastic.
 pub fn of_material(material: &Material, metal: &Metal) -> Option<MeasuredStrength> {
     let name = &material.name;
     let metal = Metal { exponent: material.hardening_exponent, ..*metal };
-    if let Some(Tension { coefficient, exponent }) = material.tension {
+    if let Some(table::Tension { coefficient, exponent }) = material.tension {
         let metal = Metal { exponent: Some(exponent), ..metal };
         let point = (coefficient * libm::pow(VICKERS_STRAIN, exponent), VICKERS_STRAIN);
         let way = (0.1, "yield and tensile strength of handbooks");
@@ -324,7 +360,7 @@ pub fn of_material(material: &Material, metal: &Metal) -> Option<MeasuredStrengt
 fn measured(
     given: &str,
     (stress, strain): (f64, f64),
-    (uncertainty, way): (f64, &'static str),
+    (uncertainty, way): (f64, &str),
     has_rate: bool,
     (vickers, metal): (f64, &Metal),
 ) -> Result<MeasuredStrength, String> {
@@ -339,7 +375,21 @@ fn measured(
     })?;
     let exponent_is_assumed = metal.exponent.is_none();
     let given = given.trim().to_string();
-    Ok(MeasuredStrength { given, stress, strain, exponent, exponent_is_assumed, uncertainty, way, class, has_rate })
+    let way = way.into();
+    let (tension, hardens) = (None, false);
+    Ok(MeasuredStrength {
+        given,
+        stress,
+        strain,
+        exponent,
+        exponent_is_assumed,
+        uncertainty,
+        way,
+        class,
+        has_rate,
+        tension,
+        hardens,
+    })
 }
 
 /// The uncertainty of the strength of steel from a Vickers hardness. Tension says little of steel from 600 HV on.
@@ -590,7 +640,7 @@ mod tests {
     fn the_tension_of_a_material_goes_through_its_yield_and_its_tensile_strength() {
         let mut count = 0;
         for material in MATERIALS.iter() {
-            let Some(Tension { coefficient, exponent: n }) = material.tension else { continue };
+            let Some(table::Tension { coefficient, exponent: n }) = material.tension else { continue };
             let numbers = material.source.split(" MPa").filter_map(|part| part.rsplit(' ').next()?.parse::<f64>().ok());
             let [yielding, tensile] = numbers.collect::<Vec<_>>()[..] else { panic!("{}", material.source) };
             let ratio = n * (1.0 + ((0.002 + 1e6 * yielding / material.youngs_modulus) / n).ln());
@@ -602,10 +652,13 @@ mod tests {
         assert_eq!(count, 18);
     }
 
-    /// Materials with both: hardness and the power law through yield and tensile strength, its stress at 8 % \[MPa\].
+    /// Materials with both: hardness and the power law through yield and tensile strength, its exponent and its stress at 8 % \[MPa\]. The
+    /// uncertainty that is printed is one standard deviation: the root mean square of the errors is within it, at the strain of the
+    /// test with the exponent known, and at that of an impact with the exponent of the class; and no error is beyond two (95 % are
+    /// expected within). Tension itself is uncertain by 3 %.
     #[test]
-    fn hardness_gives_the_flow_stress_of_tension_within_its_uncertainty() {
-        for (hardness, metal, exponent, tension) in [
+    fn the_uncertainty_of_a_hardness_is_the_standard_deviation_of_its_error_against_tension() {
+        let rows = [
             ("228 HBW 10/3000", STEEL, 0.103, 782.0),
             ("280 HBW 10/3000", STEEL, 0.078, 1045.0),
             ("520 HBW 10/3000", STEEL, 0.093, 2029.0),
@@ -621,10 +674,17 @@ mod tests {
             ("150 HBW 10/500", ALUMINIUM, 0.095, 619.0),
             ("120 HBW 10/500", ALUMINIUM, 0.157, 508.0),
             ("70 HBW 10/500", ALUMINIUM, 0.14, 249.0),
-        ] {
-            let found = of(hardness, &Metal { exponent: Some(exponent), ..metal });
-            let error = found.at(0.08) / (1e6 * tension) - 1.0;
-            assert!(error.abs() < 1.5 * found.uncertainty, "{hardness}: {error}, +-{}", found.uncertainty);
+        ];
+        for (strain, known) in [(0.08, true), (0.03, false)] {
+            let errors = rows.map(|(hardness, metal, exponent, tension)| {
+                let found = of(hardness, &Metal { exponent: known.then_some(exponent), ..metal });
+                let error = found.at(strain) / (1e6 * tension * libm::pow(strain / 0.08, exponent)) - 1.0;
+                let deviations = error / found.uncertainty.hypot(0.03);
+                assert!(deviations.abs() < 2.0, "{hardness} at {strain}: {error}, {}", found.uncertainty);
+                deviations
+            });
+            let rms = (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
+            assert!(rms < 1.0, "{rms} standard deviations at {strain}: {errors:?}");
         }
     }
 

@@ -204,8 +204,8 @@ pub enum Class {
     Other,
 }
 
-/// A built-in material; see `modelDescription/materials.toml`.
-#[derive(Debug, Deserialize, serde::Serialize)]
+/// A material, built in or of one's own; see `modelDescription/materials.toml`.
+#[derive(Clone, Debug, Deserialize, serde::Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     pub name: String,
@@ -229,13 +229,14 @@ pub struct Material {
     pub density: f64,
     /// What to say wherever it is used.
     pub warning: Option<String>,
+    #[serde(default)]
     pub source: String,
 }
 
 impl Material {
-    /// Whether its strength is a flow stress at the strain of the impact.
-    pub fn depends_on_strain(&self) -> bool {
-        self.tension.is_some() || self.hardness.is_some()
+    /// Whether it has this name or alias.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.name == name || self.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(name.trim()))
     }
 }
 

@@ -29,8 +29,8 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
     let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.to_string());
     let softer = predictions.first().map(|prediction| accuracy::notes(scene, prediction)).unwrap_or_default();
     let rods = Waves::of(scene, impact.speed, &[]).and_then(|waves| waves.note(predictions));
-    let notes =
-        endless.into_iter().chain(loss(scene, impact, predictions)).chain(softer).chain(strength(scene, impact));
+    let notes = scene.materials.iter().cloned().chain(endless).chain(loss(scene, impact, predictions));
+    let notes = notes.chain(softer).chain(strength(scene, impact));
     notes.chain(rods).chain(bodies::held(scene, impact.mass)).collect()
 }
 
@@ -96,7 +96,7 @@ fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
             restitution(2.0),
         ));
     }
-    notes.extend(Body::ALL.into_iter().filter_map(|body| scene.measured_words(body, &found)));
+    notes.extend(Body::ALL.into_iter().filter_map(|body| scene.measured_words(0, body, &found)));
     if scene.rate(0).is_some() {
         notes.push(format!(
             "At the mean strain rate of this impact, {} 1/s, the {} is {} times as strong as at rest: S = {}.{}",

@@ -1,6 +1,7 @@
 //! Checks a scene: from the contents of the file to a scene that can be built.
 
 use super::Scene;
+use super::beside::OwnMaterial;
 use super::bodies::{self, Body, Both};
 use super::contacts::{Contacts, Group, Parameter};
 use super::file::{ImpactTable, NamesName, SceneFile};
@@ -102,7 +103,6 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         passivity_guard,
         yield_strength,
         rates: contacts.rates(),
-        flows: contacts.flows.clone(),
         quasi_static: Vec::new(),
         factors,
         coupling,
@@ -123,6 +123,7 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         stop_time,
         standalone: file.fmu.standalone == Some(true),
         impact_is_assumed: file.impact.is_none(),
+        materials: file.own.iter().map(OwnMaterial::words).collect(),
         text: String::new(),
     };
     choose_settable(&mut scene, file.fmu.parameters.as_deref())?;

@@ -1,11 +1,13 @@
 //! The contacts: the numbers that a scene gives for all of them, and those that one gives for itself, directly or by a material.
 
+use super::beside::{self, OwnMaterial};
 use super::bodies::{Body, Both};
 use super::file::{BodyTable, ContactTable, Impactor, SceneFile};
+use super::laws;
 use super::names::check_identifier;
 use super::strength::{self, Elastic, Flow, Rate};
 use crate::layout::shortened;
-use crate::measured::STEEL_RATE;
+use crate::measured::{MeasuredStrength, STEEL_RATE};
 use crate::mistake::{Mistake, check_limits, check_range};
 use crate::nearest::{one_of, unknown};
 use crate::numbers::in_message;
@@ -15,6 +17,7 @@ use brinell_contact::Surface;
 use brinell_contact::loading::AnyLoading;
 use std::collections::HashSet;
 use std::ops::{Range, RangeInclusive};
+use std::sync::Arc;
 use toml::Spanned;
 
 /// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
@@ -25,7 +28,7 @@ const MOST_CONTACTS: i64 = 100_000;
 const MOST_VALUES: usize = 10_000;
 
 /// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
-const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
+pub const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
 
 /// Allowed lengths of rods \[m\], and their cross-sections \[m^2\].
 const LENGTHS: RangeInclusive<f64> = 1e-9..=1e6;
@@ -73,7 +76,12 @@ pub struct Group {
     pub rods: Both<Option<Rod>>,
     /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may yield.
     pub impactor_strength: Option<f64>,
+    /// Hardening that depends on the strain of the impact, for which yield strength and hardening modulus stand.
+    pub flows: Flows,
 }
+
+/// The hardening of two bodies that depends on the strain of the impact. Many contacts share one.
+pub type Flows = Both<Option<Arc<Flow>>>;
 
 impl Group {
     /// The number of contacts in the group.
@@ -132,11 +140,9 @@ impl Numbers {
     fn of(
         bodies: &Both<&BodyTable>,
         others: [(&'static str, Option<&Spanned<f64>>); 3],
-        shared: Option<&Numbers>,
+        above: &Above,
     ) -> Result<Numbers, Mistake> {
-        let material = |body| bodies.of(body).material.as_ref().map(|name| Ok((find_material(name)?, name.span())));
-        let materials = Both::try_each(|body| material(body).transpose())?;
-        let of = |body| numbers_of(body, bodies.of(body), materials.of(body).as_ref(), shared);
+        let of = |body| numbers_of(body, bodies.of(body), above);
         let (target, impactor) = (of(Body::Target)?, of(Body::Impactor)?);
         let others = others.into_iter().map(|(name, value)| (name, value.cloned()));
         let numbers = impactor.into_iter().chain(target).chain(others);
@@ -176,30 +182,62 @@ impl Numbers {
 /// The name of a property, and its number if there is one.
 type NamedNumber = (&'static str, Option<Spanned<f64>>);
 
+/// What the tables of a level may ask for beside themselves.
+struct Above<'a> {
+    /// The materials that aren't built in.
+    materials: &'a [OwnMaterial],
+    /// Whether the law takes hardening.
+    hardens: bool,
+    /// Of a contact: the numbers of all contacts, and the tables that they are from.
+    shared: Option<(&'a Numbers, &'a Both<&'a BodyTable>)>,
+}
+
+impl<'a> Above<'a> {
+    fn material<'b>(&'b self, table: &'b BodyTable) -> Result<Option<(&'b table::Material, Range<usize>)>, Mistake> {
+        let of = |name: &'b Spanned<String>| Ok((beside::find(name, self.materials)?, name.span()));
+        table.material.as_ref().map(of).transpose()
+    }
+
+    /// What a reading of a `body` needs to know, by its `table`, and these moduli of it where it has them.
+    fn elastic<'b>(
+        &'b self,
+        body: Body,
+        table: &'b BodyTable,
+        [modulus, ratio]: [Option<&'b Spanned<f64>>; 2],
+    ) -> Result<Elastic<'b>, Mistake> {
+        let shared = |name| self.shared?.0.get(name);
+        // a body with moduli of its own is of another metal
+        let of_all = self.shared.filter(|_| modulus.is_none()).map(|(_, tables)| *tables.of(body));
+        let material = match self.material(table)? {
+            Some((material, _)) => Some(material),
+            None => of_all.map(|table| self.material(table)).transpose()?.flatten().map(|(material, _)| material),
+        };
+        Ok(Elastic {
+            youngs_modulus: modulus.or_else(|| shared(body.youngs_modulus())),
+            poissons_ratio: ratio.or_else(|| shared(body.poissons_ratio())),
+            material,
+            hardens: self.hardens,
+        })
+    }
+}
+
 /// The numbers of a `body`. An explicit number overrides that of the material.
-fn numbers_of(
-    body: Body,
-    table: &BodyTable,
-    material: Option<&(&'static table::Material, Range<usize>)>,
-    shared: Option<&Numbers>,
-) -> Result<[NamedNumber; 8], Mistake> {
+fn numbers_of(body: Body, table: &BodyTable, above: &Above) -> Result<[NamedNumber; 8], Mistake> {
+    let material = above.material(table)?;
     let or = |given: Option<Spanned<f64>>, of_material: fn(&table::Material) -> Option<f64>| {
         given.or_else(|| {
-            let (material, span) = material?;
+            let (material, span) = material.as_ref()?;
             Some(Spanned::new(span.clone(), of_material(material)?))
         })
     };
     let youngs_modulus = or(table.youngs_modulus.clone(), |material| Some(material.youngs_modulus));
-    let modulus = youngs_modulus.as_ref().or_else(|| shared?.get(body.youngs_modulus()));
     let poissons_ratio = or(table.poissons_ratio.clone(), |material| Some(material.poissons_ratio));
-    let ratio = poissons_ratio.as_ref().or_else(|| shared?.get(body.poissons_ratio()));
-    let elastic =
-        Elastic { youngs_modulus: modulus, poissons_ratio: ratio, material: material.map(|(material, _)| *material) };
+    let elastic = above.elastic(body, table, [youngs_modulus.as_ref(), poissons_ratio.as_ref()])?;
     let [yield_strength, hardening_modulus] = table.flow(body, &elastic)?;
     let values = [
         table.radius.clone(),
-        youngs_modulus,
-        poissons_ratio,
+        youngs_modulus.clone(),
+        poissons_ratio.clone(),
         or(yield_strength, |material| material.yield_strength),
         hardening_modulus,
         or(table.density.clone(), |material| Some(material.density)),
@@ -210,18 +248,8 @@ fn numbers_of(
     Ok(body.properties().map(|name| (name, values.next().flatten())))
 }
 
-/// What a reading of a `body` of all contacts needs to know, by its `table` and the `shared` numbers.
-fn elastic_of<'a>(body: Body, table: &BodyTable, shared: &'a Numbers) -> Result<Elastic<'a>, Mistake> {
-    let material = table.material.as_ref().map(find_material).transpose()?;
-    Ok(Elastic {
-        youngs_modulus: shared.get(body.youngs_modulus()),
-        poissons_ratio: shared.get(body.poissons_ratio()),
-        material,
-    })
-}
-
-/// The material of this name, or of an alias that no other has.
-pub fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
+/// The built-in material of this name, or of an alias that no other has. Messages also name those of one's `own`.
+pub fn find_material(name: &Spanned<String>, own: &[OwnMaterial]) -> Result<&'static table::Material, Mistake> {
     let asked = name.get_ref();
     if let Some(material) = MATERIALS.iter().find(|material| material.name == *asked) {
         return Ok(material);
@@ -238,7 +266,7 @@ pub fn find_material(name: &Spanned<String>) -> Result<&'static table::Material,
             let names = MATERIALS.iter().filter(|material| material.aliases.iter().any(has));
             let names: Vec<_> = names.map(|material| material.name.as_str()).collect();
             match names.as_slice() {
-                [] => unknown("material", asked, MATERIALS.iter().map(|material| material.name.as_str())),
+                [] => beside::no_material(asked, own),
                 names => format!("unknown material `{}`; its name here is {}", shortened(asked), one_of(names)),
             }
         }
@@ -260,6 +288,8 @@ struct Contact {
     count: Option<usize>,
     surface: Surface,
     own: Numbers,
+    /// The hardening of its bodies that depends on the strain, if their strength is its own.
+    flows: Flows,
     /// The properties with separate values for each contact of the group.
     per_contact: Vec<Spanned<String>>,
     /// The place for an error message, if no more precise place is known.
@@ -267,10 +297,11 @@ struct Contact {
 }
 
 /// The contacts of `file`; those without their own surface have `surface`.
-fn contacts_of(file: &SceneFile, surface: Surface, shared: &Numbers) -> Result<Vec<Contact>, Mistake> {
+fn contacts_of(file: &SceneFile, surface: Surface, above: &Above) -> Result<Vec<Contact>, Mistake> {
     let Some(contacts) = &file.contact else {
         let own = Numbers::default();
-        return Ok(vec![Contact { name: None, count: None, surface, own, per_contact: Vec::new(), span: 0..0 }]);
+        let flows = Flows::default();
+        return Ok(vec![Contact { name: None, count: None, surface, own, flows, per_contact: Vec::new(), span: 0..0 }]);
     };
     if contacts.get_ref().is_empty() {
         let message = "the list of contacts is empty; leave it out for one contact with plain variable names";
@@ -300,38 +331,33 @@ fn contacts_of(file: &SceneFile, surface: Surface, shared: &Numbers) -> Result<V
             ("initial_gap", initial_gap.as_ref()),
             (FRICTION, friction.coefficient.as_ref()),
         ];
-        let own = Numbers::of(&bodies, others, Some(shared))?;
+        let of_contact = |Mistake(span, why)| Mistake(span, format!("contact `{text}`: {why}"));
+        let own = Numbers::of(&bodies, others, above).map_err(of_contact)?;
         own.check(&format!("{text}."))?;
+        let flows = flows_of(&bodies, &own, above).map_err(of_contact)?;
         let surface = target.surface.map_or(surface, Surface::from);
         let (count, per_contact) = (count.map(|count| count as usize), parameters_per_contact.clone());
-        all.push(Contact { name: Some(text), count, surface, own, per_contact, span });
+        all.push(Contact { name: Some(text), count, surface, own, flows, per_contact, span });
     }
     Ok(all)
+}
+
+/// The hardening of the `bodies` that depends on the strain, by their tables and the numbers of the same level.
+fn flows_of(bodies: &Both<&BodyTable>, own: &Numbers, above: &Above) -> Result<Flows, Mistake> {
+    Both::try_each(|body| {
+        let table = *bodies.of(body);
+        let moduli = [body.youngs_modulus(), body.poissons_ratio()].map(|name| own.get(name));
+        Ok(strength::flow_of(body, table, &above.elastic(body, table, moduli)?)?.map(Arc::new))
+    })
 }
 
 /// Rejects keys in a `body` of the contact `name` that apply to all contacts.
 fn check_own(name: &str, body: Body, table: &BodyTable) -> Result<(), Mistake> {
     let keys = [
-        ("power_law", table.power_law.as_ref().map(Spanned::span)),
-        ("hardness", table.hardness.as_ref().map(Spanned::span)),
-        ("tensile_strength", table.tensile_strength.as_ref().map(Spanned::span)),
-        ("hardening_exponent", table.hardening_exponent.as_ref().map(Spanned::span)),
         ("rate", table.rate.as_ref().map(Spanned::span)),
         ("plate_thickness", table.plate_thickness.as_ref().map(Spanned::span)),
     ];
-    let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) else {
-        let Some(material) = table.material.as_ref().filter(|_| !table.gives_strength()) else { return Ok(()) };
-        if find_material(material)?.depends_on_strain() {
-            let body = body.name();
-            let message = format!(
-                "contact `{name}`: the strength of `{}` depends on the impact, and belongs to [{body}], for all contacts; here give \
-                 {body}.yield_strength, too",
-                material.get_ref()
-            );
-            return Err(Mistake(material.span(), message));
-        }
-        return Ok(());
-    };
+    let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) else { return Ok(()) };
     let body = body.name();
     Err(Mistake(span, format!("contact `{name}`: {body}.{key} belongs to [{body}], for all contacts")))
 }
@@ -361,7 +387,7 @@ fn check_count(count: &Spanned<i64>) -> Result<i64, Mistake> {
 pub struct Contacts {
     shared: Numbers,
     /// The hardening of all bodies that depends on the strain of the impact.
-    pub flows: Both<Option<Flow>>,
+    flows: Flows,
     /// The strain-rate dependence of the strength of all bodies.
     rates: Both<Option<Spanned<Rate>>>,
     all: Vec<Contact>,
@@ -378,28 +404,68 @@ impl Contacts {
         let no_gap = Spanned::new(0..0, 0.0);
         let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
         let friction = file.friction.as_ref().map(|friction| &friction.get_ref().coefficient);
-        let shared = Numbers::of(&bodies, [(MASS, None), ("initial_gap", Some(gap)), (FRICTION, friction)], None)?;
+        let hardens = laws::takes_hardening(&file.law);
+        let above = Above { materials: &file.own, hardens, shared: None };
+        let shared = Numbers::of(&bodies, [(MASS, None), ("initial_gap", Some(gap)), (FRICTION, friction)], &above)?;
         shared.check("")?;
+        let flows = flows_of(&bodies, &shared, &above)?;
         let surface = bodies.target.surface.map_or(Surface::Dented, Surface::from);
-        let all = contacts_of(file, surface, &shared)?;
+        let all = contacts_of(file, surface, &Above { shared: Some((&shared, &bodies)), ..above })?;
         let share_bodies =
             file.body.is_some() || file.coupling.as_ref().is_some_and(|table| table.get_ref().inverse_masses.is_some());
-        let flow = |body| {
-            strength::flow_and_rate(body, bodies.of(body), &elastic_of(body, bodies.of(body), &shared)?, share_bodies)
-        };
-        let Both { impactor, target } = Both::try_each(flow)?;
-        let flows = Both { impactor: impactor.0, target: target.0 };
-        let rates = Both { impactor: impactor.1, target: target.1 };
-        let mut contacts = Contacts { shared, flows, rates, all };
+        let mut contacts = Contacts { shared, flows, rates: Both::default(), all };
+        contacts.rates = Both::try_each(|body| contacts.rate_of(body, bodies.of(body), share_bodies))?;
         for index in 0..contacts.all.len() {
             match contacts.all[index].name {
-                Some(_) => contacts.check_complete(index)?,
+                Some(_) => contacts.check_complete(index, &file.own)?,
                 None => check_tables(file, &contacts)?,
             }
             contacts.check_impactor(index)?;
             contacts.check_rods(index)?;
         }
         Ok(contacts)
+    }
+
+    /// The hardening of a `body` of a contact that depends on the strain.
+    fn flow(&self, index: usize, body: Body) -> Option<&Arc<Flow>> {
+        let contact = &self.all[index];
+        // a strength of its own has a hardening of its own, or none
+        let flows = if contact.own.get(body.yield_strength()).is_some() { &contact.flows } else { &self.flows };
+        flows.of(body).as_ref()
+    }
+
+    /// The strain-rate dependence of a `body`, by the `table` of all contacts. Steel whose strength was measured slowly, in every contact,
+    /// has one also if the scene gives none, unless contacts share bodies, which have no rate.
+    fn rate_of(&self, body: Body, table: &BodyTable, share_bodies: bool) -> Result<Option<Spanned<Rate>>, Mistake> {
+        let measured = |flow: &Option<Arc<Flow>>| flow.as_ref().and_then(|flow| flow.measured().cloned());
+        let of_all = measured(self.flows.of(body));
+        let slow = |measured: Option<&MeasuredStrength>| measured.is_some_and(MeasuredStrength::is_slow_steel);
+        let has_shared = self.shared.get(body.yield_strength()).is_some();
+        let each_slow =
+            || (0..self.all.len()).all(|index| slow(self.flow(index, body).and_then(|flow| flow.measured())));
+        let rate = match &table.rate {
+            Some(rate) => Some(strength::check_rate(body, rate, of_all.as_ref())?),
+            None if !share_bodies && if has_shared { slow(of_all.as_ref()) } else { each_slow() } => {
+                let strength = self.shared.get(body.yield_strength());
+                let strength = strength.or_else(|| self.all[0].own.get(body.yield_strength()));
+                Some(Spanned::new(strength.map_or(0..0, Spanned::span), STEEL_RATE))
+            }
+            None => None,
+        };
+        let has_none = |rate: &Rate| matches!(rate, Rate::JohnsonCook { c: 0.0, .. });
+        if rate.as_ref().is_some_and(|rate| !has_none(rate.get_ref())) {
+            for (index, contact) in self.all.iter().enumerate() {
+                let Some(own) = measured(contact.flows.of(body)).filter(|own| own.has_rate) else { continue };
+                let (name, span) = (body.name(), contact.own.get(body.yield_strength()).map_or(0..0, Spanned::span));
+                let message = format!(
+                    "{name}.hardness = \"{}\" has a rate in it, and the rate of [{name}] is for all contacts: give rate = {{ model = \"johnson-cook\", c = 0 }} \
+                     there, and strengths at the rate of the impact",
+                    own.given
+                );
+                return Err(self.wrong(index, span, &message));
+            }
+        }
+        Ok(rate)
     }
 
     /// The number `name` of a contact: its own, otherwise that of all contacts.
@@ -468,7 +534,7 @@ impl Contacts {
         let of = |body| {
             let rate = self.rates.of(body).as_ref()?;
             // that of a measured strength is assumed
-            let is_measured = self.flows.of(body).as_ref().is_some_and(|flow| matches!(flow, Flow::Measured(_)));
+            let is_measured = self.flow(0, body).is_some_and(|flow| flow.measured().is_some());
             Some((body, rate)).filter(|_| !is_measured || *rate.get_ref() != STEEL_RATE)
         };
         let given = Body::ALL.into_iter().find_map(of);
@@ -497,6 +563,7 @@ impl Contacts {
         for numbers in self.all.iter_mut().map(|contact| &mut contact.own).chain([&mut self.shared]) {
             numbers.values.retain(|(name, _)| Body::ALL.iter().all(|body| body.yield_strength() != *name));
         }
+        self.all.iter_mut().for_each(|contact| contact.flows = Both::default());
         (self.flows, self.rates) = (Both::default(), Both::default());
     }
 
@@ -573,13 +640,14 @@ impl Contacts {
                     Some(Rod { density: density?, length: length?, area: area? })
                 }),
                 impactor_strength: number(Body::Impactor.yield_strength()),
+                flows: Both::each(|body| self.flow(index, body).cloned()),
             }
         };
         (self.shared.parameters(), self.all.iter().enumerate().map(group).collect())
     }
 
     /// Rejects an incomplete contact.
-    fn check_complete(&self, index: usize) -> Result<(), Mistake> {
+    fn check_complete(&self, index: usize, own: &[OwnMaterial]) -> Result<(), Mistake> {
         let missing = |name| self.number(index, name).is_none();
         let span = self.all[index].span.clone();
         if missing("impactor.radius") {
@@ -587,7 +655,7 @@ impl Contacts {
             return Err(self.wrong(index, span, message));
         }
         if missing("target.youngs_modulus") || missing("target.poissons_ratio") {
-            return Err(self.wrong(index, span, &target_needs()));
+            return Err(self.wrong(index, span, &target_needs(own)));
         }
         Ok(())
     }
@@ -681,12 +749,13 @@ fn check_tables(file: &SceneFile, contacts: &Contacts) -> Result<(), Mistake> {
         return Err(Mistake(impactor, "missing field `radius` of the impactor".into()));
     }
     if missing("target.youngs_modulus") || missing("target.poissons_ratio") {
-        return Err(Mistake(target, target_needs()));
+        return Err(Mistake(target, target_needs(&file.own)));
     }
     Ok(())
 }
 
-fn target_needs() -> String {
-    let names = MATERIALS.iter().map(|material| material.name.as_str()).collect::<Vec<_>>().join("`, `");
+fn target_needs(own: &[OwnMaterial]) -> String {
+    let own = own.iter().map(|own| own.material.name.as_str());
+    let names = own.chain(MATERIALS.iter().map(|material| material.name.as_str())).collect::<Vec<_>>().join("`, `");
     format!("the target needs `youngs_modulus` and `poissons_ratio`, or a `material`: there are `{names}`")
 }

@@ -1,11 +1,12 @@
 //! The contents of a scene file: tables and keys, without interpretation.
 
+use super::beside::{self, Beside, OwnMaterial};
 use super::parser_words;
 use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::parameters::ConstantTable;
-use crate::table::VARIABLES;
-use crate::units;
+use crate::table::{Material, VARIABLES};
+use crate::{tension, units};
 use brinell_contact::Surface;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -30,6 +31,31 @@ pub struct SceneFile {
     pub coupling: Option<Spanned<CouplingTable>>,
     pub body: Option<Spanned<Vec<Spanned<SharedBodyTable>>>>,
     pub contact: Option<Spanned<Vec<Spanned<ContactTable>>>>,
+    pub material: Option<Vec<Spanned<Material>>>,
+    /// The materials of the scene's own, and those of tables beside it that it uses.
+    #[serde(skip)]
+    pub(super) own: Vec<OwnMaterial>,
+    /// The text with what it uses of the files beside it.
+    #[serde(skip)]
+    pub(super) alone: String,
+}
+
+/// A table of materials of one's own.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialsFile {
+    #[serde(default)]
+    pub material: Vec<Spanned<Material>>,
+}
+
+impl MaterialsFile {
+    /// Reads the `text` of such a table.
+    ///
+    /// # Errors
+    /// As for [`SceneFile::read`].
+    pub fn read(text: &str) -> Result<MaterialsFile, Mistake> {
+        deserialized(text, &BTreeMap::new())
+    }
 }
 
 /// One of the two bodies: `[target]`, and with fewer keys [`Impactor`].
@@ -45,6 +71,7 @@ pub struct BodyTable {
     pub power_law: Option<Spanned<PowerLawTable>>,
     pub hardness: Option<Spanned<toml::Value>>,
     pub tensile_strength: Option<Spanned<f64>>,
+    pub tensile_test: Option<Spanned<TensileTestTable>>,
     pub hardening_exponent: Option<Spanned<f64>>,
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
@@ -69,6 +96,7 @@ struct ImpactorKeys {
     pub power_law: Option<Spanned<PowerLawTable>>,
     pub hardness: Option<Spanned<toml::Value>>,
     pub tensile_strength: Option<Spanned<f64>>,
+    pub tensile_test: Option<Spanned<TensileTestTable>>,
     pub hardening_exponent: Option<Spanned<f64>>,
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
@@ -101,6 +129,17 @@ pub struct RateTable {
 pub struct PowerLawTable {
     pub coefficient: Spanned<f64>,
     pub exponent: Spanned<f64>,
+}
+
+/// A tensile test: two numbers, or a curve. The name of a file stands for its curve.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct TensileTestTable {
+    pub proof_stress: Option<Spanned<f64>>,
+    pub tensile_strength: Option<Spanned<f64>>,
+    pub true_strain: Option<Spanned<Vec<f64>>>,
+    pub plastic_strain: Option<Spanned<Vec<f64>>>,
+    pub true_stress: Option<Spanned<Vec<f64>>>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -243,16 +282,24 @@ pub struct ContactTable {
 }
 
 impl SceneFile {
-    /// Reads the `text` of a scene.
+    /// Reads the `text` of a scene, with what lies `beside` it.
     ///
     /// # Errors
     /// Text that is not TOML, has a wrong type, or is unknown, with its place.
-    pub fn read(text: &str) -> Result<SceneFile, Mistake> {
-        let (tree, numbers) = parsed(text)?;
-        // it borrows the numbers from here on
-        let mut tree = tree;
-        tree.get_mut().iter_mut().for_each(|(_, value)| put(value, &numbers));
-        let file = SceneFile::deserialize(Deserializer::from(tree)).map_err(|error| of_parser(text, &error))?;
+    pub fn read(text: &str, beside: &Beside) -> Result<SceneFile, Mistake> {
+        let mut file: SceneFile = deserialized(text, &beside.files)?;
+        file.own =
+            beside::check(file.material.take().unwrap_or_default())?.into_iter().map(OwnMaterial::of_scene).collect();
+        file.alone = with_curves(text, &beside.files)?;
+        let taken = beside::take_in(&mut file, &beside.materials);
+        if !taken.is_empty() {
+            file.alone = format!("{}\n{taken}", file.alone.trim_end());
+            // a list in the text can't go on in tables
+            deserialized::<SceneFile>(&file.alone, &BTreeMap::new()).map_err(|_| {
+                let message = "the scene has `material` in another form than tables [[material]], to which those of materials.toml can't be added";
+                Mistake(0..0, message.into())
+            })?;
+        }
         // whether this key is required, the parser doesn't know
         match &file.coupling {
             Some(table) if file.body.is_none() && table.get_ref().has_no_mass() => {
@@ -261,6 +308,50 @@ impl SceneFile {
             _ => Ok(file),
         }
     }
+
+    /// The names of the materials of all bodies.
+    pub fn materials_used(&self) -> impl Iterator<Item = &Spanned<String>> {
+        let impactor = self.impactor.iter().map(|impactor| &impactor.get_ref().0);
+        let contacts = self.contact.iter().flat_map(|contacts| contacts.get_ref()).map(Spanned::get_ref);
+        let of_contacts = contacts.flat_map(|contact| [&contact.impactor.0, &contact.target]);
+        let bodies = impactor.chain(self.target.iter().map(Spanned::get_ref)).chain(of_contacts);
+        bodies.filter_map(|body| body.material.as_ref())
+    }
+}
+
+/// The tables of this `text`, with the `files` that it names.
+fn deserialized<T: for<'a> Deserialize<'a>>(text: &str, files: &Files) -> Result<T, Mistake> {
+    let (tree, values) = parsed(text, files)?;
+    // it borrows the values from here on
+    let mut tree = tree;
+    tree.get_mut().iter_mut().for_each(|(_, value)| put(value, &values));
+    T::deserialize(Deserializer::from(tree)).map_err(|error| of_parser(text, &error))
+}
+
+/// The bytes of files by the name that a scene gives them.
+type Files = BTreeMap<String, Result<Vec<u8>, String>>;
+
+/// The key of a tensile test, which may be the name of a file.
+const TEST: &str = "tensile_test";
+
+/// The names of files in the `text` of a scene. None, if it is no TOML.
+pub fn files_named(text: &str) -> Vec<String> {
+    fn named(value: &DeValue, key: &str, found: &mut Vec<String>) {
+        match value {
+            DeValue::Table(table) => {
+                table.iter().for_each(|(key, value)| named(value.get_ref(), key.get_ref(), found));
+            }
+            DeValue::Array(list) => list.iter().for_each(|value| named(value.get_ref(), key, found)),
+            DeValue::String(name) if key == TEST => found.push(name.to_string()),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    let tree = DeTable::parse(text);
+    tree.iter().flat_map(|tree| tree.get_ref().iter()).for_each(|(key, value)| {
+        named(value.get_ref(), key.get_ref(), &mut found);
+    });
+    found
 }
 
 /// The mistake of this `message` of the parser about a place in the `text`.
@@ -274,25 +365,36 @@ fn of_parser(text: &str, error: &toml::de::Error) -> Mistake {
     in_words(text, error.span().unwrap_or(0..0), error.message())
 }
 
-/// The tree of the `text`, and the numbers with a unit in it.
-fn parsed(text: &str) -> Result<(Spanned<DeTable<'_>>, InSi), Mistake> {
+/// The tree of the `text`, and the values that stand for texts in it: numbers with a unit, and files.
+fn parsed<'text>(text: &'text str, files: &Files) -> Result<(Spanned<DeTable<'text>>, InSi), Mistake> {
     let tree = DeTable::parse(text).map_err(|error| of_parser(text, &error))?;
-    let mut numbers = InSi::new();
-    numbers_in("", tree.get_ref(), &mut numbers)?;
-    Ok((tree, numbers))
+    let mut found = Found { files, values: InSi::new() };
+    found.in_table("", tree.get_ref())?;
+    Ok((tree, found.values))
 }
 
-/// The `text` of a scene with all numbers in SI units: a bare number in place of each text with a unit.
+/// The `text` with the `values` in place of the texts for which they stand.
+fn with_values(text: &str, values: InSi) -> String {
+    let (mut made, mut end) = (String::new(), 0);
+    for (start, (until, value)) in values {
+        made = made + &text[end..start] + &value;
+        end = until;
+    }
+    made + &text[end..]
+}
+
+/// The `text` of a scene with all numbers in SI units, and all files taken in: a bare number in place of each text with a unit.
 ///
 /// # Errors
 /// Text that is not TOML, and a wrong unit, with its place.
-pub fn in_si(text: &str) -> Result<String, Mistake> {
-    let (mut made, mut end) = (String::new(), 0);
-    for (start, (until, number)) in parsed(text)?.1 {
-        made = made + &text[end..start] + &number;
-        end = until;
-    }
-    Ok(made + &text[end..])
+pub fn in_si(text: &str, files: &Files) -> Result<String, Mistake> {
+    Ok(with_values(text, parsed(text, files)?.1))
+}
+
+/// The `text` of a scene with curves in place of the names of `files`.
+fn with_curves(text: &str, files: &Files) -> Result<String, Mistake> {
+    let values = parsed(text, files)?.1.into_iter().filter(|(_, (_, value))| value.starts_with('{'));
+    Ok(with_values(text, values.collect()))
 }
 
 /// The SI unit of the number `key` in a table that is called `table`, or `""` at the top. Dimensionless numbers have none.
@@ -300,7 +402,8 @@ fn unit_of(table: &str, key: &str) -> Option<&'static str> {
     match (table, key) {
         // a law has its own constants
         ("loading_parameters" | "unloading_parameters", _) => None,
-        ("power_law", "coefficient") | (_, "tangent_modulus" | "tensile_strength") => Some("Pa"),
+        ("power_law" | "tension", "coefficient")
+        | (_, "tangent_modulus" | "tensile_strength" | "proof_stress" | "true_stress") => Some("Pa"),
         ("rate", "d" | "reference_rate") => Some("1/s"),
         (_, "density") => Some("kg/m^3"),
         (_, "mass") => Some("kg"),
@@ -316,51 +419,68 @@ fn unit_of(table: &str, key: &str) -> Option<&'static str> {
     }
 }
 
-/// Numbers in SI units as TOML writes them, with the end of the text with a unit for which each stands, by its beginning.
+/// Numbers in SI units and curves as TOML writes them, with the end of the text for which each stands, by its beginning.
 type InSi = BTreeMap<usize, (usize, String)>;
 
-/// Finds the numbers with a unit, such as `"5 mm"`, in a `table` at this `path`.
-fn numbers_in(path: &str, table: &DeTable, found: &mut InSi) -> Result<(), Mistake> {
-    table.iter().try_for_each(|(key, value)| {
-        let key = key.get_ref();
-        let unit = unit_of(path.rsplit('.').next().unwrap_or_default(), key);
-        let path = if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
-        number_in(&path, unit, value, found)
-    })
+/// What stands for texts of a scene.
+struct Found<'a> {
+    files: &'a Files,
+    values: InSi,
 }
 
-/// The same in a `value`, which is a number in this `unit`, a list, or a table.
-fn number_in(
-    path: &str,
-    unit: Option<&'static str>,
-    value: &Spanned<DeValue>,
-    found: &mut InSi,
-) -> Result<(), Mistake> {
-    let text = match (value.get_ref(), unit) {
-        (DeValue::Table(table), _) => return numbers_in(path, table, found),
-        (DeValue::Array(list), _) => return list.iter().try_for_each(|value| number_in(path, unit, value, found)),
-        (DeValue::String(text), Some(unit)) => (text, unit),
-        _ => return Ok(()),
-    };
-    let (text, unit) = text;
-    let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(text)));
-    if let Some(comma) = units::decimal_comma(text) {
-        return Err(wrong(comma));
+impl Found<'_> {
+    /// Finds the texts with a value, such as `"5 mm"`, in a `table` at this `path`.
+    fn in_table(&mut self, path: &str, table: &DeTable) -> Result<(), Mistake> {
+        table.iter().try_for_each(|(key, value)| {
+            let key = key.get_ref();
+            let unit = unit_of(path.rsplit('.').next().unwrap_or_default(), key);
+            let path = if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
+            if let (TEST, DeValue::String(name)) = (key.as_ref(), value.get_ref()) {
+                let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(name)));
+                let curve = self.curve(name).map_err(wrong)?;
+                self.values.insert(value.span().start, (value.span().end, curve));
+                return Ok(());
+            }
+            self.in_value(&path, unit, value)
+        })
     }
-    let number = units::with_unit(text, unit).transpose().map_err(wrong)?;
-    found.extend(number.map(|number| (value.span().start, (value.span().end, format!("{number:e}")))));
-    Ok(())
+
+    /// The same in a `value`, which is a number in this `unit`, a list, or a table.
+    fn in_value(&mut self, path: &str, unit: Option<&'static str>, value: &Spanned<DeValue>) -> Result<(), Mistake> {
+        let (text, unit) = match (value.get_ref(), unit) {
+            (DeValue::Table(table), _) => return self.in_table(path, table),
+            (DeValue::Array(list), _) => return list.iter().try_for_each(|value| self.in_value(path, unit, value)),
+            (DeValue::String(text), Some(unit)) => (text, unit),
+            _ => return Ok(()),
+        };
+        let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(text)));
+        if let Some(comma) = units::decimal_comma(text) {
+            return Err(wrong(comma));
+        }
+        let number = units::with_unit(text, unit).transpose().map_err(wrong)?;
+        self.values.extend(number.map(|number| (value.span().start, (value.span().end, format!("{number:e}")))));
+        Ok(())
+    }
+
+    /// The curve of a tensile test in the file `name`, as a table of a scene.
+    fn curve(&self, name: &str) -> Result<String, String> {
+        match self.files.get(name) {
+            Some(Ok(bytes)) => Ok(tension::read(bytes)?.in_toml()),
+            Some(Err(why)) => Err(why.clone()),
+            None => Err("the file isn't at hand; give the points as true_strain and true_stress, or proof_stress and tensile_strength".into()),
+        }
+    }
 }
 
-/// Puts the `numbers` in place of their texts in this `value`.
-fn put<'text>(value: &mut Spanned<DeValue<'text>>, numbers: &'text InSi) {
-    let number = numbers.get(&value.span().start);
+/// Puts the `values` in place of their texts in this `value`.
+fn put<'text>(value: &mut Spanned<DeValue<'text>>, values: &'text InSi) {
+    let found = values.get(&value.span().start);
     match value.get_mut() {
-        DeValue::Table(table) => table.iter_mut().for_each(|(_, value)| put(value, numbers)),
-        DeValue::Array(list) => list.iter_mut().for_each(|value| put(value, numbers)),
+        DeValue::Table(table) => table.iter_mut().for_each(|(_, value)| put(value, values)),
+        DeValue::Array(list) => list.iter_mut().for_each(|value| put(value, values)),
         text @ DeValue::String(_) => {
-            if let Some((_, number)) = number {
-                *text = DeValue::parse(number).expect("a number of TOML").into_inner();
+            if let Some((_, found)) = found {
+                *text = DeValue::parse(found).expect("a value of TOML").into_inner();
             }
         }
         _ => {}

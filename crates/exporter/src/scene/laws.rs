@@ -59,6 +59,12 @@ impl SceneLaws {
     }
 }
 
+/// Whether the law of the table takes the hardening of a body that yields. Wrong names are refused elsewhere.
+pub fn takes_hardening(law: &LawTable) -> bool {
+    let name = law.loading.as_ref().map_or(pairing::DEFAULT_LOADING, |name| name.get_ref().as_str());
+    AnyLoading::ALL.iter().any(|(known, law)| *known == name && law.takes_both_bodies())
+}
+
 /// The rate-dependent law of the scene, with its damping variant and constants.
 fn find_damped(law: &LawTable) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
     let asked = law.loading.as_ref();

@@ -1,5 +1,6 @@
 //! The scene file: the contacts, their laws, and the variables that the FMU has.
 
+mod beside;
 pub mod bodies;
 mod checks;
 mod contacts;
@@ -19,7 +20,7 @@ mod shared_bodies;
 mod shared_bodies_tests;
 mod strength;
 
-use crate::mistake::{self, Mistake, SceneError};
+use crate::mistake::{Mistake, SceneError};
 use crate::model::{AnyModel, paired};
 use brinell_contact::Model;
 use brinell_contact::damped::{self, AnyDamped};
@@ -31,6 +32,7 @@ use brinell_contact::unloading::AnyUnloading;
 use std::path::Path;
 use toml::Spanned;
 
+pub use beside::{Beside, MaterialTable, OwnMaterial};
 pub use bodies::{Body, Both};
 pub use contacts::{Group, Parameter};
 pub use inverse_masses::{InverseMasses, place};
@@ -45,12 +47,21 @@ pub fn check_name(name: &str) -> Result<(), String> {
     names::check_name(&Spanned::new(0..0, name.into())).map(drop).map_err(|Mistake(_, message)| message)
 }
 
-/// The `text` of the scene file at `path` with all numbers in SI units, for readers of TOML that know no other.
+/// The names of the files in the `text` of a scene, relative to it: [`Beside`] takes their bytes. None, if it is no TOML.
+pub fn files_named(text: &str) -> Vec<String> {
+    file::files_named(text)
+}
+
+/// The `text` of the scene file at `path` with all numbers in SI units, for readers of TOML that know no other, and with what it uses
+/// of the files `beside` it.
 ///
 /// # Errors
 /// As for [`Scene::parse`], of text that is not TOML, and of wrong units.
-pub fn in_si(text: &str, path: &Path) -> Result<String, SceneError> {
-    file::in_si(text).map_err(|mistake| mistake.in_file(text, path))
+pub fn in_si(text: &str, path: &Path, beside: &Beside) -> Result<String, SceneError> {
+    let alone = file::SceneFile::read(text, beside).map(|file| file.alone);
+    // what is no scene may have numbers, too
+    let alone = alone.unwrap_or_else(|_| text.into());
+    file::in_si(&alone, &beside.files).map_err(|mistake| mistake.in_file(text, path))
 }
 
 /// A checked scene.
@@ -78,8 +89,6 @@ pub struct Scene {
     pub passivity_guard: bool,
     /// Yield strength of the softer body of the first contact \[Pa\], if it has one, whether or not the scene's law needs it.
     pub yield_strength: Option<f64>,
-    /// Hardening that depends on the strain of the impact, for which the yield strength and the hardening modulus stand.
-    pub flows: Both<Option<Flow>>,
     /// How the strengths grow with the strain rate.
     pub rates: Both<Option<Rate>>,
     /// The hardening that the scene gives for the bodies of each group; a power law or a rate puts another in its place.
@@ -111,7 +120,9 @@ pub struct Scene {
     pub stop_time: Option<f64>,
     /// Whether the library needs nothing from its process, and takes memory from its importer.
     pub standalone: bool,
-    /// The text of the file.
+    /// Where the materials that aren't built in are from, a sentence for each.
+    pub materials: Vec<String>,
+    /// The text of the file, with what it uses of the files beside it.
     pub text: String,
 }
 
@@ -132,26 +143,22 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
-        Ok(Scene::parse_with_doubts(text, path)?.0)
+        Ok(Scene::parse_beside(&text, path, &Beside::default())?.0)
     }
 
-    /// The scene in the `bytes` of the file at `path`, and the numbers in it that are implausible.
+    /// The scene with this `text`, with what lies `beside` it, and the numbers in it that are implausible.
     ///
     /// # Errors
     /// As for [`Scene::parse`].
-    pub fn of_bytes(bytes: Vec<u8>, path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
-        Scene::parse_with_doubts(mistake::text(bytes, path)?, path)
-    }
-
-    fn parse_with_doubts(text: String, path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
-        let checked = file::SceneFile::read(&text).and_then(|file| {
+    pub fn parse_beside(text: &str, path: &Path, beside: &Beside) -> Result<(Scene, Vec<SceneError>), SceneError> {
+        let checked = file::SceneFile::read(text, beside).and_then(|mut file| {
             let doubts = plausible::doubts(&file);
-            Ok((checks::check(file)?, doubts))
+            let alone = std::mem::take(&mut file.alone);
+            Ok((Scene { text: alone, ..checks::check(file)? }, doubts))
         });
-        match checked {
-            Ok((scene, doubts)) => Ok((Scene { text, ..scene }, doubts)),
-            Err(mistake) => Err(mistake.in_file(&text, path)),
-        }
+        let placed = |mistake: Mistake| mistake.in_file(text, path);
+        let (scene, doubts) = checked.map_err(placed)?;
+        Ok((scene, doubts.into_iter().map(placed).collect()))
     }
 
     /// The value of a parameter of all contacts; `None` if the scene does not have it.

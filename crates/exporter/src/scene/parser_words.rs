@@ -1,6 +1,7 @@
 //! Translates the messages of the parser into the terms of the scene file.
 
 use crate::layout::{shortened, without_middle};
+use crate::measured::SCALES;
 use crate::nearest::{nearest, one_of};
 use crate::numbers::in_message;
 use crate::units;
@@ -21,7 +22,7 @@ const UNSUPPORTED: [(&[&str], &str); 7] = [
 ];
 
 /// Keys that belong to another table.
-const ELSEWHERE: [(&str, &str); 36] = [
+const ELSEWHERE: [(&str, &str); 42] = [
     ("mass", "[impact] has a mass, the bodies have none"),
     ("speed", "[impact] has a speed"),
     ("hb", HARDNESS),
@@ -40,8 +41,14 @@ const ELSEWHERE: [(&str, &str); 36] = [
     ("rm", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
     ("uts", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
     ("ultimate_strength", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
-    ("rp02", "it is called yield_strength"),
-    ("re", "it is called yield_strength"),
+    ("rp02", PROOF_STRESS),
+    ("rp0.2", PROOF_STRESS),
+    ("proof_stress", PROOF_STRESS),
+    ("re", PROOF_STRESS),
+    ("stress_strain_curve", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
+    ("stress_strain", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
+    ("curve", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
+    ("tensile_curve", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
     ("sigma_y", "it is called yield_strength"),
     ("velocity", "it is called speed, in [impact]"),
     ("v", "it is called speed, in [impact]"),
@@ -60,8 +67,16 @@ const ELSEWHERE: [(&str, &str); 36] = [
     ("mu", FRICTION),
 ];
 
+/// Stands for [`hardness`] in the table.
+const HARDNESS: &str = "hardness";
+
 /// How a hardness is given.
-const HARDNESS: &str = "a body has hardness = \"200 HBW 10/3000\", \"640 HV10\", \"58 HRC\", \"90 HRB\" or \"700 HLD\"";
+fn hardness() -> String {
+    format!("a body has hardness = {SCALES}")
+}
+
+/// Where a proof stress is given.
+const PROOF_STRESS: &str = "it is called yield_strength, or with the tensile strength tensile_test = { proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }";
 
 /// Where friction is given.
 const FRICTION: &str = "a table [friction] with a `coefficient` gives it for all contacts";
@@ -188,6 +203,7 @@ fn unknown_field(names: &str) -> String {
     }
     let guess = nearest(asked, known.iter().copied());
     let elsewhere = ELSEWHERE.iter().find(|(name, _)| *name == plain).map(|(_, where_else)| *where_else);
+    let elsewhere = elsewhere.map(|words| if words == HARDNESS { hardness() } else { words.into() });
     let more = match (guess, elsewhere) {
         (_, Some(elsewhere)) => format!("; {elsewhere}. Expected "),
         (Some(guess), None) => format!("; did you mean `{guess}`? Expected "),

@@ -1,10 +1,11 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
+use super::beside::{self, OwnMaterial};
 use super::bodies::Body;
 use super::checks::STEEL;
-use super::contacts::find_material;
-use super::file::{BodyTable, PowerLawTable, SceneFile};
+use super::file::{BodyTable, PowerLawTable, SceneFile, TensileTestTable};
 use super::shared_bodies::number_in;
+use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::numbers::{plain, quantity};
 use std::f64::consts::PI;
@@ -88,16 +89,16 @@ const DROP_HEIGHT: Expected<'static> =
 pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
     let mut doubts = Vec::new();
     if let Some(impactor) = &file.impactor {
-        doubts.extend(of_body("", Body::Impactor, &impactor.get_ref().0));
+        doubts.extend(of_body("", Body::Impactor, &impactor.get_ref().0, &file.own));
     }
     if let Some(target) = &file.target {
-        doubts.extend(of_body("", Body::Target, target.get_ref()));
+        doubts.extend(of_body("", Body::Target, target.get_ref(), &file.own));
     }
     for contact in file.contact.iter().flat_map(|contacts| contacts.get_ref()) {
         let contact = contact.get_ref();
         let owner = format!("{}.", contact.name.get_ref());
-        doubts.extend(of_body(&owner, Body::Impactor, &contact.impactor.0));
-        doubts.extend(of_body(&owner, Body::Target, &contact.target));
+        doubts.extend(of_body(&owner, Body::Impactor, &contact.impactor.0, &file.own));
+        doubts.extend(of_body(&owner, Body::Target, &contact.target, &file.own));
         let mass = contact.effective_mass.as_ref();
         doubts.extend(mass.and_then(|mass| MASS.doubt(&format!("{owner}effective_mass"), mass)));
     }
@@ -130,7 +131,7 @@ pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
 /// Radius \[m\] and density \[kg/m^3\], if it is given, of the impactor of `file`, unless it is a rod.
 fn ball(file: &SceneFile) -> Option<(f64, Option<f64>)> {
     let table = &file.impactor.as_ref()?.get_ref().0;
-    let of_material = || Some(find_material(table.material.as_ref()?).ok()?.density);
+    let of_material = || Some(beside::find(table.material.as_ref()?, &file.own).ok()?.density);
     let density = table.density.as_ref().map(|density| *density.get_ref()).or_else(of_material);
     let radius = *table.radius.as_ref()?.get_ref();
     // whoever is wrong about these is asked about them
@@ -153,7 +154,7 @@ fn of_inertia(key: &str, inertia: &Spanned<Value>, mass: f64) -> Option<Mistake>
 }
 
 /// The doubts about a `body`. `owner` precedes its name.
-fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
+fn of_body(owner: &str, body: Body, table: &BodyTable, own: &[OwnMaterial]) -> Vec<Mistake> {
     let numbers = [
         ("radius", &table.radius, &RADIUS),
         ("youngs_modulus", &table.youngs_modulus, &MODULUS),
@@ -168,9 +169,10 @@ fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
     ];
     let name = format!("{owner}{}", body.name());
     let warning = table.material.as_ref().and_then(|material| {
-        let warning = find_material(material).ok()?.warning.as_ref()?;
+        let warning = beside::find(material, own).ok()?.warning.as_ref()?;
         Some(Mistake(material.span(), format!("{name}.material = \"{}\": {warning}", material.get_ref())))
     });
+    let of_own = table.material.iter().flat_map(|material| of_own_material(material, own));
     // a wide target is nearly flat
     let is_flat = |key: &str, value: f64| key == "radius" && body == Body::Target && value.abs() > *RADIUS.range.end();
     let doubt = |(key, value, expected): (&str, &Option<Spanned<f64>>, &Expected)| {
@@ -179,6 +181,8 @@ fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
     };
     let mut doubts: Vec<Mistake> = numbers.into_iter().filter_map(doubt).collect();
     doubts.extend(warning);
+    doubts.extend(of_own);
+    doubts.extend(table.tensile_test.iter().flat_map(|test| of_test(&name, test)));
     doubts.extend(of_power_law(&name, table.power_law.as_ref()));
     if let (Body::Target, true, Some(strength), Some(modulus)) =
         (body, doubts.is_empty(), &table.yield_strength, &table.youngs_modulus)
@@ -191,6 +195,37 @@ fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
 /// The doubt about the power law of a `body`: its coefficient is the flow stress at a strain of 1.
 fn of_power_law(body: &str, law: Option<&Spanned<PowerLawTable>>) -> Option<Mistake> {
     STRENGTH.doubt(&format!("{body}.power_law.coefficient"), &law?.get_ref().coefficient)
+}
+
+/// The doubts about the tensile test of a `body`.
+fn of_test(body: &str, test: &Spanned<TensileTestTable>) -> Vec<Mistake> {
+    let TensileTestTable { proof_stress, tensile_strength, true_stress, .. } = test.get_ref();
+    let key = |key: &str| format!("{body}.tensile_test.{key}");
+    let numbers = [("proof_stress", proof_stress), ("tensile_strength", tensile_strength)];
+    let of_numbers = numbers.into_iter().filter_map(|(name, value)| STRENGTH.doubt(&key(name), value.as_ref()?));
+    // the largest of many
+    let most = true_stress.iter().flat_map(|list| list.get_ref()).copied().reduce(f64::max);
+    let of_curve = most.and_then(|most| STRENGTH.question(&key("true_stress"), most));
+    of_numbers.chain(of_curve.map(|message| Mistake(test.span(), message))).collect()
+}
+
+/// The doubts about the numbers of a material that isn't built in, where it is used.
+fn of_own_material(name: &Spanned<String>, own: &[OwnMaterial]) -> Vec<Mistake> {
+    let Ok(material) = beside::find(name, own) else { return Vec::new() };
+    if !own.iter().any(|own| std::ptr::eq(&own.material, material)) {
+        return Vec::new();
+    }
+    let numbers = [
+        ("youngs_modulus", Some(material.youngs_modulus), &MODULUS),
+        ("yield_strength", material.yield_strength, &STRENGTH),
+        ("tension.coefficient", material.tension.map(|tension| tension.coefficient), &STRENGTH),
+        ("density", Some(material.density), &DENSITY),
+    ];
+    let doubt = |(key, value, expected): (&str, Option<f64>, &Expected)| {
+        let message = expected.question(&format!("material `{}`: {key}", shortened(&material.name)), value?)?;
+        Some(Mistake(name.span(), message))
+    };
+    numbers.into_iter().filter_map(doubt).collect()
 }
 
 impl Expected<'_> {

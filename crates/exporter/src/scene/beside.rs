@@ -1,0 +1,158 @@
+//! What lies beside a scene: tables of materials of one's own, and files that the scene names. The scene's text takes in what it uses, so
+//! that an FMU has the numbers and no file.
+
+use super::contacts::{DENSITIES, find_material};
+use super::file::{MaterialsFile, SceneFile};
+use crate::layout::shortened;
+use crate::measured::{self, Metal};
+use crate::mistake::{Mistake, SceneError, check_limits, check_range};
+use crate::nearest::unknown;
+use crate::table::{Class, MATERIALS, Material};
+use std::collections::{BTreeMap, HashSet};
+use std::fmt::Write;
+use std::path::Path;
+use toml::Spanned;
+
+/// What lies beside a scene.
+#[derive(Default)]
+pub struct Beside {
+    /// The bytes of the files that the scene [names](super::files_named), or why they can't be read.
+    pub files: BTreeMap<String, Result<Vec<u8>, String>>,
+    /// Tables of materials; the first one that has a name is asked.
+    pub materials: Vec<MaterialTable>,
+}
+
+/// A table of materials of one's own.
+pub struct MaterialTable {
+    /// Where it lies, in words without a path: `materials.toml beside the scene`.
+    pub place: &'static str,
+    pub materials: Vec<Material>,
+}
+
+/// A material that isn't built in, and where it is from.
+#[derive(Clone, Debug)]
+pub struct OwnMaterial {
+    pub material: Material,
+    place: &'static str,
+}
+
+impl OwnMaterial {
+    /// A material of the scene's own.
+    pub fn of_scene(material: Material) -> OwnMaterial {
+        OwnMaterial { material, place: "the scene" }
+    }
+
+    /// Where it is from, in a sentence.
+    pub fn words(&self) -> String {
+        let name = shortened(&self.material.name);
+        let built_in = MATERIALS.iter().any(|material| material.is_called(&self.material.name));
+        let not = if built_in { ", not the built-in one of this name" } else { "" };
+        format!("Material `{name}` is that of {}{not}.", self.place)
+    }
+}
+
+impl MaterialTable {
+    /// The table with this `text`. `path` is used in messages, `place` in what is printed of its materials.
+    ///
+    /// # Errors
+    /// [`SceneError`] with line and column of the first error, and what is allowed there.
+    pub fn parse(text: &str, path: &Path, place: &'static str) -> Result<MaterialTable, SceneError> {
+        let checked = MaterialsFile::read(text).and_then(|file| check(file.material));
+        let materials = checked.map_err(|mistake| mistake.in_file(text, path))?;
+        Ok(MaterialTable { place, materials })
+    }
+}
+
+/// The materials of these tables, each of which is complete and has a name of its own.
+pub fn check(tables: Vec<Spanned<Material>>) -> Result<Vec<Material>, Mistake> {
+    let mut names = HashSet::new();
+    for table in &tables {
+        let material = table.get_ref();
+        check_material(table)
+            .map_err(|Mistake(span, why)| Mistake(span, format!("material `{}`: {why}", shortened(&material.name))))?;
+        if !names.insert(material.name.to_lowercase()) {
+            let message = format!("name = \"{}\" is taken by another material", shortened(&material.name));
+            return Err(Mistake(table.span(), message));
+        }
+    }
+    Ok(tables.into_iter().map(Spanned::into_inner).collect())
+}
+
+fn check_material(table: &Spanned<Material>) -> Result<(), Mistake> {
+    let material = table.get_ref();
+    let at = |value: f64| Spanned::new(table.span(), value);
+    let wrong = |why: String| Err(Mistake(table.span(), why));
+    if material.name.trim().is_empty() {
+        return wrong("it needs a name".into());
+    }
+    let limits = [
+        ("target.youngs_modulus", Some(material.youngs_modulus)),
+        ("target.poissons_ratio", Some(material.poissons_ratio)),
+        ("target.yield_strength", material.yield_strength),
+    ];
+    for (name, value) in limits {
+        let Some(value) = value else { continue };
+        check_limits(name, "", &at(value))
+            .map_err(|Mistake(span, why)| Mistake(span, why.replacen("target.", "", 1)))?;
+    }
+    check_range(("density", "kg/m^3"), "", &at(material.density), DENSITIES)?;
+    if let Some(tension) = material.tension {
+        check_range(("coefficient", "Pa"), "tension.", &at(tension.coefficient), 1e-6..=1e18)?;
+        check_range(("exponent", ""), "tension.", &at(tension.exponent), 0.0..=0.6)?;
+    }
+    if let Some(exponent) = material.hardening_exponent {
+        check_range(("hardening_exponent", ""), "", &at(exponent), 0.0..=0.6)?;
+    }
+    let ways = [material.yield_strength.is_some(), material.tension.is_some(), material.hardness.is_some()];
+    if ways.into_iter().filter(|given| *given).count() > 1 {
+        return wrong("yield_strength, tension and hardness say the same: give one of them".into());
+    }
+    let Material { youngs_modulus, poissons_ratio, class, hardening_exponent: exponent, .. } = *material;
+    let class = class.unwrap_or(Class::of_modulus(youngs_modulus));
+    let metal = Metal { youngs_modulus, poissons_ratio, class, exponent };
+    if let Some(Err(why)) = material.hardness.as_ref().map(|hardness| measured::of_hardness(hardness, &metal)) {
+        return wrong(format!("hardness: {why}"));
+    }
+    Ok(())
+}
+
+/// Adds to the `file` those materials of the `tables` that it uses, and returns them as tables of a scene.
+pub fn take_in(file: &mut SceneFile, tables: &[MaterialTable]) -> String {
+    let used: Vec<Spanned<String>> = file.materials_used().cloned().collect();
+    let mut taken = String::new();
+    for name in used {
+        if file.own.iter().any(|own| own.material.is_called(name.get_ref())) {
+            continue;
+        }
+        let of = |table: &MaterialTable| {
+            let mut found = table.materials.iter().filter(|material| material.is_called(name.get_ref()));
+            // an exact name first
+            let exact = table.materials.iter().find(|material| material.name == *name.get_ref());
+            let material = exact.or_else(|| found.next())?.clone();
+            Some(OwnMaterial { material, place: table.place })
+        };
+        let Some(found) = tables.iter().find_map(of) else { continue };
+        let table = toml::to_string(&found.material).expect("a table of text and numbers");
+        // a table in it has a name of its own
+        let table = table.replace("\n[tension]", "\n[material.tension]");
+        write!(taken, "\n[[material]]\n{table}").expect("a String takes everything");
+        file.own.push(found);
+    }
+    taken
+}
+
+/// The material of this name or with this alias: of the scene's `own`, then built in.
+pub fn find<'a>(name: &Spanned<String>, own: &'a [OwnMaterial]) -> Result<&'a Material, Mistake> {
+    let asked = name.get_ref();
+    let exact = own.iter().find(|own| own.material.name == *asked);
+    match exact.or_else(|| own.iter().find(|own| own.material.is_called(asked))) {
+        Some(found) => Ok(&found.material),
+        None => find_material(name, own),
+    }
+}
+
+/// That no material is called `asked`, with the nearest name of all there are.
+pub fn no_material(asked: &str, own: &[OwnMaterial]) -> String {
+    let own = own.iter().map(|own| own.material.name.as_str());
+    unknown("material", asked, own.chain(MATERIALS.iter().map(|material| material.name.as_str())))
+}

@@ -1,0 +1,376 @@
+//! People's own data: tensile tests in files, tables of materials, strengths of single contacts. What is exported has the numbers, and
+//! no file.
+
+use crate::command::{assert_same, brinell, empty_folder, output, run};
+use serde_json::Value;
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use tempfile::TempDir;
+
+const BALL: &str =
+    "name = \"ball\"\nimpactor = { radius = \"5 mm\", density = \"7.85 g/cm3\" }\nimpact = { speed = 2.0 }\n";
+
+/// A test of steel as a German spreadsheet writes it: 1000 MPa eps^0.2 in true plastic strain, up to the largest load.
+fn curve() -> String {
+    let row = |step: i32| {
+        let plastic = 1e-4 * 1.1_f64.powi(step);
+        let stress = 1000.0 * plastic.powf(0.2);
+        let strain = plastic + stress / 210e3;
+        format!("{:.6};{:.4}\n", 100.0 * strain.exp_m1(), stress * (-strain).exp()).replace('.', ",")
+    };
+    "Dehnung [%];Spannung [MPa]\n".to_string() + &(0..80).map(row).collect::<String>()
+}
+
+fn folder_with(files: &[(&str, &str)]) -> TempDir {
+    let folder = empty_folder();
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    folder
+}
+
+fn predicted(folder: &Path, scene: &str) -> Value {
+    run(folder, ["predict", scene, "--json"]).with_status(0).json()
+}
+
+fn number(answer: &Value, key: &str) -> f64 {
+    answer["laws"][0][key].as_f64().unwrap_or_else(|| panic!("no {key} in {answer}"))
+}
+
+const STEEL: &str = "youngs_modulus = \"210 GPa\"\npoissons_ratio = 0.3\n";
+
+#[test]
+fn a_tensile_test_in_a_file_beside_the_scene_says_what_its_points_say() {
+    let points: Vec<f64> = (0..12).map(|step| 0.005 * 1.3_f64.powi(step)).collect();
+    let stresses: Vec<f64> = points.iter().map(|strain| 1e9 * strain.powf(0.2)).collect();
+    let by_points = format!(
+        "{BALL}[target]\n{STEEL}tensile_test = {{ plastic_strain = {points:?}, true_stress = {stresses:?} }}\n"
+    );
+    let by_file = format!("{BALL}[target]\n{STEEL}tensile_test = \"tests/curve 7.csv\"\n");
+    let folder =
+        folder_with(&[("a/scene.toml", &by_file), ("a/tests/curve 7.csv", &curve()), ("points.toml", &by_points)]);
+    let [file, points] = ["a/scene.toml", "points.toml"].map(|scene| predicted(folder.path(), scene));
+    for key in ["restitution", "largest_force", "dent"] {
+        let error = number(&file, key) / number(&points, key) - 1.0;
+        assert!(error.abs() < 3e-3, "{key}: {error}");
+    }
+    let said = run(folder.path(), ["predict", "a/scene.toml"])
+        .with_status(0)
+        .out
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    for words in [
+        "A tensile test is a flow stress of 49",
+        "(power law through its",
+        "standard deviation 3",
+        "hardening exponent 0.2",
+        "its tangent there is S =",
+    ] {
+        assert!(said.contains(words), "no {words:?} in {said}");
+    }
+}
+
+/// Hollomon and Considere: sigma = Rm (e eps/n)^n, n from Rp0.2 and Rm.
+#[test]
+fn two_numbers_of_a_tensile_test_are_a_power_law() {
+    let scene = format!(
+        "{BALL}[target]\n{STEEL}tensile_test = {{ proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }}\n"
+    );
+    let folder = folder_with(&[("scene.toml", &scene)]);
+    let said = run(folder.path(), ["predict", "scene.toml"])
+        .with_status(0)
+        .out
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    let n = 0.2158_f64;
+    let ratio = n * (1.0 + ((0.002 + 240.0 / 210e3) / n).ln());
+    assert!((ratio - 0.5_f64.ln()).abs() < 2e-3, "{ratio}");
+    let stress = 480.0 * (std::f64::consts::E * 0.03 / n).powf(n);
+    assert!(said.contains(&format!("is a flow stress of {stress:.0}")), "no {stress} in {said}");
+    assert!(said.contains("standard deviation 5 %"), "{said}");
+}
+
+fn entry(unit: &Path, name: &str) -> String {
+    let mut unit = zip::ZipArchive::new(fs::File::open(unit).unwrap()).unwrap();
+    let mut text = String::new();
+    unit.by_name(name).unwrap().read_to_string(&mut text).unwrap();
+    text
+}
+
+const MATERIALS: &str = "\
+[[material]]
+name = \"our steel\"
+aliases = [\"batch 7\"]
+youngs_modulus = \"205 GPa\"
+poissons_ratio = 0.29
+hardness = \"300 HV10\"
+density = \"7.8 g/cm3\"
+source = \"own measurement\"
+
+[[material]]
+name = \"mild steel\"
+youngs_modulus = 206e9
+poissons_ratio = 0.3
+yield_strength = \"280 MPa\"
+density = 7850
+";
+
+/// The unit, its GUID and its own scene are the same from wherever the numbers came, and the scene in it needs no file.
+#[test]
+fn a_unit_has_the_numbers_of_the_files_beside_the_scene_and_not_the_files() {
+    let scene = |test: &str, material: &str| {
+        format!(
+            "{BALL}[target]\n{STEEL}tensile_test = \"{test}\"\n[[contact]]\nname = \"a\"\n[[contact]]\nname = \"b\"\ntarget = {{ material = \"{material}\" }}\n"
+        )
+    };
+    let folder = folder_with(&[
+        ("one/scene.toml", &scene("curve.csv", "batch 7")),
+        ("one/curve.csv", &curve()),
+        ("one/materials.toml", MATERIALS),
+        ("two/scene.toml", &scene("../elsewhere/test.csv", "batch 7")),
+        ("elsewhere/test.csv", &curve()),
+        ("config/brinell/materials.toml", MATERIALS),
+    ]);
+    for place in ["one", "two"] {
+        let mut command = brinell(folder.path());
+        command.args(["export", &format!("{place}/scene.toml"), "--output", &format!("{place}/unit.fmu")]);
+        // the table of the user, for the scene that has none beside it
+        for name in ["XDG_CONFIG_HOME", "APPDATA"] {
+            command.env(name, folder.path().join("config"));
+        }
+        command.env("HOME", folder.path().join("none"));
+        let said = output(&mut command).with_status(0).out;
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let from = if place == "one" {
+            "materials.toml beside the scene"
+        } else {
+            "materials.toml in the user's configuration folder"
+        };
+        if !cfg!(target_os = "macos") {
+            assert!(said.contains(&format!("Material `our steel` is that of {from}")), "{said}");
+        }
+        assert!(said.contains("A tensile test is a flow stress of"), "{said}");
+        assert!(said.contains("our steel, 300 HV10, is a flow stress of"), "{said}");
+    }
+    let [one, two] = ["one", "two"].map(|place| folder.path().join(place).join("unit.fmu"));
+    assert_same(&fs::read(&one).unwrap(), &fs::read(&two).unwrap());
+    let inside = entry(&one, "resources/scene.toml");
+    assert!(inside.contains("true_strain = [") && !inside.contains(".csv"), "{inside}");
+    fs::write(folder.path().join("inside.toml"), inside).unwrap();
+    assert_eq!(predicted(folder.path(), "inside.toml"), predicted(folder.path(), "one/scene.toml"));
+    let page = entry(&one, "documentation/index.html");
+    assert!(page.contains("<h3>Strength</h3>") && page.contains("power law") && page.contains("<svg"), "{page}");
+    for text in [page, entry(&one, "modelDescription.xml")] {
+        assert!(!text.contains("curve.csv") && !text.contains("materials.toml"), "{text}");
+    }
+    run(folder.path(), ["check", "one/unit.fmu"]).with_status(0);
+}
+
+#[test]
+fn a_material_of_ones_own_says_where_it_is_from_and_goes_before_the_built_in_one() {
+    let text = |material: &str, more: &str| format!("{BALL}target = {{ material = \"{material}\" }}\n{more}");
+    let own = "[[material]]\nname = \"mild steel\"\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 1e9\ndensity = 7850.0\n";
+    let folder = folder_with(&[
+        ("scene.toml", &text("mild steel", "")),
+        ("inside.toml", &text("mild steel", own)),
+        ("built_in.toml", &text("S355", "")),
+        ("materials.toml", MATERIALS),
+    ]);
+    let said = |scene: &str| {
+        run(folder.path(), ["predict", scene]).with_status(0).out.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let one = said("scene.toml");
+    assert!(
+        one.contains(
+            "Material `mild steel` is that of materials.toml beside the scene, not the built-in one of this name."
+        ),
+        "{one}"
+    );
+    assert!(said("inside.toml").contains("Material `mild steel` is that of the scene, not the built-in"));
+    assert!(!said("built_in.toml").contains("Material `"));
+    let [beside, inside] =
+        ["scene.toml", "inside.toml"].map(|scene| number(&predicted(folder.path(), scene), "restitution"));
+    assert!(beside < 0.9 * inside, "280 MPa and 1 GPa: {beside} and {inside}");
+    let list = run(folder.path(), ["materials", "--json"]).with_status(0).json();
+    assert_eq!(
+        (list[0]["name"].as_str(), list[0]["place"].as_str()),
+        (Some("our steel"), Some("materials.toml beside the scene"))
+    );
+    assert!(list.as_array().unwrap().iter().any(|material| material["place"] == "built in"));
+}
+
+#[test]
+fn a_mistake_in_a_table_of_materials_has_its_place() {
+    for (from, to, said) in [
+        (
+            "0.29",
+            "0.9",
+            "materials.toml:1:1: material `our steel`: poissons_ratio = 0.9 is out of range: allowed is -1 to 0.5",
+        ),
+        ("poissons_ratio = 0.29\n", "", "materials.toml:1:1: missing field `poissons_ratio` in `[[material]]`"),
+        (
+            "hardness = \"300 HV10\"",
+            "hardness = \"300\"",
+            "material `our steel`: hardness: a hardness is a number with its scale",
+        ),
+        (
+            "\"205 GPa\"",
+            "\"205 GpA\"",
+            "materials.toml:4:18: material.youngs_modulus = \"205 GpA\": there is no unit `GpA`; did you mean",
+        ),
+        (
+            "density = \"7.8",
+            "yield_strength = 3e8\ndensity = \"7.8",
+            "yield_strength, tension and hardness say the same",
+        ),
+        ("\"mild steel\"", "\"Our steel\"", "materials.toml:10:1: name = \"Our steel\" is taken by another material"),
+        ("source =", "sauce =", "unknown key `sauce`; did you mean `source`?"),
+    ] {
+        assert!(MATERIALS.contains(from), "{from}");
+        let table = MATERIALS.replacen(from, to, 1);
+        let scene = format!("{BALL}target = {{ material = \"our steel\" }}\n");
+        let folder = folder_with(&[("scene.toml", &scene), ("materials.toml", &table)]);
+        let failed = run(folder.path(), ["predict", "scene.toml"]).with_status(1);
+        assert!(failed.err.replace("\n  ", " ").contains(said), "no {said:?} in {}", failed.err);
+    }
+}
+
+#[test]
+fn a_tensile_test_that_cant_be_used_is_told_with_its_place() {
+    for (test, said) in [
+        ("\"none.csv\"", "scene.toml:7:16: target.tensile_test = \"none.csv\": none.csv can't be read: "),
+        ("\"bad.csv\"", "target.tensile_test = \"bad.csv\": line 3: `soft` is no number"),
+        (
+            "{ proof_stress = \"480 MPa\", tensile_strength = \"240 MPa\" }",
+            "target.tensile_test: proof_stress = 480 MPa is 2 of tensile_strength",
+        ),
+        ("{ proof_stress = \"480 mm\", tensile_strength = \"240 MPa\" }", "proof_stress = \"480 mm\": mm is a length"),
+        (
+            "{ proof_stress = \"480 MPa\" }",
+            "target.tensile_test: it is the name of a file; or has proof_stress and tensile_strength; or",
+        ),
+        ("{ true_strain = [0.01, 0.02], true_stress = [3e8] }", "2 strains and 1 stresses: each point has both"),
+        ("{ rp02 = 3e8 }", "unknown key `rp02`"),
+        ("\"bad.csv\"\nyield_strength = 3e8", "bad.csv"),
+        (
+            "{ proof_stress = 24e7, tensile_strength = 48e7 }\nyield_strength = 3e8",
+            "target.tensile_test and target.yield_strength say the same",
+        ),
+        (
+            "{ proof_stress = 24e7, tensile_strength = 48e7 }\nhardening_exponent = 0.1",
+            "target.tensile_test and target.hardening_exponent say the same",
+        ),
+    ] {
+        let scene = format!("{BALL}[target]\n{STEEL}tensile_test = {test}\n");
+        let bad = "strain [%];stress [MPa]\n1;200\n2;soft\n";
+        let folder = folder_with(&[("scene.toml", &scene), ("bad.csv", bad)]);
+        let failed = run(folder.path(), ["predict", "scene.toml"]).with_status(1);
+        assert!(failed.err.replace("\n  ", " ").contains(said), "no {said:?} in {}", failed.err);
+    }
+}
+
+/// What holds for all contacts of a scene also holds for one of them.
+#[test]
+fn a_contact_has_a_hardness_a_tensile_test_or_a_material_of_its_own() {
+    let strengths = [
+        "hardness = \"300 HV10\"",
+        "tensile_strength = \"655 MPa\"",
+        "tensile_test = { proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }",
+        "power_law = { coefficient = 9e8, exponent = 0.15 }",
+    ];
+    for strength in strengths {
+        let none = "rate = { model = \"johnson-cook\", c = 0 }\n";
+        let alone = format!("{BALL}[target]\n{STEEL}{none}{strength}\n");
+        let own = format!(
+            "{BALL}[target]\n{STEEL}{none}yield_strength = 9e8\n[[contact]]\nname = \"a\"\ntarget = {{ {strength} }}\n[[contact]]\nname = \"b\"\n"
+        );
+        let folder = folder_with(&[("alone.toml", &alone), ("own.toml", &own)]);
+        let value = |scene: &str, name: &str| {
+            let text = run(folder.path(), ["export", scene, "--output", "unit.fmu"]).with_status(0);
+            let xml = entry(&folder.path().join("unit.fmu"), "modelDescription.xml");
+            let (_, rest) =
+                xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name}: {text:?}"));
+            let (_, rest) = rest.split_once("start=\"").unwrap();
+            rest.split('"').next().unwrap().parse::<f64>().unwrap()
+        };
+        let alone = value("alone.toml", "target.yield_strength");
+        let own_value = value("own.toml", "a.target.yield_strength");
+        assert!((own_value / alone - 1.0).abs() < 1e-9, "{strength}: {own_value} and {alone}");
+        // that of all others stays
+        assert_eq!(value("own.toml", "target.yield_strength"), 9e8, "{strength}");
+    }
+    let impactor = format!(
+        "{BALL}[target]\n{STEEL}yield_strength = 9e8\n[[contact]]\nname = \"a\"\nimpactor = {{ material = \"mild steel\", hardness = \"150 HV10\" }}\n"
+    );
+    let folder = folder_with(&[("scene.toml", &impactor)]);
+    let said = run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("a: impactor: 150 HV10 is a flow stress of"), "{said}");
+}
+
+#[test]
+fn the_rate_of_a_rebound_hardness_of_one_contact_is_not_counted_twice() {
+    let scene = format!(
+        "{BALL}[target]\n{STEEL}hardness = \"200 HV10\"\n[[contact]]\nname = \"a\"\ntarget = {{ hardness = \"700 HLD\" }}\n"
+    );
+    let folder = folder_with(&[("scene.toml", &scene)]);
+    let failed = run(folder.path(), ["predict", "scene.toml"]).with_status(1).err;
+    assert!(
+        failed.contains(
+            "contact `a`: target.hardness = \"700 HLD\" has a rate in it, and the rate of [target] is for all"
+        ),
+        "{failed}"
+    );
+}
+
+#[test]
+fn numbers_a_million_off_are_asked_about_wherever_they_enter() {
+    let materials = MATERIALS.replace("\"205 GPa\"", "205000").replace("\"280 MPa\"", "280");
+    for (target, arguments, question) in [
+        (
+            "tensile_test = { proof_stress = 240, tensile_strength = 480 }",
+            &[][..],
+            "target.tensile_test.proof_stress = 240 Pa; did you mean 240e6?",
+        ),
+        (
+            "tensile_test = { proof_stress = 240, tensile_strength = 480 }",
+            &[],
+            "target.tensile_test.tensile_strength = 480 Pa; did you mean 480e6?",
+        ),
+        ("tensile_test = \"pascals.csv\"", &[], "target.tensile_test.true_stress = "),
+        ("material = \"mild steel\"", &[], "material `mild steel`: yield_strength = 280 Pa; did you mean 280e6?"),
+        (
+            "power_law = { coefficient = 400, exponent = 0.2 }",
+            &[],
+            "target.power_law.coefficient = 400 Pa; did you mean 400e6?",
+        ),
+        ("yield_strength = 3e8", &["--mass", "4"], "mass = 4 kg is 1000 times the mass of a solid ball of this radius"),
+        ("yield_strength = 3e8", &["--sweep", "mass=1:4:2"], "mass = 4 kg is 1000 times the mass"),
+        (
+            "yield_strength = 3e8",
+            &["--sweep", "target.youngs_modulus=200000:210000:2"],
+            "target.youngs_modulus = 200e3 Pa; did you mean 200e9?",
+        ),
+        (
+            "yield_strength = 3e8",
+            &["--sweep", "target.yield_strength=200:300:2"],
+            "target.yield_strength = 200 Pa; did you mean 200e6?",
+        ),
+        ("yield_strength = 3e8", &["--sweep", "impactor.radius=5:10:2"], "impactor.radius = 5 m; did you mean 5e-3?"),
+        ("yield_strength = 3e8", &["--sweep", "drop_height=300:1000:2"], "drop_height = 300 m; did you mean 0.3?"),
+    ] {
+        let steel = if target.contains("material") { "" } else { STEEL };
+        let scene = format!("{BALL}[target]\n{steel}{target}\n");
+        let pascals = curve().replace("MPa", "Pa");
+        let table = if target.contains("material") { &materials } else { "" };
+        let folder = folder_with(&[("scene.toml", &scene), ("pascals.csv", &pascals), ("materials.toml", table)]);
+        let run = run(folder.path(), ["predict", "scene.toml"].iter().chain(arguments));
+        let said = run.err.replace("\n  ", " ");
+        assert!(said.contains(question), "no {question:?} in {said}");
+    }
+}
