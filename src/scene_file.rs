@@ -1,6 +1,6 @@
 //! Scene files: reading them, and warnings about what is in them.
 
-use crate::files::{CONFIGURATION, folder_of, user_folder};
+use crate::files::{CONFIGURATION, user_folder};
 use crate::messages::warn;
 use brinell_exporter::layout::shown;
 use brinell_exporter::mistake::{self, SceneError};
@@ -51,7 +51,7 @@ fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<SceneError>), SceneError>
 
 /// What lies beside the scene with this `text` at `path`.
 fn beside(text: &str, path: &Path) -> Result<Beside, SceneError> {
-    let folder = folder_of(path);
+    let folder = path.parent().unwrap_or(Path::new(""));
     let read = |name: String| {
         let path = folder.join(&name);
         let found = bytes(&path).map_err(|error| match error {

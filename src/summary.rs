@@ -92,6 +92,7 @@ impl Summary<'_> {
             "left_out": left_out, "absent": self.absent, "left_out_features": self.features,
             "left_out_laws": { "loading": loading, "unloading": unloading, "damped": damped },
         });
+        object["materials"] = json!(scene.materials);
         object["strengths"] = json!(strengths(scene));
         if scene.contacts[0].name.is_some() {
             let groups = 0..scene.contacts.len();

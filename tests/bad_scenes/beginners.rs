@@ -444,6 +444,17 @@ fn missing_features_are_called_not_supported() {
         ("vickers_hardness = 640", "\"640 HV10\""),
         ("hrc = 58", "\"58 HRC\""),
         ("Rm = 655", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
+        ("Rp0.2 = 240", "it is called yield_strength, or with the tensile strength tensile_test = { proof_stress = "),
+        (
+            "proof_stress = 240",
+            "it is called yield_strength, or with the tensile strength tensile_test = { proof_stress = ",
+        ),
+        ("stress_strain_curve = \"a.csv\"", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
+        ("HV10 = 640", "\"640 HV10\""),
+        ("HLD = 700", "\"700 HLD\""),
+        ("nu = 0.3", "it is called poissons_ratio"),
+        ("rho = 7850", "it is called density"),
+        ("diameter = 0.01", "give the radius"),
         ("thickness = 0.01", "[target] has a plate_thickness, for a plate that gives way"),
         ("drop_height = 0.3", "[impact] has a drop_height"),
     ] {

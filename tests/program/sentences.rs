@@ -2,8 +2,9 @@
 //! computed here in another way: the strength by tables and formulas of the literature, the impact by the finite elements in
 //! `data/truth/loading.csv`.
 //!
-//! A restitution is right within 4 %, the diameter of a dent within 3 %, unless a sentence says otherwise: finite elements are of a rigid
-//! ball (an elastic one takes its part of the strain), and rate and time are estimated.
+//! A restitution must be right within 4 %, the diameter of a dent within 2 %; found were 3.5 % and 1.4 %. The finite elements are of a rigid
+//! ball, while an elastic one takes its part of the strain (the restitutions of elastic balls are 1.5 to 3.5 % higher); rate and time are
+//! estimated.
 
 use crate::command::{empty_folder, run};
 use serde_json::Value;
@@ -107,7 +108,7 @@ fn right(scene: &str, impact: &Impact, strength: &Strength, (restitution, diamet
 }
 
 const STEEL: (f64, f64) = (206.0, 0.3);
-const USUAL: (f64, f64) = (0.04, 0.03);
+const USUAL: (f64, f64) = (0.04, 0.02);
 
 /// A solid ball \[kg\].
 fn ball(radius: f64, density: f64) -> f64 {

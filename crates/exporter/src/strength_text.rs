@@ -55,7 +55,8 @@ fn test(measured: &MeasuredStrength, is_softer: bool, found: &InImpact) -> Optio
     let most = test.range.1.max(if is_softer { 1.5 * strain } else { 0.0 });
     let megapascals = |point: &(f64, f64)| (point.0, 1e-6 * point.1);
     let points = test.points.iter().filter(|point| point.0 <= 1.2 * most).map(megapascals).collect();
-    let along = |to: f64| (0..=POINTS).map(move |step| to * f64::from(step) / f64::from(POINTS));
+    // denser where the law is steep
+    let along = |to: f64| (0..=POINTS).map(move |step| to * (f64::from(step) / f64::from(POINTS)).powi(3));
     let law = along(most).map(|strain| (strain, 1e-6 * measured.at(strain)));
     let mut series = vec![Series { label: "test".into(), points, dots: true }, Series::line("power law", law)];
     if is_softer {

@@ -236,7 +236,7 @@ fn what_people_know_of_a_drop_test_is_enough() {
     let notes = said["notes"].to_string();
     for part in [
         "target: 200 HBW is a flow stress of 742",
-        "+-8 %",
+        "standard deviation 8 %",
         "assumed for steel. At the strain of this impact",
         "impactor: 58 HRC is a flow stress of 2.57 GPa",
         "that of AISI 4340 is assumed",

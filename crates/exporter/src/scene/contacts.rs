@@ -217,6 +217,7 @@ impl<'a> Above<'a> {
             poissons_ratio: ratio.or_else(|| shared(body.poissons_ratio())),
             material,
             hardens: self.hardens,
+            hardens_above: shared(body.hardening_modulus()).is_some(),
         })
     }
 }
@@ -437,29 +438,35 @@ impl Contacts {
     /// The strain-rate dependence of a `body`, by the `table` of all contacts. Steel whose strength was measured slowly, in every contact,
     /// has one also if the scene gives none, unless contacts share bodies, which have no rate.
     fn rate_of(&self, body: Body, table: &BodyTable, share_bodies: bool) -> Result<Option<Spanned<Rate>>, Mistake> {
-        let measured = |flow: &Option<Arc<Flow>>| flow.as_ref().and_then(|flow| flow.measured().cloned());
-        let of_all = measured(self.flows.of(body));
+        fn measured(flow: Option<&Arc<Flow>>) -> Option<&MeasuredStrength> {
+            flow.and_then(|flow| flow.measured())
+        }
+        let of_all = measured(self.flows.of(body).as_ref());
         let slow = |measured: Option<&MeasuredStrength>| measured.is_some_and(MeasuredStrength::is_slow_steel);
-        let has_shared = self.shared.get(body.yield_strength()).is_some();
-        let each_slow =
-            || (0..self.all.len()).all(|index| slow(self.flow(index, body).and_then(|flow| flow.measured())));
+        let strength = self.shared.get(body.yield_strength());
+        let each_slow = || (0..self.all.len()).all(|index| slow(measured(self.flow(index, body))));
+        let is_slow = if strength.is_some() { slow(of_all) } else { each_slow() };
         let rate = match &table.rate {
-            Some(rate) => Some(strength::check_rate(body, rate, of_all.as_ref())?),
-            None if !share_bodies && if has_shared { slow(of_all.as_ref()) } else { each_slow() } => {
-                let strength = self.shared.get(body.yield_strength());
+            Some(rate) => Some(strength::check_rate(body, rate, of_all)?),
+            None if is_slow && !share_bodies => {
                 let strength = strength.or_else(|| self.all[0].own.get(body.yield_strength()));
                 Some(Spanned::new(strength.map_or(0..0, Spanned::span), STEEL_RATE))
             }
             None => None,
         };
         let has_none = |rate: &Rate| matches!(rate, Rate::JohnsonCook { c: 0.0, .. });
-        if rate.as_ref().is_some_and(|rate| !has_none(rate.get_ref())) {
-            for (index, contact) in self.all.iter().enumerate() {
-                let Some(own) = measured(contact.flows.of(body)).filter(|own| own.has_rate) else { continue };
+        let acts = rate.as_ref().is_some_and(|rate| !has_none(rate.get_ref()));
+        for (index, contact) in self.all.iter().enumerate().filter(|_| acts) {
+            let Some(own) = measured(contact.flows.of(body).as_ref()) else { continue };
+            if let (false, Some(rate)) = (own.has_rate, &table.rate) {
+                let of_contact = |Mistake(span, why)| self.wrong(index, span, &why);
+                strength::check_rate(body, rate, Some(own)).map_err(of_contact)?;
+            }
+            if own.has_rate {
                 let (name, span) = (body.name(), contact.own.get(body.yield_strength()).map_or(0..0, Spanned::span));
                 let message = format!(
-                    "{name}.hardness = \"{}\" has a rate in it, and the rate of [{name}] is for all contacts: give rate = {{ model = \"johnson-cook\", c = 0 }} \
-                     there, and strengths at the rate of the impact",
+                    "{name}.hardness = \"{}\" has a rate in it, and the rate of [{name}] is for all contacts: give rate = {{ model = \
+                     \"johnson-cook\", c = 0 }} there, and strengths at the rate of the impact",
                     own.given
                 );
                 return Err(self.wrong(index, span, &message));

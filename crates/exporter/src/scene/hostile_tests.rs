@@ -11,7 +11,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// Good scenes with everything that the tables know.
-const SEEDS: [&str; 17] = [
+const SEEDS: [&str; 18] = [
     include_str!("../../../../scenes/steel_ball.toml"),
     include_str!("../../../../scenes/coupled.toml"),
     include_str!("../../../../scenes/damped.toml"),
@@ -40,6 +40,11 @@ const SEEDS: [&str; 17] = [
      normal = [0, 0, 1]\narms = [[], [0.04, 0, -0.025]]\n",
     "name = \"a\"\nimpactor.radius = 5e-3\ntarget.material = \"mild steel\"\n[coupling]\ninverse_masses = \"input\"\n\
      inputs = [\"external_acceleration\"]\n[[contact]]\nname = \"d\"\n[[contact]]\nname = \"e\"\ncount = 3\n",
+    "name = \"a\"\nimpactor = { radius = 5e-3, material = \"b\" }\n[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n\
+     tensile_test = { plastic_strain = [0.005, 0.01, 0.02], true_stress = [3e8, 3.4e8, 3.9e8] }\n[[contact]]\nname = \"c\"\n\
+     target = { hardness = \"200 HV10\", hardening_exponent = 0.1 }\n[[contact]]\nname = \"d\"\n\
+     target.tensile_test = { proof_stress = 3e8, tensile_strength = 4e8 }\n[[material]]\nname = \"b\"\nyoungs_modulus = 2e11\n\
+     poissons_ratio = 0.3\ndensity = 7800.0\ntension = { coefficient = 9e8, exponent = 0.2 }\n",
 ];
 
 /// The case is read, and what it makes is written.

@@ -42,7 +42,8 @@ const ELSEWHERE: [(&str, &str); 42] = [
     ("uts", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
     ("ultimate_strength", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
     ("rp02", PROOF_STRESS),
-    ("rp0.2", PROOF_STRESS),
+    // Rp0.2 without quotes
+    ("rp0", PROOF_STRESS),
     ("proof_stress", PROOF_STRESS),
     ("re", PROOF_STRESS),
     ("stress_strain_curve", "it is called tensile_test, as in tensile_test = \"curve.csv\""),

@@ -66,6 +66,8 @@ pub struct Elastic<'a> {
     pub material: Option<&'a Material>,
     /// Whether the law of the scene takes hardening.
     pub hardens: bool,
+    /// Whether the body hardens in all contacts, so that a contact where it doesn't says so.
+    pub hardens_above: bool,
 }
 
 impl Elastic<'_> {
@@ -162,7 +164,7 @@ impl BodyTable {
     pub fn flow(&self, body: Body, elastic: &Elastic) -> Result<[Option<Spanned<f64>>; 2], Mistake> {
         if let Some(measured) = self.measured(body, elastic)? {
             let Hardening { yield_strength, hardening_modulus } = measured.get_ref().hardening(FIRST_STRAIN);
-            let modulus = Some(hardening_modulus).filter(|_| measured.get_ref().hardens());
+            let modulus = Some(hardening_modulus).filter(|_| measured.get_ref().hardens() || elastic.hardens_above);
             return Ok([Some(yield_strength), modulus].map(|value| Some(Spanned::new(measured.span(), value?))));
         }
         if let Some(table) = &self.power_law {
@@ -551,12 +553,13 @@ impl Scene {
                 }
             }
         };
-        // a parameter of all contacts is that of the first one without its own
-        for parameter in &mut self.parameters {
-            let has_own = |group: &super::Group| group.own.iter().any(|own| own.name == parameter.name);
+        // the strength of all contacts is that of the first one without its own
+        let shared = Both::each(|body| {
+            let has_own = |group: &super::Group| group.own.iter().any(|own| own.name == body.yield_strength());
             let first = self.contacts.iter().position(|group| !has_own(group));
-            set(std::slice::from_mut(parameter), &flows[first.unwrap_or(0)]);
-        }
+            *flows[first.unwrap_or(0)].of(body)
+        });
+        set(&mut self.parameters, &shared);
         for (contacts, flow) in self.contacts.iter_mut().zip(&flows) {
             set(&mut contacts.own, flow);
         }
