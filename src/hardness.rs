@@ -69,6 +69,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let choices: Vec<_> = choices.into_iter().filter(|choice| !all || choice.laws != "hertz").collect();
     let ball = 2.0 * scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
     let measured = scene.measured(0, Body::Target).filter(|_| scene.softer(0) == Body::Target);
+    let measured = measured.map(|measured| (measured, scene.two_bodies(0)));
     let answer = |choice: &Choice| -> Result<HardnessAnswer, String> {
         let (yield_strength, dent) = match hardness {
             Some(hardness) => {

@@ -95,6 +95,30 @@ fn two_numbers_of_a_tensile_test_are_a_power_law() {
     assert!(said.contains("standard deviation 5 %"), "{said}");
 }
 
+/// A law without hardening takes the flow stress at the strain, beside another law as in a scene of its own; a hardness test takes what belongs
+/// to its own strain.
+#[test]
+fn a_law_without_hardening_takes_the_flow_stress_of_a_tensile_test() {
+    let scene = |law: &str| {
+        format!(
+            "{BALL}law = {{ loading = \"{law}\" }}\n[target]\n{STEEL}tensile_test = {{ proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }}\n"
+        )
+    };
+    let folder = folder_with(&[("johnson.toml", &scene("johnson")), ("brinell.toml", &scene("brinell"))]);
+    let own = number(&predicted(folder.path(), "johnson.toml"), "restitution");
+    let beside = run(folder.path(), ["predict", "brinell.toml", "--laws", "johnson", "--json"]).with_status(0).json();
+    let error = number(&beside, "restitution") / own - 1.0;
+    assert!(error.abs() < 0.02, "the strain is that of the scene's own law: {error}");
+    let hardness = |scene: &str| {
+        let answer = run(folder.path(), ["hardness", scene, "--load", "1000kgf", "--laws", "brinell", "--json"])
+            .with_status(0)
+            .json();
+        answer["laws"][0]["brinell_hardness"].as_f64().unwrap()
+    };
+    let [of_tangent, of_stress] = ["brinell.toml", "johnson.toml"].map(hardness);
+    assert!((of_tangent / of_stress - 1.0).abs() < 0.02, "{of_tangent} and {of_stress}");
+}
+
 fn entry(unit: &Path, name: &str) -> String {
     let mut unit = zip::ZipArchive::new(fs::File::open(unit).unwrap()).unwrap();
     let mut text = String::new();

@@ -7,12 +7,13 @@ use crate::laws::Choice;
 use crate::measured::MeasuredStrength;
 use crate::model::AnyModel;
 use crate::numbers::in_message;
+use brinell_contact::hardening::Hardening;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::TABOR;
 use brinell_contact::regime::LARGEST_INDENTATION;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
-use brinell_contact::{Loading, Model, Regime};
+use brinell_contact::{Loading, Model, Regime, TwoBodies};
 use std::f64::consts::PI;
 
 /// The factor of the Brinell number and of the load ratio for forces in newtons: 1/9.80665, rounded to three digits as in ISO
@@ -115,19 +116,30 @@ fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option
     Some(f64::from_bits(high))
 }
 
-/// The test with the laws of `choice`. A target whose strength was `measured` has that of the strain of this test.
+/// The test with the laws of `choice`. A target of these bodies whose strength was `measured` has that of the strain of this test.
 ///
 /// # Errors
 /// A sentence with the reason why there is no result.
-pub fn run_test(choice: &Choice, load: f64, ball: f64, measured: Option<&MeasuredStrength>) -> Result<Dent, String> {
+pub fn run_test(
+    choice: &Choice,
+    load: f64,
+    ball: f64,
+    measured: Option<(&MeasuredStrength, TwoBodies)>,
+) -> Result<Dent, String> {
     let mut model = elastoplastic(choice)?;
     let none = || format!("the law {} can't be evaluated for load = {} N", choice.laws, in_message(load));
     let mut dent = test(&model, load, ball).ok_or_else(none)?;
-    let Some(measured) = measured else { return Ok(dent) };
+    let Some((measured, bodies)) = measured else { return Ok(dent) };
     // the strength hardly depends on the strain: each round wins a digit
     for _ in 0..30 {
-        let strength = measured.at(TABOR * dent.radius_ratio);
-        let other = AnyModel::Elastoplastic(model).with_yield_strength(strength).ok_or_else(none)?;
+        let strain = TABOR * dent.radius_ratio;
+        let Hardening { yield_strength, hardening_modulus } = measured.hardening(strain);
+        let hardening = AnyModel::Elastoplastic(model).with_bodies(TwoBodies { hardening_modulus, ..bodies });
+        let (other, strength) = match hardening {
+            Some(hardening) => (hardening, yield_strength),
+            None => (AnyModel::Elastoplastic(model), measured.at(strain)),
+        };
+        let other = other.with_yield_strength(strength).ok_or_else(none)?;
         model = *other.elastoplastic().ok_or_else(none)?;
         dent = test(&model, load, ball).ok_or_else(none)?;
     }

@@ -129,7 +129,7 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
         pairing::check(loading_name, chosen).map_err(UnknownLaw::Pairing)?;
         pairing::check_ties((loading_name, loading), (chosen, unloading)).map_err(UnknownLaw::Pairing)?;
     }
-    let yield_strength = scene.yield_strength.ok_or_else(|| UnknownLaw::NoYieldStrength(name.into()))?;
+    let yield_strength = scene.yield_strength_for(&loading).ok_or_else(|| UnknownLaw::NoYieldStrength(name.into()))?;
     let pair = Pair { yield_strength, ..scene.model().pair };
     let model = Model { pair, loading, unloading, surface: scene.contacts[0].surface };
     let model = paired(&model, scene.two_bodies(0));

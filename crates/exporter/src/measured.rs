@@ -173,6 +173,11 @@ impl MeasuredStrength {
         self.hardens
     }
 
+    /// The flow stress \[Pa\] of whose tangent this is the yield strength \[Pa\], for a law that takes no hardening.
+    pub fn without_hardening(&self, yield_strength: f64) -> f64 {
+        if self.hardens { yield_strength / (1.0 - self.exponent) } else { yield_strength }
+    }
+
     /// Whether it is that of steel in a slow test.
     pub fn is_slow_steel(&self) -> bool {
         self.class == Class::Steel && !self.has_rate

@@ -404,6 +404,14 @@ impl Scene {
         }
     }
 
+    /// The yield strength \[Pa\] of the softer body of the first contact for a law that the scene needn't have: a law without hardening
+    /// takes the flow stress of a tensile test, rather than its tangent.
+    pub fn yield_strength_for(&self, law: &AnyLoading) -> Option<f64> {
+        let strength = self.yield_strength?;
+        let measured = self.measured(0, self.softer(0)).filter(|_| !law.takes_both_bodies());
+        Some(measured.map_or(strength, |measured| measured.without_hardening(strength)))
+    }
+
     /// What was made of the reading of a `body` of `group`, and of the softer one its flow stress at the strain `found`.
     pub fn measured_words(&self, group: usize, body: Body, found: &InImpact) -> Option<String> {
         let measured = self.measured(group, body)?;
