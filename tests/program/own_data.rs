@@ -96,8 +96,8 @@ fn two_numbers_of_a_tensile_test_are_a_power_law() {
 }
 
 /// A law without hardening takes the flow stress at the strain, beside another law as in a scene of its own; a hardness test takes what belongs
-/// to its own strain. In so wide a dent the fit's tables of hardening are 5.6 % below Tabor's rule; the flow stress with the tangent's hardening on
-/// top would be 20 % above.
+/// to its own strain. In so wide a dent the fit's tables of hardening are
+/// 5.6 % below Tabor's rule.
 #[test]
 fn a_law_without_hardening_takes_the_flow_stress_of_a_tensile_test() {
     let scene = |law: &str| {
