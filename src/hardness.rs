@@ -100,6 +100,10 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     print!("{}", text(&answers, &left_out, load, ball, hardness));
+    // a given hardness replaces it
+    if let Some((measured, _)) = measured.filter(|_| hardness.is_none()) {
+        print!("\n{}", paragraph("note: ", &format!("target: {}.", measured.words())));
+    }
     if let Some((number, stress, strain)) = by_table {
         let said = format!(
             "whatever the law, the mean pressure of finite elements with large deformation joins {} HBW with a flow stress of {} at a \

@@ -117,6 +117,8 @@ fn a_law_without_hardening_takes_the_flow_stress_of_a_tensile_test() {
         answer["laws"][0]["brinell_hardness"].as_f64().unwrap()
     };
     let [of_tangent, of_stress] = ["brinell.toml", "johnson.toml"].map(hardness);
+    let said = run(folder.path(), ["hardness", "brinell.toml", "--load", "1000kgf"]).with_status(0).out;
+    assert!(said.contains("note: target: A tensile test with a proof stress of 240 MPa"), "{said}");
     assert!((of_tangent / of_stress - 1.0).abs() < 0.07, "{of_tangent} and {of_stress}");
 }
 
