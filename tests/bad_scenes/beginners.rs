@@ -42,6 +42,25 @@ fn a_scene_without_a_law_and_a_new_scene_have_the_law_that_is_recommended() {
     assert_eq!(said["laws"][0]["law"], "hertz");
 }
 
+/// Steel has a strength only by its condition.
+#[test]
+fn a_target_of_steel_is_asked_for_its_strength_and_takes_its_hardness() {
+    let folder = empty_folder();
+    let said = |target: &str, law: &str| {
+        let text = format!(
+            "name = \"drop\"\nimpactor = {{ radius = \"5 mm\", material = \"steel\", hardness = \"58 HRC\" }}\n\
+             target = {{ material = \"steel\"{target} }}\nimpact = {{ drop_height = \"30 cm\" }}\n{law}"
+        );
+        fs::write(folder.path().join("drop.toml"), text).unwrap();
+        run(folder.path(), ["predict", "drop.toml"]).with_status(0)
+    };
+    let elastic = said("", "");
+    assert!(elastic.err.contains("target.material = \"steel\" has no strength"), "{elastic:#?}");
+    assert_eq!(said("", "law = { loading = \"hertz\" }\n").err, "");
+    let hard = said(", hardness = \"200 HBW\"", "");
+    assert!(hard.err.is_empty() && hard.out.contains("brinell/brinell"), "{hard:#?}");
+}
+
 /// Every commented key is valid in a scene.
 #[test]
 fn every_comment_of_a_new_scene_that_is_a_key_can_be_taken_in() {

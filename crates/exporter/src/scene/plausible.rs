@@ -109,6 +109,7 @@ pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
     let coupling = file.coupling.as_ref().map(Spanned::get_ref);
     let mass = coupling.and_then(|coupling| coupling.effective_mass.as_ref());
     doubts.extend(mass.and_then(|mass| MASS.doubt("coupling.effective_mass", mass)));
+    doubts.extend(without_strength(file));
     if let Some((radius, density)) = ball(file) {
         let masses =
             [("coupling.effective_mass", mass), ("impact.mass", impact.and_then(|impact| impact.mass.as_ref()))];
@@ -126,6 +127,24 @@ pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
         doubts.extend(inertia.and_then(|inertia| of_inertia(&format!("{name}inertia"), inertia, *body.mass.get_ref())));
     }
     doubts
+}
+
+/// The doubt about a target of a metal that has a strength only by its condition, in a scene that gives none and asks for no law.
+fn without_strength(file: &SceneFile) -> Option<Mistake> {
+    let target = file.target.as_ref()?.get_ref();
+    let mut contacts = file.contact.iter().flat_map(|contacts| contacts.get_ref());
+    let gives = target.gives_strength() || contacts.any(|contact| contact.get_ref().target.gives_strength());
+    let name = target.material.as_ref().filter(|_| !gives && file.law.loading.is_none())?;
+    let material = beside::find(name, &file.own).ok()?;
+    // a brittle one says so itself
+    let is_elastic = material.yield_strength.is_none() && material.tension.is_none() && material.hardness.is_none();
+    let is_silent = is_elastic && material.warning.is_none();
+    let message = format!(
+        "target.material = \"{}\" has no strength, so nothing yields (law hertz); hardness, yield_strength or tensile_test gives \
+         it one",
+        name.get_ref()
+    );
+    is_silent.then(|| Mistake(name.span(), message))
 }
 
 /// Radius \[m\] and density \[kg/m^3\], if it is given, of the impactor of `file`, unless it is a rod.
