@@ -2,7 +2,7 @@
 
 use crate::package::LibraryWay;
 use crate::prebuilt;
-use crate::{check, curve, hardness, law_list, new, predict, report};
+use crate::{check, curve, hardness, law_list, new, predict, report, translate};
 use brinell_exporter::platform::{self, Platform};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
@@ -53,6 +53,8 @@ pub enum Command {
     Check(check::Arguments),
     /// Predict an impact: largest force and indentation, dent, restitution, contact time
     Predict(predict::Arguments),
+    /// Numbers for the contact model of another tool, with their error over a range of speeds
+    Translate(translate::Arguments),
     /// Predict a Brinell test: dent and hardness; or find the yield strength from HBW
     Hardness(hardness::Arguments),
     /// Draw or tabulate one cycle of loading, unloading and reloading

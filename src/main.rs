@@ -36,6 +36,7 @@ mod sources;
 mod ssp;
 mod summary;
 mod tangential_curve;
+mod translate;
 mod truth;
 
 use arguments::{Arguments, Command, PlatformArguments};
@@ -137,6 +138,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::New(arguments)) => new::run(arguments, json)?,
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::run(arguments, json)?,
+        Some(Command::Translate(arguments)) => translate::run(arguments, json)?,
         Some(Command::Hardness(arguments)) => hardness::run(arguments, json)?,
         Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
         Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,

@@ -1,9 +1,10 @@
 """Elastoplastic contact for simulations in Python: FMUs of Brinell, with FMI hidden.
 
-`Contact` is an FMU in use. `export`, `predict`, `sweep` and `curve` call the exporter; `study` runs
-thousands of impacts, `fit` finds the parameters that explain a measurement, and `draw` draws the
-tables of `study` and `sweep`. Tables are pandas DataFrames. `brinell.mujoco` and `brinell.drake`, to
-be imported by themselves, compute contacts between bodies of MuJoCo and Drake.
+`Contact` is an FMU in use. `export`, `predict`, `sweep` and `curve` call the exporter, and so does
+`translate`, which has numbers for the contact models of other tools; `study` runs thousands of
+impacts, `fit` finds the parameters that explain a measurement, and `draw` draws the tables of
+`study` and `sweep`. Tables are pandas DataFrames. `brinell.mujoco` and `brinell.drake`, to be
+imported by themselves, compute contacts between bodies of MuJoCo and Drake.
 """
 
 from .contact import Contact, State
@@ -16,6 +17,7 @@ from .studies.picture import draw
 from .studies.plan import Range
 from .studies.study import study
 from .sweeps import curve, sweep
+from .translate import Translation, translate
 from .version import version
 
 __version__ = version()
@@ -31,6 +33,7 @@ __all__ = [
     "ProgramWarning",
     "Range",
     "State",
+    "Translation",
     "UnknownName",
     "__version__",
     "curve",
@@ -41,4 +44,5 @@ __all__ = [
     "program",
     "study",
     "sweep",
+    "translate",
 ]

@@ -99,7 +99,7 @@ pub mod piece;
 pub mod quadrature;
 pub mod rate;
 pub mod regime;
-mod runge_kutta;
+pub mod runge_kutta;
 pub mod segment;
 pub mod shared;
 pub mod strength;

@@ -9,6 +9,7 @@
 //! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
 //! | [`tension`], [`measured`] | the flow stress that a tensile test, a hardness or a tensile strength says |
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
+//! | [`translate`] | numbers for the contact models of other tools, with their error |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
 //! | [`constants`], [`model_description`], [`documentation`] | these files |
 //! | [`platform`], [`signature`], [`symbols`], [`c_source`], [`package`], [`prebuilt`] | libraries as bytes or as C source, and the archive |
@@ -77,6 +78,7 @@ mod strength_text;
 pub mod symbols;
 pub mod table;
 pub mod tension;
+pub mod translate;
 pub mod units;
 pub mod validity;
 pub mod xml;

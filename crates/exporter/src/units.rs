@@ -299,6 +299,11 @@ pub fn energies(text: &str) -> Result<f64, String> {
     number(text, "J")
 }
 
+/// A time \[s\] on the command line.
+pub fn times(text: &str) -> Result<f64, String> {
+    number(text, "s")
+}
+
 /// A length \[m\] on the command line.
 pub fn lengths(text: &str) -> Result<f64, String> {
     number(text, "m")

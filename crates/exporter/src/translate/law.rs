@@ -1,0 +1,164 @@
+//! The force laws of other tools, as they publish them, between a body of the effective mass and a fixed one.
+
+use libm::{pow, sqrt};
+
+/// The law of a tool with its numbers, in SI units. The overlap is `x`, the closing speed `w`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// `k x + c w`.
+    Spring { stiffness: f64, damping: f64, pulls: bool },
+    /// `k x + c max(w, 0)`: it damps only while the bodies approach.
+    Approaching { stiffness: f64, damping: f64 },
+    /// `k x^n (1 + d w)`.
+    ///
+    /// Reference: K. H. Hunt, F. R. E. Crossley, *J. Applied Mechanics* 42 (1975) 440-445.
+    HuntCrossley { stiffness: f64, exponent: f64, dissipation: f64 },
+    /// `k x^n + g sqrt(m k x^(n - 1)) w`: the same restitution at every speed.
+    ///
+    /// Reference: Y. Tsuji, T. Tanaka, T. Ishida, *Powder Technology* 71 (1992) 239-250.
+    Proportional { stiffness: f64, exponent: f64, factor: f64, mass: f64, pulls: bool },
+    /// `k x^n + C w`, where `C` grows from 0 to `c` over the `ramp` as `y^2 (3 - 2y)`: the function IMPACT.
+    Impact { stiffness: f64, exponent: f64, damping: f64, ramp: f64 },
+    /// `S + clip(d w, -S, S)` with `S = k x^n`: the damping never exceeds the spring.
+    ElastoGap { stiffness: f64, exponent: f64, damping: f64 },
+    /// `s (k x + c w)`, where `s` grows from 0 to 1 over the `width`; which way is not published, here as `y^2 (3 - 2y)`.
+    Smooth { stiffness: f64, damping: f64, width: f64, pulls: bool },
+    /// Loading with `k1 x`, unloading with a slope that grows from `k1` to `k2` as the largest overlap grows to `limit`.
+    ///
+    /// Reference: S. Luding, *Granular Matter* 10 (2008) 235-246.
+    Luding { loading: f64, unloading: f64, limit: f64 },
+}
+
+impl Law {
+    /// The force \[N\] at overlap `x` \[m\] and closing speed `w` \[m/s\]; `deepest` is the largest overlap of this contact so
+    /// far. Negative where the surface would have to pull.
+    pub fn force(&self, x: f64, w: f64, deepest: f64) -> f64 {
+        let x = x.max(0.0);
+        match *self {
+            Law::Spring { stiffness, damping, .. } => stiffness * x + damping * w,
+            Law::Approaching { stiffness, damping } => stiffness * x + damping * w.max(0.0),
+            Law::HuntCrossley { stiffness, exponent, dissipation } => {
+                stiffness * pow(x, exponent) * (1.0 + dissipation * w)
+            }
+            Law::Proportional { stiffness, exponent, factor, mass, .. } => {
+                stiffness * pow(x, exponent) + factor * sqrt(mass * stiffness * pow(x, exponent - 1.0)) * w
+            }
+            Law::Impact { stiffness, exponent, damping, ramp } => {
+                stiffness * pow(x, exponent) + damping * smooth(x / ramp) * w
+            }
+            Law::ElastoGap { stiffness, exponent, damping } => {
+                let spring = stiffness * pow(x, exponent);
+                spring + (damping * w).clamp(-spring, spring)
+            }
+            Law::Smooth { stiffness, damping, width, .. } => smooth(x / width) * (stiffness * x + damping * w),
+            Law::Luding { loading, unloading, limit } => {
+                let deepest = deepest.max(x);
+                let slope = loading + (unloading - loading) * (deepest / limit).min(1.0);
+                (loading * x).min(loading * deepest - slope * (deepest - x))
+            }
+        }
+    }
+
+    /// Whether the surface may pull until the bodies are apart.
+    pub fn pulls(&self) -> bool {
+        match *self {
+            Law::Spring { pulls, .. } | Law::Proportional { pulls, .. } | Law::Smooth { pulls, .. } => pulls,
+            _ => false,
+        }
+    }
+
+    /// Stiffness \[N/m^n\] and exponent of the elastic part.
+    pub fn elastic(&self) -> (f64, f64) {
+        match *self {
+            Law::Spring { stiffness, .. } | Law::Approaching { stiffness, .. } | Law::Smooth { stiffness, .. } => {
+                (stiffness, 1.0)
+            }
+            Law::HuntCrossley { stiffness, exponent, .. }
+            | Law::Proportional { stiffness, exponent, .. }
+            | Law::Impact { stiffness, exponent, .. }
+            | Law::ElastoGap { stiffness, exponent, .. } => (stiffness, exponent),
+            Law::Luding { loading, .. } => (loading, 1.0),
+        }
+    }
+}
+
+/// From 0 to 1 with slopes of zero at both ends.
+fn smooth(y: f64) -> f64 {
+    let y = y.clamp(0.0, 1.0);
+    y * y * (3.0 - 2.0 * y)
+}
+
+/// The form of a law, whose two numbers are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Form {
+    Spring,
+    PullingSpring,
+    Approaching,
+    /// With the exponent 1.
+    LinearHuntCrossley,
+    HuntCrossley,
+    /// With Hertz's exponent.
+    Hertz,
+    PullingHertz,
+    Impact,
+    ElastoGap,
+    Smooth,
+    Luding,
+}
+
+/// The length over which the damping of IMPACT grows, and that over which Simscape's force does, in scales of the overlap.
+const RAMP: f64 = 0.05;
+
+impl Form {
+    /// Whether the exponent is a number that the user types.
+    pub fn has_exponent(self) -> bool {
+        matches!(self, Form::HuntCrossley | Form::Impact | Form::ElastoGap)
+    }
+
+    /// Its exponent, if the user can't choose it.
+    pub fn exponent(self) -> f64 {
+        if matches!(self, Form::Hertz | Form::PullingHertz) { 1.5 } else { 1.0 }
+    }
+
+    /// The law in which a `mass` \[kg\] at the `speed` \[m/s\] would come to rest at the overlap `scale` \[m\] by its spring alone,
+    /// with this `exponent` and a number without unit for its `losses`. All that happens in the impact, over the scales of length,
+    /// speed and mass, depends on exponent and losses only. `fastest` \[m/s\] is the largest speed that is of interest.
+    pub fn law(self, scale: f64, exponent: f64, losses: f64, impact: &Scales) -> Law {
+        let Scales { mass, speed, fastest } = *impact;
+        let stiffness = 0.5 * (exponent + 1.0) * mass * speed * speed / pow(scale, exponent + 1.0);
+        let damping = 2.0 * losses * mass * speed / scale;
+        match self {
+            Form::Spring | Form::PullingSpring => {
+                Law::Spring { stiffness, damping, pulls: self == Form::PullingSpring }
+            }
+            Form::Approaching => Law::Approaching { stiffness, damping },
+            Form::LinearHuntCrossley | Form::HuntCrossley => {
+                Law::HuntCrossley { stiffness, exponent, dissipation: losses / speed }
+            }
+            Form::Hertz | Form::PullingHertz => {
+                let pulls = self == Form::PullingHertz;
+                Law::Proportional { stiffness, exponent, factor: 2.0 * losses, mass, pulls }
+            }
+            Form::Impact => Law::Impact { stiffness, exponent, damping, ramp: RAMP * scale },
+            Form::ElastoGap => Law::ElastoGap { stiffness, exponent, damping },
+            Form::Smooth => Law::Smooth { stiffness, damping, width: RAMP * scale, pulls: false },
+            Form::Luding => {
+                // below the limit the slope grows in proportion to the overlap, which is reached at the largest speed
+                let (limit, growth) = (scale * fastest / speed, losses * fastest / speed);
+                Law::Luding { loading: stiffness, unloading: stiffness * (1.0 + growth), limit }
+            }
+        }
+    }
+}
+
+/// What an impact has of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Scales {
+    /// Effective mass \[kg\].
+    pub mass: f64,
+    /// Closing speed at touch \[m/s\] at which the numbers are found.
+    pub speed: f64,
+    /// Largest speed \[m/s\] of the range.
+    pub fastest: f64,
+}

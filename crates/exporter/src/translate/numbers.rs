@@ -1,0 +1,141 @@
+//! The numbers that a tool wants to be typed, from its law.
+
+use super::law::Law;
+use brinell_contact::Pair;
+use libm::{exp, pow, sqrt};
+use std::f64::consts::PI;
+
+/// What a number may depend on.
+pub struct Context<'a> {
+    /// `None` where a restitution is all.
+    pub law: Option<&'a Law>,
+    pub pair: &'a Pair,
+    /// Effective mass \[kg\].
+    pub mass: f64,
+    /// Restitution, largest overlap \[m\] and speed \[m/s\] where the numbers are found.
+    pub restitution: f64,
+    pub depth: f64,
+    pub speed: f64,
+    /// \[s\]
+    pub step: Option<f64>,
+}
+
+/// Poisson's ratio of the materials that are no material's.
+const POISSON: f64 = 0.3;
+
+impl Context<'_> {
+    /// The number `key` of tools.toml \[SI\]; `None` if there is none of this name for such a law.
+    pub fn value(&self, key: &str) -> Option<f64> {
+        match key {
+            "restitution" => return Some(self.restitution),
+            "radius" => return Some(self.pair.radius),
+            "step" => return self.step,
+            _ => {}
+        }
+        let law = self.law?;
+        match *law {
+            Law::Spring { stiffness, damping, .. } => self.of_spring(key, stiffness, damping),
+            Law::Approaching { stiffness, damping } | Law::Smooth { stiffness, damping, .. } => match key {
+                "stiffness" => Some(stiffness),
+                "damping" => Some(damping),
+                _ => None,
+            },
+            Law::HuntCrossley { stiffness, exponent, dissipation } => match key {
+                "stiffness" => Some(stiffness),
+                "exponent" => Some(exponent),
+                "dissipation" => Some(dissipation),
+                "indentation_damping" => Some(stiffness * dissipation),
+                "impact_model_restitution" => Some(impact_model_restitution(dissipation * self.speed)),
+                _ => None,
+            },
+            Law::Proportional { stiffness, factor, .. } => self.of_hertz(key, stiffness, factor),
+            Law::Impact { stiffness, exponent, damping, ramp } => match key {
+                "stiffness" => Some(stiffness),
+                "exponent" => Some(exponent),
+                "damping" => Some(damping),
+                "ramp" => Some(ramp),
+                _ => None,
+            },
+            Law::ElastoGap { stiffness, exponent, damping } => match key {
+                "stiffness" => Some(stiffness),
+                "exponent" => Some(exponent),
+                "damping" => Some(damping),
+                _ => None,
+            },
+            Law::Luding { loading, unloading, limit } => match key {
+                "loading_stiffness" => Some(loading),
+                "unloading_stiffness" => Some(unloading),
+                // K/(K - k1) phi 2R is the limit
+                "penetration_depth" => Some(0.5 * limit * (1.0 - loading / unloading) / self.pair.radius),
+                _ => None,
+            },
+        }
+    }
+
+    fn of_spring(&self, key: &str, stiffness: f64, damping: f64) -> Option<f64> {
+        let frequency = sqrt(stiffness / self.mass);
+        let ratio = 0.5 * damping / sqrt(stiffness * self.mass);
+        match key {
+            "stiffness" => Some(stiffness),
+            "damping" => Some(damping),
+            "twice_stiffness" => Some(2.0 * stiffness),
+            "half_damping" => Some(0.5 * damping),
+            "stiffness_per_mass" => Some(stiffness / self.mass),
+            "damping_per_mass" => Some(damping / self.mass),
+            "damping_ratio" => Some(ratio),
+            "time_constant" => Some(1.0 / (ratio * frequency)),
+            "erp" => self.step.map(|step| step * stiffness / (step * stiffness + damping)),
+            "cfm" => self.step.map(|step| 1.0 / (step * stiffness + damping)),
+            "width" => Some(self.depth / 20.0),
+            _ => None,
+        }
+    }
+
+    /// A Hertz contact `4/3 E* sqrt(R)` with the damping `g sqrt(m F/x)`: it has the damping ratio `g/sqrt(5)`, at every speed.
+    fn of_hertz(&self, key: &str, stiffness: f64, factor: f64) -> Option<f64> {
+        let modulus = |radius: f64| 0.75 * stiffness / sqrt(radius);
+        // of two equal materials
+        let youngs = |modulus: f64| 2.0 * (1.0 - POISSON * POISSON) * modulus;
+        match key {
+            "youngs_modulus" => Some(youngs(modulus(self.pair.radius))),
+            "wall_youngs_modulus" => Some(youngs(modulus(0.5 * self.pair.radius))),
+            "damping_fraction" => Some(0.5 * factor / sqrt(1.5)),
+            "typed_restitution" | "pulling_restitution" => {
+                let ratio = factor / sqrt(5.0);
+                // z = -ln E/sqrt(pi^2 + ln^2 E), as if the force pulled until the bodies are apart
+                (ratio < 1.0).then(|| exp(-PI * ratio / sqrt(1.0 - ratio * ratio)))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The restitution E to type for which Exudyn's impactModel 2 damps with this `factor`, the dissipation times the speed at touch:
+/// `1.5 (1 - E) (11 - E)/(1 + 9 E)` above 1/3, `(1 - E^2)/E` below; both are 8/3 at 1/3.
+///
+/// Reference: A. S. Carvalho, J. M. Martins, *Mechanism and Machine Theory* 139 (2019) 174-194.
+fn impact_model_restitution(factor: f64) -> f64 {
+    let upper = |restitution: f64| 1.5 * (1.0 - restitution) * (11.0 - restitution) / (1.0 + 9.0 * restitution);
+    let lower = |restitution: f64| (1.0 - restitution * restitution) / restitution;
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        let reached = if middle > 1.0 / 3.0 { upper(middle) } else { lower(middle) };
+        *(if reached > factor { &mut low } else { &mut high }) = middle;
+    }
+    high
+}
+
+/// The factor from SI to mm, tonne and second for a number of this `unit` with the exponent n.
+pub fn in_millimetres(unit: &str, exponent: f64) -> Option<(f64, &'static str)> {
+    match unit {
+        "1" => Some((1.0, "1")),
+        "s" => Some((1.0, "s")),
+        "m" => Some((1e3, "mm")),
+        "N/m" => Some((1e-3, "N/mm")),
+        "N/m^n" => Some((pow(1e3, -exponent), "N/mm^n")),
+        "N.s/m" => Some((1e-3, "N.s/mm")),
+        "N.s/m^(n+1)" => Some((pow(1e3, -exponent - 1.0), "N.s/mm^(n+1)")),
+        _ => None,
+    }
+}

@@ -1,0 +1,222 @@
+//! What must be said beside the numbers, in a sentence each.
+
+use super::fit::Fitted;
+use super::law::Law;
+use super::motion::{Outcome, PHASES, Stepping, exact};
+use super::tools::{Tool, Way};
+use super::{Case, Request, Translated, doubts};
+use crate::numbers::{quantity, significant};
+use crate::scene::Scene;
+use brinell_contact::Surface;
+use brinell_contact::impact::Impact;
+
+/// A relative difference that is not worth a word.
+const SMALL: f64 = 2e-3;
+
+fn three(value: f64) -> String {
+    significant(value, 3)
+}
+
+/// What a number of this way can do and can't, and its remarks.
+pub fn of_way(case: &Case, way: &Way, fitted: Option<&Fitted>, translated: &Translated) -> Vec<String> {
+    let mut notes = vec![met(case, fitted, translated), falls(case, translated)];
+    if let Some(fitted) = fitted {
+        notes.extend(softened(case, fitted, translated));
+        notes.extend(steps(case, way, translated));
+    }
+    let remarks = way.remarks.iter().map(|remark| match (remark.contains("{smooth_restitutions}"), fitted) {
+        (true, Some(fitted)) => remark.replace("{smooth_restitutions}", &smoothed(case, fitted)),
+        _ => remark.clone(),
+    });
+    notes.extend(remarks);
+    notes
+}
+
+/// What is met, and where.
+fn met(case: &Case, fitted: Option<&Fitted>, translated: &Translated) -> String {
+    let (goal, speed) = (case.goal(), quantity(case.speed, "m/s"));
+    let at = case.wanted.iter().position(|one| one == goal).unwrap_or(0);
+    let promised = &translated.promised[at].mean;
+    let Some(fitted) = fitted else {
+        return format!(
+            "The restitution is the scene's at {speed}. Contact time, largest force and depth are not defined: the speed changes in \
+             one step."
+        );
+    };
+    let differs = |one: f64, other: f64| {
+        let part = one / other - 1.0;
+        if part.abs() < SMALL { "as well".to_string() } else { format!("{:+.0} %", 100.0 * part) }
+    };
+    let time = fitted.softening * goal.contact_time;
+    let longer = if fitted.softening > 1.0 { format!("a contact time of {}", quantity(time, "s")) } else { "contact time".into() };
+    format!(
+        "At {speed} restitution and {longer} are met{}; the largest force there is {} ({}), the depth {} ({}).",
+        if fitted.softening > 1.0 { "" } else { " as the scene's law has them" },
+        quantity(promised.largest_force, "N"),
+        differs(promised.largest_force, goal.largest_force),
+        quantity(promised.depth, "m"),
+        differs(promised.depth, goal.depth),
+    )
+    .replace("(as well)", "(met, too)")
+}
+
+/// How the restitution depends on the speed here and there.
+fn falls(case: &Case, translated: &Translated) -> String {
+    let [from, to] = [0, case.speeds.len() - 1];
+    let [slowest, fastest] = [from, to].map(|at| quantity(case.speeds[at], "m/s"));
+    if from == to {
+        return format!("One speed was asked for, {slowest}: at others the restitution of the scene's law is another one.");
+    }
+    let own = [from, to].map(|at| case.wanted[at].restitution);
+    let theirs = [from, to].map(|at| translated.promised[at].mean.restitution);
+    let same = |[one, other]: [f64; 2]| (one - other).abs() < SMALL;
+    let course = |[one, other]: [f64; 2], whose: &str| match same([one, other]) {
+        true => format!("{whose} stays at {}", three(one)),
+        false if other < one => format!("{whose} falls from {} to {}", three(one), three(other)),
+        false => format!("{whose} grows from {} to {}", three(one), three(other)),
+    };
+    let errors = || case.wanted.iter().zip(&translated.promised).map(|(own, theirs)| theirs.mean.restitution - own.restitution);
+    let (low, high) = (errors().fold(0.0, f64::min), errors().fold(0.0, f64::max));
+    let off = if high - low < SMALL {
+        "one set of numbers serves the whole range".to_string()
+    } else {
+        format!(
+            "one set of numbers can't serve the whole range: it is up to {} too high and {} too low",
+            three(high),
+            three(-low)
+        )
+    };
+    format!(
+        "From {slowest} to {fastest} {}, {}: {off}.",
+        course(own, "the restitution of the scene's law"),
+        course(theirs, "that of this model")
+    )
+}
+
+/// That the step is too long for the contact.
+fn softened(case: &Case, fitted: &Fitted, translated: &Translated) -> Option<String> {
+    let step = fitted.step.filter(|_| fitted.softening > 1.0)?;
+    let goal = case.goal();
+    let at = case.wanted.iter().position(|one| one == goal).unwrap_or(0);
+    let depth = translated.promised[at].mean.depth;
+    let count = fitted.softening * goal.contact_time / step;
+    let why = if count > 30.5 { ", and an implicit solver damps less the more steps there are" } else { "" };
+    Some(format!(
+        "By the scene's law a contact lasts {}, {} steps of {}. It is softened until it has {count:.0}{why}: {} times as long and {} times as \
+         deep ({}). Only the restitution is the scene's.",
+        quantity(goal.contact_time, "s"),
+        three(goal.contact_time / step),
+        quantity(step, "s"),
+        three(fitted.softening),
+        three(depth / goal.depth),
+        quantity(depth, "m"),
+    ))
+}
+
+/// What depends on the step.
+fn steps(case: &Case, way: &Way, translated: &Translated) -> Vec<String> {
+    let mut notes = Vec::new();
+    let Some(step) = translated.step else { return notes };
+    let widest = translated.promised.iter().max_by(|one, other| {
+        let width = |one: &super::Promise| one.most_restitution - one.least_restitution;
+        width(one).total_cmp(&width(other))
+    });
+    if let Some(widest) = widest.filter(|one| one.most_restitution - one.least_restitution > SMALL) {
+        notes.push(format!(
+            "In steps of {} the rebound depends on where in a step the bodies touch: the mean over {PHASES} phases is promised, single rebounds \
+             are {} to {} where they differ most.",
+            quantity(step, "s"),
+            three(widest.least_restitution),
+            three(widest.most_restitution)
+        ));
+    }
+    match (way.stepping, translated.largest_step) {
+        (Stepping::Explicit, Some(largest)) => notes.push(format!(
+            "The largest step at which no phase of the touch gains energy is {}.",
+            quantity(largest, "s")
+        )),
+        (Stepping::Explicit, None) => notes.push(format!(
+            "At a restitution of {} some phases gain energy at every step.",
+            three(case.goal().restitution)
+        )),
+        _ => notes.push(format!(
+            "The solver damps by itself, the more the longer the step: the numbers are for steps of {} only. No phase gains energy.",
+            quantity(step, "s")
+        )),
+    }
+    notes
+}
+
+/// The restitutions of a force whose smoothing isn't known.
+fn smoothed(case: &Case, fitted: &Fitted) -> String {
+    let Law::Spring { stiffness, damping, .. } = fitted.law else { return String::new() };
+    let Some(plain) = exact(&fitted.law, case.mass, case.speed) else { return String::new() };
+    let of = |pulls: bool| {
+        let law = Law::Smooth { stiffness, damping, width: plain.depth / 20.0, pulls };
+        exact(&law, case.mass, case.speed).map_or("unknown".into(), |outcome| three(outcome.restitution))
+    };
+    format!(
+        "With a cubic over this width the restitution at {} is {} if the force never pulls, and {} if it may.",
+        quantity(case.speed, "m/s"),
+        of(false),
+        of(true)
+    )
+}
+
+/// What is to know of the scene, whatever the tool.
+pub fn of_scene(
+    scene: &Scene,
+    (mass, speeds, wanted): (f64, &[f64], &[Outcome]),
+    request: &Request,
+    tool: &Tool,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    if scene.impact_is_assumed {
+        notes.push(format!("The scene names no impact; {}.", scene.assumption()));
+    }
+    notes.push(format!(
+        "The numbers are for an effective mass of {}: that of a body that hits a fixed one, of two free bodies m1 m2/(m1 + m2).",
+        quantity(mass, "kg")
+    ));
+    if scene.contact_count() > 1 {
+        let more = if scene.inverse_masses.is_some() {
+            " They share bodies: a body on several contacts at once has another effective mass at each than in an impact on one."
+        } else {
+            ""
+        };
+        notes.push(format!(
+            "The scene has {} contacts; the numbers are for the first, by itself.{more}",
+            scene.contact_count()
+        ));
+    }
+    if scene.group_value(0, "target.radius").is_some() {
+        notes.push(
+            "The target is curved. Radii of Hertz contacts are the effective one here; a tool that takes it from two bodies needs moduli for \
+             its own."
+                .into(),
+        );
+    }
+    if scene.directions > 0 {
+        let coefficient = scene.value("friction_coefficient").map_or(String::new(), |mu| format!(" ({mu})"));
+        notes.push(format!(
+            "The scene has friction; these numbers are along the normal, and the blocks switch friction off. {} can have its coefficient{coefficient} as \
+             Coulomb friction, but not the partial slip of the scene's law.",
+            tool.title
+        ));
+    }
+    let dents = scene.damped.is_none() && wanted.iter().any(|one| one.restitution < 1.0 - SMALL);
+    if dents && scene.contacts[0].surface == Surface::Dented {
+        notes.push(
+            "The scene's surface keeps its dents, so that a second impact at the same place is nearly elastic. No tool remembers a dent: \
+             every impact there is like the first."
+                .into(),
+        );
+    }
+    if request.step.is_some() && tool.ways.iter().all(|way| matches!(way.stepping, Stepping::Own | Stepping::Restitution)) {
+        notes.push(format!("{}'s numbers don't depend on a step: --step has no effect.", tool.title));
+    }
+    if let Some(fastest) = speeds.last() {
+        notes.extend(doubts(scene, Impact { mass, speed: *fastest }));
+    }
+    notes
+}
