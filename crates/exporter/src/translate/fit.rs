@@ -1,7 +1,8 @@
 //! The numbers of a tool's law for which an impact ends as it should.
 
-use super::law::{Form, Law, Scales};
+use super::law::{Form, Law, Scales, Shape};
 use super::motion::{Outcome, Promise, Stepping, exact};
+use libm::{log, pow};
 
 /// A law with its numbers.
 #[derive(Clone, Copy, Debug)]
@@ -21,95 +22,96 @@ const FEWEST: f64 = 30.0;
 const USUAL: f64 = 100.0;
 /// Steps in a contact beyond which those of the tool are not followed, but the exact motion.
 const MOST: f64 = 20_000.0;
-/// Largest difference of a restitution that counts as met.
-const MET: f64 = 1e-3;
-/// The exponents from which one is chosen.
-const EXPONENTS: (f64, f64) = (1.0, 3.0);
+/// How near to a restitution a solver that damps by itself must come.
+const NEAR: f64 = 5e-3;
+/// The exponents from which one is chosen, and the ramps in scales of the overlap.
+const EXPONENTS: (f64, f64) = (1.0, 2.5);
+const RAMPS: (f64, f64) = (0.02, 10.0);
+/// More steps than a softened contact is given.
+const SOFTEST: f64 = 1000.0;
 
-/// The numbers of `form` for an impact that ends as `wanted`, in a tool with this `stepping`, at the user's `step` \[s\] if given.
-/// Restitution and contact time are met; the largest force too, as far as the form has an exponent to choose.
-///
-/// # Errors
-/// In words, if no numbers lead there.
-pub fn fit(
-    form: Form,
-    stepping: Stepping,
-    wanted: &Outcome,
-    scales: &Scales,
-    step: Option<f64>,
-) -> Result<Fitted, String> {
-    let search = Search { form, stepping, wanted, scales };
-    let time = wanted.contact_time;
-    if stepping == Stepping::Own {
-        let exponent = if form.has_exponent() { search.exponent()? } else { form.exponent() };
-        return search.law(exponent, time, None).map(|law| Fitted { law, step: None, is_fine: false, softening: 1.0 });
-    }
-    let exponent = form.exponent();
-    match step {
-        Some(step) => {
-            let mut softening = (FEWEST * step / time).max(1.0);
-            loop {
-                let used = Some(step).filter(|step| *step > softening * time / MOST);
-                match search.law(exponent, softening * time, used) {
-                    Ok(law) => return Ok(Fitted { law, step: Some(step), is_fine: used.is_none(), softening }),
-                    // an implicit solver damps by itself, the less the more steps there are
-                    Err(_) if used.is_some() => softening *= 1.25,
-                    Err(why) => return Err(why),
-                }
-            }
+/// What the numbers are for.
+pub struct Question<'a> {
+    pub form: Form,
+    pub stepping: Stepping,
+    /// Whether the tool scales the damping by the speed at touch.
+    pub at_touch: bool,
+    pub scales: Scales,
+    /// How the impact ends at the speed of the scales.
+    pub goal: &'a Outcome,
+    /// How it ends at each speed \[m/s\] of the range.
+    pub speeds: &'a [f64],
+    pub wanted: &'a [Outcome],
+}
+
+impl Question<'_> {
+    /// The numbers for an impact that ends as wanted, at the user's `step` \[s\] if given. Restitution and contact time are met; what
+    /// else a form has to choose is chosen for the least error over the range.
+    ///
+    /// # Errors
+    /// In words, if no numbers lead there.
+    pub fn answer(&self, step: Option<f64>) -> Result<Fitted, String> {
+        let time = self.goal.contact_time;
+        if self.stepping == Stepping::Own {
+            let law = self.law(self.shape()?, time, None)?;
+            return Ok(Fitted { law, step: None, is_fine: false, softening: 1.0 });
         }
-        None => {
+        let shape = self.form.shape();
+        let Some(step) = step else {
             let mut count = USUAL;
             loop {
                 let step = rounded_down(time / count);
-                match search.law(exponent, time, Some(step)) {
+                match self.law(shape, time, Some(step)) {
                     Ok(law) => return Ok(Fitted { law, step: Some(step), is_fine: false, softening: 1.0 }),
-                    Err(_) if count < 0.5 * MOST => count *= 2.0,
+                    Err(_) if count < SOFTEST => count *= 2.0,
                     Err(why) => return Err(why),
                 }
             }
+        };
+        let mut softening = (FEWEST * step / time).max(1.0);
+        loop {
+            let used = Some(step).filter(|step| *step > time / MOST);
+            match self.law(shape, softening * time, used) {
+                Ok(law) => return Ok(Fitted { law, step: Some(step), is_fine: used.is_none(), softening }),
+                // an implicit solver damps by itself, the less the more steps there are
+                Err(_) if used.is_some() && softening * time < SOFTEST * step => softening *= 1.25,
+                Err(why) => return Err(why),
+            }
         }
     }
-}
 
-/// The number of one digit that is just below.
-fn rounded_down(value: f64) -> f64 {
-    let power = value.log10().floor() as i32;
-    let digit = (value / 10f64.powi(power)).floor().clamp(1.0, 9.0);
-    // through text: the number that a person would write
-    format!("{digit}e{power}").parse().expect("a number")
-}
+    /// The law as it is at another `speed` \[m/s\].
+    pub fn at(&self, law: &Law, speed: f64) -> Law {
+        match *law {
+            Law::HuntCrossley { stiffness, exponent, dissipation } if self.at_touch => {
+                Law::HuntCrossley { stiffness, exponent, dissipation: dissipation * self.scales.speed / speed }
+            }
+            law => law,
+        }
+    }
 
-struct Search<'a> {
-    form: Form,
-    stepping: Stepping,
-    wanted: &'a Outcome,
-    scales: &'a Scales,
-}
-
-impl Search<'_> {
-    /// The law with these `losses` whose contact lasts `time` \[s\], and the outcome of its exact impact.
-    fn with(&self, exponent: f64, time: f64, losses: f64) -> Result<(Law, Outcome), String> {
-        let Scales { mass, speed, .. } = *self.scales;
-        let first = self.form.law(speed * time, exponent, losses, self.scales);
-        let ends = |law: &Law| exact(law, mass, speed).ok_or("its contact does not end");
-        let law = self.form.law(speed * time * time / ends(&first)?.contact_time, exponent, losses, self.scales);
-        Ok((law, ends(&law)?))
+    /// The law with these `losses` whose contact lasts `time` \[s\], and its restitution.
+    fn with(&self, shape: Shape, time: f64, losses: f64) -> Result<(Law, f64), String> {
+        let Scales { mass, speed, .. } = self.scales;
+        let first = self.form.law(speed * time, shape, losses, &self.scales);
+        let ended = exact(&first, mass, speed).ok_or("its contact does not end")?;
+        let scale = speed * time * time / ended.contact_time;
+        Ok((self.form.law(scale, shape, losses, &self.scales), ended.restitution))
     }
 
     /// The law whose contact lasts `time` \[s\] and has the wanted restitution: the exact one, or the mean at this `step` \[s\].
-    fn law(&self, exponent: f64, time: f64, step: Option<f64>) -> Result<Law, String> {
+    fn law(&self, shape: Shape, time: f64, step: Option<f64>) -> Result<Law, String> {
         let restitution = |losses: f64| -> Result<f64, String> {
-            let (law, exact) = self.with(exponent, time, losses)?;
-            let Some(step) = step else { return Ok(exact.restitution) };
+            let (law, exact) = self.with(shape, time, losses)?;
+            let Some(step) = step else { return Ok(exact) };
             let promise = Promise::at(&law, self.stepping, self.scales.mass, self.scales.speed, step);
             Ok(promise.ok_or("its contact does not end")?.mean.restitution)
         };
-        let wanted = self.wanted.restitution;
+        let wanted = self.goal.restitution;
         let most = restitution(0.0)?;
         if most <= wanted {
-            return match most >= wanted - MET {
-                true => Ok(self.with(exponent, time, 0.0)?.0),
+            return match most >= wanted - NEAR {
+                true => Ok(self.with(shape, time, 0.0)?.0),
                 false => Err(format!("its restitution is {most:.3} at most, not {wanted:.3}")),
             };
         }
@@ -125,25 +127,66 @@ impl Search<'_> {
             (low, high) = (high, 1.5 * high);
         }
         let losses = root((low, high), |losses| Ok(restitution(losses)? - wanted))?;
-        Ok(self.with(exponent, time, losses)?.0)
+        Ok(self.with(shape, time, losses)?.0)
     }
 
-    /// The exponent, with two decimals, whose largest force is nearest to the wanted one.
-    fn exponent(&self) -> Result<f64, String> {
-        let Scales { mass, speed, .. } = *self.scales;
-        let excess = |exponent: f64| -> Result<f64, String> {
-            let law = self.law(exponent, self.wanted.contact_time, None)?;
-            let outcome = exact(&law, mass, speed).ok_or("its contact does not end")?;
-            Ok(outcome.largest_force / self.wanted.largest_force - 1.0)
+    /// The shape with the least error over the range, on a lattice of round exponents.
+    fn shape(&self) -> Result<Shape, String> {
+        let (has_exponent, has_ramp) = self.form.chooses();
+        let start = self.form.shape();
+        if !has_exponent {
+            return Ok(start);
+        }
+        let at = |exponent: f64, ramp: f64| Shape {
+            exponent: (100.0 * exponent.clamp(EXPONENTS.0, EXPONENTS.1)).round() / 100.0,
+            ramp: if has_ramp { ramp.clamp(RAMPS.0, RAMPS.1) } else { start.ramp },
         };
-        let (low, high) = (excess(EXPONENTS.0)?, excess(EXPONENTS.1)?);
-        let exponent = match (low < 0.0, high < 0.0) {
-            (true, false) | (false, true) => root(EXPONENTS, excess)?,
-            _ if low.abs() <= high.abs() => EXPONENTS.0,
-            _ => EXPONENTS.1,
+        let ramps = if has_ramp { 8 } else { 1 };
+        let all = (0..6).flat_map(|n| (0..ramps).map(move |r| at(1.0 + 0.3 * f64::from(n), 0.02 * pow(2.4, f64::from(r)))));
+        let mut best = (start, f64::INFINITY);
+        let mut try_one = |shape: Shape| {
+            let error = self.error(shape);
+            let better = error < best.1;
+            best = if better { (shape, error) } else { best };
+            (better, best)
         };
-        Ok((100.0 * exponent).round() / 100.0)
+        for shape in all {
+            try_one(shape);
+        }
+        // a step in each direction, as long as one helps; then shorter ones
+        let (mut further, mut wider) = (0.16, 1.6_f64);
+        while further > 0.005 {
+            let Shape { exponent, ramp } = try_one(start).1.0;
+            let around = [(further, 1.0), (-further, 1.0), (0.0, wider), (0.0, 1.0 / wider)];
+            let around = &around[..if has_ramp { 4 } else { 2 }];
+            let helped = around.iter().any(|(more, times)| try_one(at(exponent + more, ramp * times)).0);
+            if !helped {
+                (further, wider) = (0.5 * further, wider.sqrt());
+            }
+        }
+        if best.1.is_finite() { Ok(best.0) } else { self.law(start, self.goal.contact_time, None).map(|_| start) }
     }
+
+    /// The sum of squares over the range of the errors of restitution, largest force and contact time.
+    fn error(&self, shape: Shape) -> f64 {
+        let Ok(law) = self.law(shape, self.goal.contact_time, None) else { return f64::INFINITY };
+        let one = |(speed, wanted): (&f64, &Outcome)| {
+            let Some(outcome) = exact(&self.at(&law, *speed), self.scales.mass, *speed) else { return f64::INFINITY };
+            let force = log(outcome.largest_force / wanted.largest_force);
+            let time = log(outcome.contact_time / wanted.contact_time);
+            let restitution = outcome.restitution - wanted.restitution;
+            restitution * restitution + force * force + time * time
+        };
+        self.speeds.iter().zip(self.wanted).map(one).sum()
+    }
+}
+
+/// The number of one digit that is just below.
+fn rounded_down(value: f64) -> f64 {
+    let power = value.log10().floor() as i32;
+    let digit = (value / 10f64.powi(power)).floor().clamp(1.0, 9.0);
+    // through text: the number that a person would write
+    format!("{digit}e{power}").parse().expect("a number")
 }
 
 /// A root of `f`, which has different signs at the two ends.

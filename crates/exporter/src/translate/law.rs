@@ -98,34 +98,39 @@ pub enum Form {
     /// With the exponent 1.
     LinearHuntCrossley,
     HuntCrossley,
-    /// With Hertz's exponent.
+    /// With Hertz's exponent and a damping in proportion.
     Hertz,
     PullingHertz,
     Impact,
     ElastoGap,
-    Smooth,
     Luding,
 }
 
-/// The length over which the damping of IMPACT grows, and that over which Simscape's force does, in scales of the overlap.
-const RAMP: f64 = 0.05;
+/// What a form may have to choose, beside its two numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    pub exponent: f64,
+    /// The length over which the damping of IMPACT grows, in scales of the overlap.
+    pub ramp: f64,
+}
 
 impl Form {
-    /// Whether the exponent is a number that the user types.
-    pub fn has_exponent(self) -> bool {
-        matches!(self, Form::HuntCrossley | Form::Impact | Form::ElastoGap)
+    /// The shape of a form that has none to choose.
+    pub fn shape(self) -> Shape {
+        Shape { exponent: if matches!(self, Form::Hertz | Form::PullingHertz) { 1.5 } else { 1.0 }, ramp: 1.0 }
     }
 
-    /// Its exponent, if the user can't choose it.
-    pub fn exponent(self) -> f64 {
-        if matches!(self, Form::Hertz | Form::PullingHertz) { 1.5 } else { 1.0 }
+    /// Whether exponent and ramp are numbers that the user types.
+    pub fn chooses(self) -> (bool, bool) {
+        (matches!(self, Form::HuntCrossley | Form::Impact | Form::ElastoGap), self == Form::Impact)
     }
 
-    /// The law in which a `mass` \[kg\] at the `speed` \[m/s\] would come to rest at the overlap `scale` \[m\] by its spring alone,
-    /// with this `exponent` and a number without unit for its `losses`. All that happens in the impact, over the scales of length,
-    /// speed and mass, depends on exponent and losses only. `fastest` \[m/s\] is the largest speed that is of interest.
-    pub fn law(self, scale: f64, exponent: f64, losses: f64, impact: &Scales) -> Law {
+    /// The law in which a mass at the speed of `impact` would come to rest at the overlap `scale` \[m\] by its spring alone, with a
+    /// number without unit for its `losses`. All that happens in the impact, over the scales of length, speed and mass, depends on
+    /// shape and losses only.
+    pub fn law(self, scale: f64, shape: Shape, losses: f64, impact: &Scales) -> Law {
         let Scales { mass, speed, fastest } = *impact;
+        let exponent = shape.exponent;
         let stiffness = 0.5 * (exponent + 1.0) * mass * speed * speed / pow(scale, exponent + 1.0);
         let damping = 2.0 * losses * mass * speed / scale;
         match self {
@@ -140,9 +145,8 @@ impl Form {
                 let pulls = self == Form::PullingHertz;
                 Law::Proportional { stiffness, exponent, factor: 2.0 * losses, mass, pulls }
             }
-            Form::Impact => Law::Impact { stiffness, exponent, damping, ramp: RAMP * scale },
+            Form::Impact => Law::Impact { stiffness, exponent, damping, ramp: shape.ramp * scale },
             Form::ElastoGap => Law::ElastoGap { stiffness, exponent, damping },
-            Form::Smooth => Law::Smooth { stiffness, damping, width: RAMP * scale, pulls: false },
             Form::Luding => {
                 // below the limit the slope grows in proportion to the overlap, which is reached at the largest speed
                 let (limit, growth) = (scale * fastest / speed, losses * fastest / speed);

@@ -28,8 +28,8 @@ use crate::units;
 use crate::validity;
 use brinell_contact::Pair;
 use brinell_contact::impact::Impact;
-use fit::{Fitted, fit, largest_passive_step};
-use law::{Law, Scales};
+use fit::{Fitted, Question, largest_passive_step};
+use law::Scales;
 use motion::{Outcome, Promise, Stepping};
 use serde::Serialize;
 use tools::{Tool, Way};
@@ -235,13 +235,22 @@ impl Case {
     fn by(&self, way: &'static Way, request: &Request) -> Result<Translated, String> {
         let goal = self.goal();
         let fastest = *self.speeds.last().expect("a range has speeds");
-        let scales = Scales { mass: self.mass, speed: self.speed, fastest };
-        let fitted = match way.form {
-            Some(form) => Some(fit(form, way.stepping, goal, &scales, request.step)?),
-            None => None,
-        };
-        let promise = |speed: &f64| match &fitted {
-            Some(fitted) => self.promise(way, fitted, *speed),
+        let question = way.form.map(|form| Question {
+            form,
+            stepping: way.stepping,
+            at_touch: way.at_touch,
+            scales: Scales { mass: self.mass, speed: self.speed, fastest },
+            goal,
+            speeds: &self.speeds,
+            wanted: &self.wanted,
+        });
+        let fitted = question.as_ref().map(|question| question.answer(request.step)).transpose()?;
+        let promise = |speed: &f64| match question.as_ref().zip(fitted.as_ref()) {
+            Some((question, fitted)) => {
+                let stepping = if fitted.is_fine { Stepping::Own } else { way.stepping };
+                let law = question.at(&fitted.law, *speed);
+                Promise::at(&law, stepping, self.mass, *speed, fitted.step.unwrap_or(f64::NAN))
+            }
             None => Some(Promise::of(Outcome {
                 restitution: goal.restitution,
                 largest_force: f64::NAN,
@@ -274,17 +283,6 @@ impl Case {
         };
         translated.notes = sentences::of_way(self, way, fitted.as_ref(), &translated);
         Ok(translated)
-    }
-
-    fn promise(&self, way: &Way, fitted: &Fitted, speed: f64) -> Option<Promise> {
-        let law = match fitted.law {
-            Law::HuntCrossley { stiffness, exponent, dissipation } if way.at_touch => {
-                Law::HuntCrossley { stiffness, exponent, dissipation: dissipation * self.speed / speed }
-            }
-            law => law,
-        };
-        let stepping = if fitted.is_fine { Stepping::Own } else { way.stepping };
-        Promise::at(&law, stepping, self.mass, speed, fitted.step.unwrap_or(f64::NAN))
     }
 
     /// The numbers as they are typed, and the block with them.

@@ -19,7 +19,9 @@ fn three(value: f64) -> String {
 
 /// What a number of this way can do and can't, and its remarks.
 pub fn of_way(case: &Case, way: &Way, fitted: Option<&Fitted>, translated: &Translated) -> Vec<String> {
-    let mut notes = vec![met(case, fitted, translated), falls(case, translated)];
+    let mut notes = vec![met(case, fitted, translated)];
+    notes.extend(chosen(way));
+    notes.push(falls(case, translated));
     if let Some(fitted) = fitted {
         notes.extend(softened(case, fitted, translated));
         notes.extend(steps(case, way, translated));
@@ -43,21 +45,38 @@ fn met(case: &Case, fitted: Option<&Fitted>, translated: &Translated) -> String 
              one step."
         );
     };
+    let restitution = match (promised.restitution - goal.restitution).abs() < SMALL {
+        true => "the restitution is the scene's".to_string(),
+        false => format!(
+            "the restitution is {} instead of {}, the nearest that this solver reaches",
+            three(promised.restitution),
+            three(goal.restitution)
+        ),
+    };
+    if fitted.softening > 1.0 {
+        return format!("At {speed} {restitution}.");
+    }
     let differs = |one: f64, other: f64| {
         let part = one / other - 1.0;
         if part.abs() < SMALL { "as well".to_string() } else { format!("{:+.0} %", 100.0 * part) }
     };
-    let time = fitted.softening * goal.contact_time;
-    let longer = if fitted.softening > 1.0 { format!("a contact time of {}", quantity(time, "s")) } else { "contact time".into() };
     format!(
-        "At {speed} restitution and {longer} are met{}; the largest force there is {} ({}), the depth {} ({}).",
-        if fitted.softening > 1.0 { "" } else { " as the scene's law has them" },
+        "At {speed} {restitution}, and so is the contact time; the largest force there is {} ({}), the depth {} ({}).",
         quantity(promised.largest_force, "N"),
         differs(promised.largest_force, goal.largest_force),
         quantity(promised.depth, "m"),
         differs(promised.depth, goal.depth),
     )
-    .replace("(as well)", "(met, too)")
+}
+
+/// What else was chosen.
+fn chosen(way: &Way) -> Option<String> {
+    let what = match way.form?.chooses() {
+        (true, true) => "Exponent and penetration depth are those",
+        (true, false) => "The exponent is the one",
+        _ => return None,
+    };
+    Some(format!("{what} with the least error of restitution, largest force and contact time over the range."))
 }
 
 /// How the restitution depends on the speed here and there.
@@ -101,9 +120,17 @@ fn softened(case: &Case, fitted: &Fitted, translated: &Translated) -> Option<Str
     let depth = translated.promised[at].mean.depth;
     let count = fitted.softening * goal.contact_time / step;
     let why = if count > 30.5 { ", and an implicit solver damps less the more steps there are" } else { "" };
+    let deep = if depth > case.pair.radius {
+        format!(
+            " That is more than the radius, so that the bodies pass through each other: with steps of at most {} it stays below a tenth of it.",
+            quantity(0.1 * step * case.pair.radius / depth, "s")
+        )
+    } else {
+        String::new()
+    };
     Some(format!(
         "By the scene's law a contact lasts {}, {} steps of {}. It is softened until it has {count:.0}{why}: {} times as long and {} times as \
-         deep ({}). Only the restitution is the scene's.",
+         deep ({}). Only the restitution is the scene's.{deep}",
         quantity(goal.contact_time, "s"),
         three(goal.contact_time / step),
         quantity(step, "s"),

@@ -60,7 +60,7 @@ fn errors(translation: &Translation, way: &Translated) -> String {
     let defined = way.promised.iter().any(|one| !one.mean.contact_time.is_nan());
     let spread = |one: &Promise| one.most_restitution - one.least_restitution > 5e-4;
     let spreads = way.promised.iter().any(spread);
-    let mut rows = vec![vec!["speed".to_string(), "restitution".into(), "here".into()]];
+    let mut rows = vec![vec!["speed".to_string(), "restitution".into(), "of the tool".into()]];
     if spreads {
         rows[0].push("from .. to".into());
     }
