@@ -164,6 +164,16 @@ fn constants(constants: &Json) -> String {
     if table.is_empty() { table } else { heading(&["constant", "value", "unit", "allowed", "meaning"]) + &table + "\n" }
 }
 
+/// The tools of `brinell translate`.
+fn tools() -> String {
+    let mut table = heading(&["tool", "`--for`", "contact models", "true for"]);
+    for tool in brinell_exporter::translate::tools::TOOLS.iter() {
+        let ways: Vec<_> = tool.ways.iter().map(|way| way.title.as_str()).collect();
+        table += &row(&[&tool.title, &format!("`{}`", tool.name), &ways.join("; "), &tool.versions]);
+    }
+    table
+}
+
 /// Compares the text between the comments of the table `name` in `page` with `table`, or writes it.
 pub fn shows(page: &str, name: &str, table: &str) {
     let path = Path::new("docs/guide").join(page);
@@ -187,6 +197,7 @@ fn tables_are_those_of_the_model_description() {
     shows("variables.md", "regimes", &regimes());
     shows("variables.md", "parameters", &variables("parameter"));
     shows("scenes.md", "materials", &materials());
+    shows("translate.md", "tools", &tools());
     shows("all-laws.md", "loading laws", &laws("loading"));
     shows("all-laws.md", "unloading laws", &laws("unloading"));
     shows("all-laws.md", "rate-dependent laws", &laws("damped"));

