@@ -38,7 +38,9 @@ def hertz(stiffness, restitution, mass):
 
     def force(x, w):
         slope = 1.5 * stiffness * np.sqrt(x)
-        return stiffness * x**1.5 + 2 * np.sqrt(5 / 6) * beta(restitution) * np.sqrt(mass * slope) * w
+        return (
+            stiffness * x**1.5 + 2 * np.sqrt(5 / 6) * beta(restitution) * np.sqrt(mass * slope) * w
+        )
 
     return force
 
@@ -69,12 +71,18 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
         case ("exudyn", _):
             e = get("impact_model_restitution")
             chi = 1.5 * (1 - e) * (11 - e) / (1 + 9 * e) if e > 1 / 3 else (1 - e * e) / e
-            return lambda x, w: get("stiffness") * x ** get("exponent") * (1 + chi * w / speed), False
+            return (
+                lambda x, w: get("stiffness") * x ** get("exponent") * (1 + chi * w / speed),
+                False,
+            )
         case ("recurdyn", _):
 
             def force(x, w):
                 n = get("exponent")
-                return get("stiffness") * x**n + get("indentation_damping") * np.sign(w) * abs(w) * x**n
+                return (
+                    get("stiffness") * x**n
+                    + get("indentation_damping") * np.sign(w) * abs(w) * x**n
+                )
 
             return force, False
         case ("chrono", "hooke"):
@@ -83,7 +91,10 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
             return lambda x, w: get("stiffness") * x + get("damping") * max(w, 0.0), False
         case ("newton", "mujoco-solver"):
             # solref = (2/kd, kd/(2 sqrt(ke)))
-            time, ratio = 2 / get("damping_per_mass"), get("damping_per_mass") / (2 * np.sqrt(get("stiffness_per_mass")))
+            time, ratio = (
+                2 / get("damping_per_mass"),
+                get("damping_per_mass") / (2 * np.sqrt(get("stiffness_per_mass"))),
+            )
             return lambda x, w: mass * (2 / time * w + x / (time * ratio) ** 2), False
         case ("mujoco", _):
             time, ratio = get("time_constant"), get("damping_ratio")
@@ -98,7 +109,10 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
             stiffness = 4 / 3 * reduced(get("wall_youngs_modulus")) * np.sqrt(radius / 2)
 
             def force(x, w):
-                return stiffness * x**1.5 + 2 * get("damping_fraction") * np.sqrt(mass * 1.5 * stiffness * np.sqrt(x)) * w
+                return (
+                    stiffness * x**1.5
+                    + 2 * get("damping_fraction") * np.sqrt(mass * 1.5 * stiffness * np.sqrt(x)) * w
+                )
 
             return force, False
     raise AssertionError((tool, name))
@@ -123,7 +137,13 @@ def touched(force, pulls, mass, speed):
     guess = solve_ivp(slope, (0, 1), [0.0, speed], events=turn_only(turns), rtol=1e-9, atol=1e-16)
     half = guess.t_events[0][0]
     run = solve_ivp(
-        slope, (0, 1000 * half), [0.0, speed], events=[over, turns], rtol=1e-11, atol=[1e-18, 1e-12], max_step=half / 100
+        slope,
+        (0, 1000 * half),
+        [0.0, speed],
+        events=[over, turns],
+        rtol=1e-11,
+        atol=[1e-18, 1e-12],
+        max_step=half / 100,
     )
     assert run.t_events[0].size, "the contact does not end"
     forces = np.array([force(max(x, 0.0), w) for x, w in run.y.T])
@@ -162,7 +182,12 @@ def stepped(tool, name, numbers, radius, mass, speed, step, phase):
         elif count and w <= 0.0:
             break
         depth = max(depth, x)
-    return {"restitution": -w / speed, "contact_time": count * step, "depth": depth, "largest_force": most}
+    return {
+        "restitution": -w / speed,
+        "contact_time": count * step,
+        "depth": depth,
+        "largest_force": most,
+    }
 
 
 def mover(tool, name, numbers, radius, mass, speed, step):
@@ -203,7 +228,13 @@ def mover(tool, name, numbers, radius, mass, speed, step):
             def law(end):
                 return k * max(x + step * end, 0.0) * max(1 + d * end, 0.0)
 
-            end = brentq(lambda end: end - w + step * law(end) / mass, w - step * law(w) / mass, w, xtol=1e-15, rtol=1e-14)
+            end = brentq(
+                lambda end: end - w + step * law(end) / mass,
+                w - step * law(w) / mass,
+                w,
+                xtol=1e-15,
+                rtol=1e-14,
+            )
             return x + step * end, end, law(end)
 
         return move

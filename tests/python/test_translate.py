@@ -96,7 +96,10 @@ def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
     for step in (None, "1e-4"):
         way = brinell.translate(SCENE, tool, step=step)[name]
         for speed in (0.1, 1.0, 3.0):
-            outcomes = [stepped(tool, name, way.numbers, RADIUS, MASS, speed, way.step, phase) for phase in PHASES]
+            outcomes = [
+                stepped(tool, name, way.numbers, RADIUS, MASS, speed, way.step, phase)
+                for phase in PHASES
+            ]
             promise = promised_at(way, speed)
             for quantity in ("restitution", "contact_time", "depth", "largest_force"):
                 mean = np.mean([outcome[quantity] for outcome in outcomes])
@@ -108,9 +111,13 @@ def test_at_the_speed_of_the_fit_restitution_and_contact_time_are_the_scenes():
         translation = brinell.translate(SCENE, tool)
         promise = promised_at(translation[name], translation.speed)
         at = list(translation.wanted["speed"]).index(translation.speed)
-        assert promise["restitution"] == pytest.approx(translation.wanted["restitution"][at], abs=1e-3)
+        assert promise["restitution"] == pytest.approx(
+            translation.wanted["restitution"][at], abs=1e-3
+        )
         # in steps, a contact lasts a whole number of them
-        assert promise["contact_time"] == pytest.approx(translation.wanted["contact_time"][at], rel=1.2e-2)
+        assert promise["contact_time"] == pytest.approx(
+            translation.wanted["contact_time"][at], rel=1.2e-2
+        )
 
 
 def test_what_is_wanted_is_the_prediction_of_the_scene():
@@ -142,7 +149,9 @@ def test_no_phase_gains_energy_up_to_the_largest_step_and_some_does_beyond(tool)
     phases = (np.arange(50) + 0.5) / 50
 
     def most(step):
-        runs = (stepped(tool, way.name, way.numbers, RADIUS, MASS, 3.0, step, phase) for phase in phases)
+        runs = (
+            stepped(tool, way.name, way.numbers, RADIUS, MASS, 3.0, step, phase) for phase in phases
+        )
         return max(run["restitution"] for run in runs)
 
     assert most(0.98 * way.largest_step) <= 1.0
@@ -150,10 +159,14 @@ def test_no_phase_gains_energy_up_to_the_largest_step_and_some_does_beyond(tool)
 
 
 def test_millimetres_are_the_same_contact():
-    si, mm = (brinell.translate(SCENE, "adams", units=units)["impact"] for units in ("si", "mm-t-s"))
+    si, mm = (
+        brinell.translate(SCENE, "adams", units=units)["impact"] for units in ("si", "mm-t-s")
+    )
     exponent = si.numbers["exponent"]
     assert mm.units["stiffness"] == "N/mm^n" and mm.numbers["exponent"] == exponent
-    assert mm.numbers["stiffness"] == pytest.approx(si.numbers["stiffness"] * 1e3**-exponent, rel=1e-6)
+    assert mm.numbers["stiffness"] == pytest.approx(
+        si.numbers["stiffness"] * 1e3**-exponent, rel=1e-6
+    )
     assert mm.numbers["damping"] == pytest.approx(si.numbers["damping"] * 1e-3, rel=1e-6)
     assert mm.numbers["ramp"] == pytest.approx(si.numbers["ramp"] * 1e3, rel=1e-6)
     with pytest.raises(ProgramError, match="MuJoCo computes in SI units"):
@@ -166,7 +179,10 @@ def test_millimetres_are_the_same_contact():
         ({"tool": "mujocco"}, "did you mean `mujoco`"),
         ({"tool": "rubber"}, "`drake`, `bullet`"),
         ({"tool": "adams", "speed": "3:0.1"}, "FROM is above TO"),
-        ({"tool": "adams", "speed": "0:1"}, "0 m/s is out of range: allowed is 0.000001 to 10000 m/s"),
+        (
+            {"tool": "adams", "speed": "0:1"},
+            "0 m/s is out of range: allowed is 0.000001 to 10000 m/s",
+        ),
         ({"tool": "adams", "speed": "1:1e9"}, "1e9 m/s is out of range"),
         ({"tool": "adams", "speed": "1:fast"}, "`fast`"),
         ({"tool": "ode", "step": 0.0}, "step = 0 s must be positive"),
@@ -208,7 +224,9 @@ def test_an_integration_of_this_test_finds_a_wrong_number():
     way = brinell.translate(SCENE, "adams")["impact"]
     wrong = {**way.numbers, "damping": 1.01 * way.numbers["damping"]}
     force, pulls = law_of_tool("adams", "impact", wrong, RADIUS, MASS, 1.0)
-    assert touched(force, pulls, MASS, 1.0)["restitution"] != pytest.approx(promised_at(way, 1.0)["restitution"], rel=1e-3)
+    assert touched(force, pulls, MASS, 1.0)["restitution"] != pytest.approx(
+        promised_at(way, 1.0)["restitution"], rel=1e-3
+    )
 
 
 def test_smoothing_that_is_not_published_is_told_as_a_range():
@@ -227,7 +245,9 @@ def test_smoothing_that_is_not_published_is_told_as_a_range():
 def test_scipy_and_the_closed_form_agree_on_a_spring_and_a_damper():
     z, k = 0.25, 1e7
     c = 2 * z * np.sqrt(k * MASS)
-    end = solve_ivp(lambda t, y: [y[1], -(k * y[0] + c * y[1]) / MASS], (0, 1e-6), [0, 1.0]).y[1, -1]
+    end = solve_ivp(lambda t, y: [y[1], -(k * y[0] + c * y[1]) / MASS], (0, 1e-6), [0, 1.0]).y[
+        1, -1
+    ]
     assert end < 1.0
     s = np.sqrt(1 - z * z)
     phase = np.arctan2(2 * z * s, 2 * z * z - 1)

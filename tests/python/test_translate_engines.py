@@ -35,14 +35,22 @@ def test_drake(step):
         plant.mutable_gravity_field().set_gravity_vector([0, 0, 0])
         inertia = drake.SpatialInertia.SolidSphereWithMass(MASS, RADIUS)
         body = plant.AddRigidBody("ball", inertia)
-        plant.RegisterCollisionGeometry(body, drake.RigidTransform(), drake.Sphere(RADIUS), "ball", made["ball"])
+        plant.RegisterCollisionGeometry(
+            body, drake.RigidTransform(), drake.Sphere(RADIUS), "ball", made["ball"]
+        )
         flat = drake.HalfSpace()
-        plant.RegisterCollisionGeometry(plant.world_body(), drake.RigidTransform(), flat, "flat", made["flat"])
+        plant.RegisterCollisionGeometry(
+            plant.world_body(), drake.RigidTransform(), flat, "flat", made["flat"]
+        )
         plant.Finalize()
         simulator = drake.Simulator(builder.Build())
         context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
-        plant.SetFreeBodyPose(context, body, drake.RigidTransform([0, 0, RADIUS + phase * way.step * SPEED]))
-        plant.SetFreeBodySpatialVelocity(context, body, drake.SpatialVelocity([0, 0, 0], [0, 0, -SPEED]))
+        plant.SetFreeBodyPose(
+            context, body, drake.RigidTransform([0, 0, RADIUS + phase * way.step * SPEED])
+        )
+        plant.SetFreeBodySpatialVelocity(
+            context, body, drake.SpatialVelocity([0, 0, 0], [0, 0, -SPEED])
+        )
         for count in range(1, 400):
             simulator.AdvanceTo(count * way.step)
             speed = plant.EvalBodySpatialVelocityInWorld(context, body).translational()[2]
@@ -65,7 +73,9 @@ def test_pybullet(name, step):
         p.setTimeStep(time)
         flat = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE))
         start = [0, 0, RADIUS + phase * time * SPEED]
-        ball = p.createMultiBody(MASS, p.createCollisionShape(p.GEOM_SPHERE, radius=RADIUS), basePosition=start)
+        ball = p.createMultiBody(
+            MASS, p.createCollisionShape(p.GEOM_SPHERE, radius=RADIUS), basePosition=start
+        )
         p.resetBaseVelocity(ball, [0, 0, -SPEED])
         exec(way.block, {"p": p, "ball": ball, "flat": flat})
         for _ in range(5000):
@@ -78,7 +88,10 @@ def test_pybullet(name, step):
     compare(way, rebounds, 1e-5)
 
 
-@pytest.mark.parametrize(("name", "step", "tolerance"), [("semi-implicit", "1e-4", 1e-3), ("mujoco-solver", "1e-4", 1e-3)])
+@pytest.mark.parametrize(
+    ("name", "step", "tolerance"),
+    [("semi-implicit", "1e-4", 1e-3), ("mujoco-solver", "1e-4", 1e-3)],
+)
 def test_newton(name, step, tolerance):
     newton = pytest.importorskip("newton")
     import warp
@@ -98,7 +111,9 @@ def test_newton(name, step, tolerance):
             shape.density = MASS / (4 / 3 * np.pi * RADIUS**3)
             body = builder.add_body(xform=warp.transform((0, 0, place), warp.quat_identity()))
             builder.add_shape_sphere(body, radius=RADIUS, cfg=shape, **more)
-            builder.add_shape_plane(plane=(0.0, 0.0, 1.0, RADIUS), width=0.0, length=0.0, cfg=shape, **more)
+            builder.add_shape_plane(
+                plane=(0.0, 0.0, 1.0, RADIUS), width=0.0, length=0.0, cfg=shape, **more
+            )
             model = builder.finalize()
             if name == "semi-implicit":
                 solver = newton.solvers.SolverSemiImplicit(model, angular_damping=0.0)
@@ -123,7 +138,7 @@ def test_newton(name, step, tolerance):
 
 def test_exudyn():
     exudyn = pytest.importorskip("exudyn")
-    import exudyn.utilities as utilities
+    from exudyn import utilities
 
     way = brinell.translate(SCENE, "exudyn")["sphere"]
     for speed in (0.1, 1.0, 3.0):
@@ -132,11 +147,15 @@ def test_exudyn():
         mbs = container.AddSystem()
         gap = 1e-9
         node = mbs.AddNode(
-            utilities.NodePoint(referenceCoordinates=[0, 0, 2 * RADIUS + gap], initialVelocities=[0, 0, -speed])
+            utilities.NodePoint(
+                referenceCoordinates=[0, 0, 2 * RADIUS + gap], initialVelocities=[0, 0, -speed]
+            )
         )
         mbs.AddObject(utilities.MassPoint(mass=MASS, nodeNumber=node))
         ground = mbs.AddNode(utilities.NodePointGround(referenceCoordinates=[0, 0, 0]))
-        data = mbs.AddNode(utilities.NodeGenericData(initialCoordinates=[0.1, 0, 0, 0], numberOfDataCoordinates=4))
+        data = mbs.AddNode(
+            utilities.NodeGenericData(initialCoordinates=[0.1, 0, 0, 0], numberOfDataCoordinates=4)
+        )
         ball = mbs.AddMarker(utilities.MarkerNodePosition(nodeNumber=node))
         flat = mbs.AddMarker(utilities.MarkerNodePosition(nodeNumber=ground))
         exec(way.block, {**vars(utilities), "mbs": mbs, "ball": ball, "flat": flat, "data": data})
