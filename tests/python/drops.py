@@ -238,15 +238,21 @@ def mover(tool, name, numbers, radius, mass, speed, step):
             return x + step * end, end, law(end)
 
         return move
-    if (tool, name) == ("mercurydpm", "plastic"):
-        k1, k2 = numbers["loading_stiffness"], numbers["unloading_stiffness"]
+    if name in ("plastic", "luding"):
+        k1 = numbers["loading_stiffness"]
+        k2 = (
+            numbers["unloading_stiffness"] if name == "plastic" else k1 * numbers["stiffness_ratio"]
+        )
         limit = k2 / (k2 - k1) * numbers["penetration_depth"] * 2 * radius
 
         def move(x, w, deepest):
             deepest = max(deepest, x)
             slope = k1 + (k2 - k1) * min(deepest / limit, 1.0)
-            left = deepest * (1 - k1 / slope)
-            force = 0.0 if x <= 0 else max(min(k1 * x, slope * (x - left)), 0.0)
+            if deepest >= limit:
+                line = k2 * (x - limit) + k1 * limit
+            else:
+                line = min(k1 * x, slope * (x - deepest) + k1 * deepest)
+            force = 0.0 if x <= 0 else max(line, 0.0)
             w -= step * force / mass
             return x + step * w, w, force
 

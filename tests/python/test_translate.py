@@ -81,6 +81,7 @@ STEPPED = [
     ("lammps", "hooke"),
     ("lammps", "hertz"),
     ("liggghts", "hertz"),
+    ("liggghts", "luding"),
     ("mercurydpm", "linear"),
     ("mercurydpm", "plastic"),
     ("yade", "mindlin"),

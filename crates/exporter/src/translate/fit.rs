@@ -142,7 +142,8 @@ impl Question<'_> {
             ramp: if has_ramp { ramp.clamp(RAMPS.0, RAMPS.1) } else { start.ramp },
         };
         let ramps = if has_ramp { 8 } else { 1 };
-        let all = (0..6).flat_map(|n| (0..ramps).map(move |r| at(1.0 + 0.3 * f64::from(n), 0.02 * pow(2.4, f64::from(r)))));
+        let all =
+            (0..6).flat_map(|n| (0..ramps).map(move |r| at(1.0 + 0.3 * f64::from(n), 0.02 * pow(2.4, f64::from(r)))));
         let mut best = (start, f64::INFINITY);
         let mut try_one = |shape: Shape| {
             let error = self.error(shape);

@@ -23,7 +23,8 @@ pub enum Law {
     ElastoGap { stiffness: f64, exponent: f64, damping: f64 },
     /// `s (k x + c w)`, where `s` grows from 0 to 1 over the `width`; which way is not published, here as `y^2 (3 - 2y)`.
     Smooth { stiffness: f64, damping: f64, width: f64, pulls: bool },
-    /// Loading with `k1 x`, unloading with a slope that grows from `k1` to `k2` as the largest overlap grows to `limit`.
+    /// Loading with `k1 x`, unloading with a slope that grows from `k1` to `k2` as the largest overlap grows to `limit`; beyond, both
+    /// with the slope `k2`.
     ///
     /// Reference: S. Luding, *Granular Matter* 10 (2008) 235-246.
     Luding { loading: f64, unloading: f64, limit: f64 },
@@ -53,8 +54,14 @@ impl Law {
             Law::Smooth { stiffness, damping, width, .. } => smooth(x / width) * (stiffness * x + damping * w),
             Law::Luding { loading, unloading, limit } => {
                 let deepest = deepest.max(x);
+                // beyond the limit loading and unloading are one line
                 let slope = loading + (unloading - loading) * (deepest / limit).min(1.0);
-                (loading * x).min(loading * deepest - slope * (deepest - x))
+                let way_back = if deepest < limit {
+                    loading * deepest - slope * (deepest - x)
+                } else {
+                    loading * limit - slope * (limit - x)
+                };
+                if deepest < limit { way_back.min(loading * x) } else { way_back }
             }
         }
     }

@@ -51,9 +51,8 @@ pub fn scale(law: &Law, mass: f64, speed: f64) -> f64 {
 /// The impact of a `mass` \[kg\] at `speed` \[m/s\] by `law`, without errors of a step; `None` if it does not end.
 pub fn exact(law: &Law, mass: f64, speed: f64) -> Option<Outcome> {
     let length = scale(law, mass, speed);
-    let over = |deepest: f64, [x, w]: &[f64; 2]| {
-        *w < 0.0 && (*x <= 0.0 || !law.pulls() && law.force(*x, *w, deepest) <= 0.0)
-    };
+    let over =
+        |deepest: f64, [x, w]: &[f64; 2]| *w < 0.0 && (*x <= 0.0 || !law.pulls() && law.force(*x, *w, deepest) <= 0.0);
     let (mut state, mut deepest, mut time) = ([0.0, speed], 0.0_f64, 0.0);
     let mut step = 1e-5 * length / speed;
     let mut peak = Peak::default();
@@ -200,9 +199,8 @@ impl Promise {
         if stepping == Stepping::Own {
             return exact(law, mass, speed).map(Promise::of);
         }
-        let all = (0..PHASES).map(|phase| {
-            in_steps(law, stepping, mass, speed, step, (f64::from(phase) + 0.5) / f64::from(PHASES))
-        });
+        let all = (0..PHASES)
+            .map(|phase| in_steps(law, stepping, mass, speed, step, (f64::from(phase) + 0.5) / f64::from(PHASES)));
         let mut sum = Outcome { restitution: 0.0, largest_force: 0.0, contact_time: 0.0, depth: 0.0 };
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for one in all {

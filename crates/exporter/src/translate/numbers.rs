@@ -65,6 +65,7 @@ impl Context<'_> {
             Law::Luding { loading, unloading, limit } => match key {
                 "loading_stiffness" => Some(loading),
                 "unloading_stiffness" => Some(unloading),
+                "stiffness_ratio" => Some(unloading / loading),
                 // K/(K - k1) phi 2R is the limit
                 "penetration_depth" => Some(0.5 * limit * (1.0 - loading / unloading) / self.pair.radius),
                 _ => None,

@@ -3,6 +3,7 @@
 use super::fit::Fitted;
 use super::law::Law;
 use super::motion::{Outcome, PHASES, Stepping, exact};
+use super::text::change;
 use super::tools::{Tool, Way};
 use super::{Case, Request, Translated, doubts};
 use crate::numbers::{quantity, significant};
@@ -56,17 +57,20 @@ fn met(case: &Case, fitted: Option<&Fitted>, translated: &Translated) -> String 
     if fitted.softening > 1.0 {
         return format!("At {speed} {restitution}.");
     }
-    let differs = |one: f64, other: f64| {
-        let part = one / other - 1.0;
-        if part.abs() < SMALL { "as well".to_string() } else { format!("{:+.0} %", 100.0 * part) }
-    };
-    format!(
-        "At {speed} {restitution}, and so is the contact time; the largest force there is {} ({}), the depth {} ({}).",
-        quantity(promised.largest_force, "N"),
-        differs(promised.largest_force, goal.largest_force),
-        quantity(promised.depth, "m"),
-        differs(promised.depth, goal.depth),
-    )
+    let others = [
+        ("contact time", promised.contact_time, goal.contact_time, "s"),
+        ("largest force", promised.largest_force, goal.largest_force, "N"),
+        ("depth", promised.depth, goal.depth, "m"),
+    ];
+    let said = others.map(|(name, value, wanted, unit)| {
+        let change = change(value / wanted);
+        if change == "+0 %" {
+            format!("so is the {name}")
+        } else {
+            format!("the {name} is {} ({change})", quantity(value, unit))
+        }
+    });
+    format!("At {speed} {restitution}; {}.", said.join(", "))
 }
 
 /// What else was chosen.
@@ -81,9 +85,12 @@ fn chosen(way: &Way) -> Option<String> {
 
 /// How the restitution depends on the speed here and there.
 fn falls(case: &Case, translated: &Translated) -> String {
-    let [slowest, fastest] = [case.speeds.first(), case.speeds.last()].map(|speed| quantity(*speed.unwrap_or(&f64::NAN), "m/s"));
+    let [slowest, fastest] =
+        [case.speeds.first(), case.speeds.last()].map(|speed| quantity(*speed.unwrap_or(&f64::NAN), "m/s"));
     if case.speeds.len() < 2 {
-        return format!("One speed was asked for, {slowest}: at others the restitution of the scene's law is another one.");
+        return format!(
+            "One speed was asked for, {slowest}: at others the restitution of the scene's law is another one."
+        );
     }
     let own: Vec<f64> = case.wanted.iter().map(|one| one.restitution).collect();
     let theirs: Vec<f64> = translated.promised.iter().map(|one| one.mean.restitution).collect();
@@ -95,12 +102,17 @@ fn falls(case: &Case, translated: &Translated) -> String {
         [] => "one set of numbers serves the whole range".to_string(),
         off => format!("one set of numbers can't serve the whole range: it is up to {}", off.join(" and ")),
     };
-    format!("From {slowest} to {fastest} the restitution of the scene's law {}, that of this model {}: {serves}.", course(&own), course(&theirs))
+    format!(
+        "From {slowest} to {fastest} the restitution of the scene's law {}, that of this model {}: {serves}.",
+        course(&own),
+        course(&theirs)
+    )
 }
 
 /// How a restitution changes as the speed grows.
 fn course(values: &[f64]) -> String {
-    let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), value| (least.min(*value), most.max(*value)));
+    let (least, most) =
+        values.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), value| (least.min(*value), most.max(*value)));
     let [first, last] = [values[0], values[values.len() - 1]];
     let falls = values.windows(2).all(|two| two[1] <= two[0] + 1e-6);
     let grows = values.windows(2).all(|two| two[1] >= two[0] - 1e-6);
@@ -224,7 +236,7 @@ pub fn of_scene(
         );
     }
     if scene.directions > 0 {
-        let coefficient = scene.value("friction_coefficient").map_or(String::new(), |mu| format!(" ({mu})"));
+        let coefficient = scene.group_value(0, "friction.coefficient").map_or(String::new(), |mu| format!(" ({mu})"));
         notes.push(format!(
             "The scene has friction; these numbers are along the normal, and the blocks switch friction off. {} can have its coefficient{coefficient} as \
              Coulomb friction, but not the partial slip of the scene's law.",
@@ -239,7 +251,9 @@ pub fn of_scene(
                 .into(),
         );
     }
-    if request.step.is_some() && tool.ways.iter().all(|way| matches!(way.stepping, Stepping::Own | Stepping::Restitution)) {
+    if request.step.is_some()
+        && tool.ways.iter().all(|way| matches!(way.stepping, Stepping::Own | Stepping::Restitution))
+    {
         notes.push(format!("{}'s numbers don't depend on a step: --step has no effect.", tool.title));
     }
     if let Some(fastest) = speeds.last() {

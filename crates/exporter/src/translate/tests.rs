@@ -44,7 +44,8 @@ fn a_spring_and_a_damper_rebound_as_their_closed_form_says() {
     assert!((outcome.contact_time * s * frequency / phase - 1.0).abs() < 1e-8);
     let turning = (-0.25528 * 0.25528_f64.acos() / s).exp();
     assert!((outcome.depth * frequency / 1.7 / turning - 1.0).abs() < 1e-8);
-    let peak = (-0.25528 / s * (s * (1.0 - 4.0 * 0.25528 * 0.25528)).atan2(0.25528 * (3.0 - 4.0 * 0.25528 * 0.25528))).exp();
+    let peak =
+        (-0.25528 / s * (s * (1.0 - 4.0 * 0.25528 * 0.25528)).atan2(0.25528 * (3.0 - 4.0 * 0.25528 * 0.25528))).exp();
     assert!((outcome.largest_force / (1.7 * (4e-3 * 1e7_f64).sqrt() * peak) - 1.0).abs() < 1e-6);
 }
 
@@ -63,11 +64,13 @@ fn a_hunt_crossley_contact_rebounds_as_its_first_integral_says() {
 
 #[test]
 fn a_hertz_contact_with_damping_in_proportion_rebounds_alike_at_every_speed() {
-    let law = Law::Proportional { stiffness: 1e9, exponent: 1.5, factor: 0.25528 * 5.0_f64.sqrt(), mass: 4e-3, pulls: false };
+    let law =
+        Law::Proportional { stiffness: 1e9, exponent: 1.5, factor: 0.25528 * 5.0_f64.sqrt(), mass: 4e-3, pulls: false };
     for speed in [0.01, 1.0, 30.0] {
         assert!((exact(&law, 4e-3, speed).unwrap().restitution - 0.5).abs() < 2e-5);
     }
-    let pulling = Law::Proportional { stiffness: 1e9, exponent: 1.5, factor: 0.21545 * 5.0_f64.sqrt(), mass: 4e-3, pulls: true };
+    let pulling =
+        Law::Proportional { stiffness: 1e9, exponent: 1.5, factor: 0.21545 * 5.0_f64.sqrt(), mass: 4e-3, pulls: true };
     assert!((restitution(&pulling) - 0.5).abs() < 2e-5);
 }
 
@@ -120,7 +123,8 @@ fn every_tool_has_every_number_of_its_block() {
         for translation in all(&scene(STEEL), step) {
             assert!(translation.left_out.is_empty(), "{:?}", translation.left_out);
             for way in &translation.ways {
-                let rest = way.block.split('{').skip(1).filter(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()));
+                let rest =
+                    way.block.split('{').skip(1).filter(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()));
                 assert_eq!(rest.count(), 0, "{}", way.block);
                 assert!(way.numbers.iter().all(|number| number.value.is_finite() && number.value > 0.0), "{way:?}");
                 assert!(way.notes.iter().all(|note| !note.contains('{')), "{:?}", way.notes);
@@ -139,10 +143,13 @@ fn every_number_of_a_tool_with_millimetres_has_a_unit_for_them() {
 
 #[test]
 fn a_tool_is_found_in_every_spelling() {
-    for (asked, meant) in [("MuJoCo", "mujoco"), ("PyBullet", "bullet"), ("MSC Adams", "adams"), ("gazebo_classic", "gazebo")] {
+    for (asked, meant) in
+        [("MuJoCo", "mujoco"), ("PyBullet", "bullet"), ("MSC Adams", "adams"), ("gazebo_classic", "gazebo")]
+    {
         assert_eq!(named(asked).unwrap().name, meant);
     }
-    let mut names: Vec<&str> = TOOLS.iter().flat_map(|tool| tool.aliases.iter().chain([&tool.name])).map(String::as_str).collect();
+    let mut names: Vec<&str> =
+        TOOLS.iter().flat_map(|tool| tool.aliases.iter().chain([&tool.name])).map(String::as_str).collect();
     let count = names.len();
     names.sort_unstable();
     names.dedup();
@@ -154,7 +161,7 @@ fn a_tool_is_found_in_every_spelling() {
 #[test]
 fn elastic_and_very_plastic_scenes_have_numbers_or_a_reason() {
     let elastic = format!("{STEEL}law = {{ loading = \"hertz\" }}\n");
-    let soft = "target = { youngs_modulus = 200e9, poissons_ratio = 0.3, yield_strength = 2e6 }\nimpact = { mass = 4e-3, speed = 1.0 }\n";
+    let soft = "target = { youngs_modulus = 200e9, poissons_ratio = 0.3, yield_strength = 20e6 }\nimpact = { mass = 4e-3, speed = 1.0 }\n";
     for text in [elastic.as_str(), soft] {
         let scene = scene(text);
         for tool in TOOLS.iter() {
@@ -170,9 +177,10 @@ fn elastic_and_very_plastic_scenes_have_numbers_or_a_reason() {
 
 #[test]
 fn no_line_is_too_wide_for_a_terminal_but_those_to_be_pasted() {
-    for translation in all(&scene(STEEL), Some(1e-4)) {
-        for line in text::of(&translation).lines().filter(|line| !line.starts_with("    ")) {
-            assert!(line.chars().count() <= WIDTH + 15, "{line}");
+    for translation in [None, Some(1e-3)].into_iter().flat_map(|step| all(&scene(STEEL), step)) {
+        for line in text::of(&translation).lines().filter(|line| !line.starts_with("    ") && !line.contains("https:"))
+        {
+            assert!(line.chars().count() <= WIDTH, "{line}");
         }
     }
 }
@@ -181,7 +189,9 @@ fn no_line_is_too_wide_for_a_terminal_but_those_to_be_pasted() {
 fn a_range_of_speeds_has_units_and_limits() {
     assert_eq!(speeds("10 cm/s:3 m/s").unwrap(), (0.1, 3.0));
     assert_eq!(speeds("2").unwrap(), (2.0, 2.0));
-    for (text, said) in [("3:1", "above"), ("0:1", "out of range"), ("1:nan", "range"), ("", "number"), ("1:2:3", "2:3")] {
+    for (text, said) in
+        [("3:1", "above"), ("0:1", "out of range"), ("1:nan", "range"), ("", "number"), ("1:2:3", "2:3")]
+    {
         let why = speeds(text).unwrap_err();
         assert!(why.contains(said), "{text}: {why}");
     }

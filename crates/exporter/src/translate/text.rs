@@ -60,17 +60,22 @@ fn errors(translation: &Translation, way: &Translated) -> String {
     let defined = way.promised.iter().any(|one| !one.mean.contact_time.is_nan());
     let spread = |one: &Promise| one.most_restitution - one.least_restitution > 5e-4;
     let spreads = way.promised.iter().any(spread);
-    let mut rows = vec![vec!["speed".to_string(), "restitution".into(), "of the tool".into()]];
+    let mut rows = vec![vec!["speed".to_string(), "restitution".into(), "tool's".into()]];
     if spreads {
-        rows[0].push("from .. to".into());
+        rows[0].push("spread".into());
     }
     if defined {
         rows[0].extend(["largest force", "contact time", "depth"].map(String::from));
     }
     for ((speed, law), tool) in translation.speeds.iter().zip(&translation.wanted).zip(&way.promised) {
-        let mut row = vec![quantity(*speed, "m/s"), significant(law.restitution, 3), significant(tool.mean.restitution, 3)];
+        let mut row =
+            vec![quantity(*speed, "m/s"), significant(law.restitution, 3), significant(tool.mean.restitution, 3)];
         if spreads {
-            row.push(format!("{} .. {}", significant(tool.least_restitution, 3), significant(tool.most_restitution, 3)));
+            row.push(format!(
+                "{} .. {}",
+                significant(tool.least_restitution, 3),
+                significant(tool.most_restitution, 3)
+            ));
         }
         if defined {
             row.extend(compared(law, &tool.mean));
@@ -84,16 +89,20 @@ fn errors(translation: &Translation, way: &Translated) -> String {
     text
 }
 
+/// A ratio to what is wanted as a difference in percent, or as a factor where it is far off.
+pub fn change(ratio: f64) -> String {
+    if (0.1..10.0).contains(&ratio) {
+        format!("{:+.0} %", 100.0 * (ratio - 1.0)).replace("-0 %", "+0 %")
+    } else {
+        format!("x {}", significant(ratio, 2))
+    }
+}
+
 /// Force, time and depth of the tool, with their difference from the law's.
 fn compared(law: &Outcome, tool: &Outcome) -> [String; 3] {
     let of = |law: f64, tool: f64, unit: &'static str| {
         let size = prefixed(tool, unit);
-        let ratio = tool / law;
-        let change = match ratio {
-            ratio if (0.1..10.0).contains(&ratio) => format!("{:+.0} %", 100.0 * (ratio - 1.0)).replace("-0 %", "+0 %"),
-            ratio => format!("x {}", significant(ratio, 3)),
-        };
-        format!("{} {} ({change})", cell(tool, size.size), size.unit)
+        format!("{} {} ({})", cell(tool, size.size), size.unit, change(tool / law))
     };
     [
         of(law.largest_force, tool.largest_force, "N"),
