@@ -122,7 +122,7 @@ fn a_curve_goes_in_out_in_again_and_out_and_its_energies_add_up() {
 fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let cases: [(&[&str], &[&str]); 31] = [
+    let cases: [(&[&str], &[&str]); 34] = [
         (&["predict", &scene, "--mass", "0"], &["mass = 0", "positive"]),
         (&["predict", &scene, "--speed", "NaN"], &["speed = NaN", "positive"]),
         (&["predict", &scene, "--energy=-1"], &["energy = -1", "positive"]),
@@ -133,6 +133,9 @@ fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
         (&["curve", &scene, "--to", "-1"], &["to = -1", "positive"]),
         (&["hardness", &scene, "--force", "-1"], &["load = -1", "positive"]),
         (&["hardness", &scene, "--load", "-1kN"], &["load = -1000", "positive"]),
+        (&["translate", &scene, "--for", "mujocco"], &["unknown tool `mujocco`", "did you mean `mujoco`?", "`yade`"]),
+        (&["translate", &scene, "--for", "adams", "--speed", "3:1"], &["--speed 3:1: FROM is above TO"]),
+        (&["translate", &scene, "--for", "ode", "--step", "0"], &["step = 0 s must be positive"]),
         (&["check", "x.fmu", "--time-limit", "0"], &["--time-limit", "at least 1 is expected"]),
         (
             &["predict", &scene, "--sweep", "law.loading_parameters.exponent=1.1:1.4"],
@@ -240,6 +243,9 @@ fn every_output_fits_a_hundred_columns() {
         vec!["curve", damped],
         vec!["hardness", ball, "--load", "5kN"],
         vec!["hardness", ball, "--load", "29.4kN", "--laws", "all"],
+        vec!["translate", ball, "--for", "mujoco"],
+        vec!["translate", ball, "--for", "adams", "--units", "mm-t-s", "--speed", "0.1:2"],
+        vec!["translate", ball, "--for", "liggghts", "--step", "1ms"],
         vec!["new", "fresh"],
     ];
     commands.extend([ball, damped, everything, two, elastic].map(|scene| vec!["predict", scene]));
@@ -247,7 +253,9 @@ fn every_output_fits_a_hundred_columns() {
     // before it is checked
     let check = commands.remove(3);
     commands.push(check);
-    for command in ["export", "ssp", "check", "predict", "hardness", "curve", "report", "laws", "materials", "new"] {
+    for command in
+        ["export", "ssp", "check", "predict", "translate", "hardness", "curve", "report", "laws", "materials", "new"]
+    {
         commands.push(vec![command, "--help"]);
     }
     let laws =

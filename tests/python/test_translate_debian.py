@@ -175,6 +175,7 @@ def test_liggghts(name, step, tmp_path):
             env={**os.environ, **more},
             capture_output=True,
             text=True,
+            errors="replace",
             check=False,
         )
         last = re.findall(r"^ +400 +(\S+)", run.stdout, re.M)

@@ -222,15 +222,20 @@ impl Case {
         speeds.sort_by(f64::total_cmp);
         speeds.dedup_by(|one, other| (*one / *other - 1.0).abs() < 1e-9);
         let wanted = speeds.iter().map(|speed| of_law(scene, Impact { mass, speed: *speed })).collect::<Result<_, _>>();
-        let law = crate::laws::choose(scene, &[]).map(|choices| choices[0].laws.clone());
-        let law = law.map_err(|error| TranslateError::Speeds(error.to_string()))?;
+        let choices = crate::laws::choose(scene, &[]).expect("a scene has laws");
+        let law = choices[0].laws.clone();
         Ok(Case { mass, speed, speeds, wanted: wanted?, pair: scene.any_model().pair(), law })
+    }
+
+    /// The place of the speed of the fit in the range.
+    fn at(&self) -> usize {
+        let place = self.speeds.iter().position(|speed| (speed / self.speed - 1.0).abs() < 1e-9);
+        place.expect("the speed of the fit is one of the speeds")
     }
 
     /// What the law says at the speed of the fit.
     fn goal(&self) -> &Outcome {
-        let nearest = self.speeds.iter().position(|speed| (speed / self.speed - 1.0).abs() < 1e-9);
-        &self.wanted[nearest.expect("the speed of the fit is one of the speeds")]
+        &self.wanted[self.at()]
     }
 
     /// The numbers of one way.
@@ -296,13 +301,12 @@ impl Case {
         request: &Request,
     ) -> Result<(Vec<Typed>, String), String> {
         let goal = self.goal();
-        let at = self.wanted.iter().position(|one| one == goal).unwrap_or(0);
         let context = numbers::Context {
             law: fitted.map(|fitted| &fitted.law),
             pair: &self.pair,
             mass: self.mass,
             restitution: goal.restitution,
-            depth: promised[at].mean.depth,
+            depth: promised[self.at()].mean.depth,
             speed: self.speed,
             step: fitted.and_then(|fitted| fitted.step),
         };

@@ -38,8 +38,7 @@ pub fn of_way(case: &Case, way: &Way, fitted: Option<&Fitted>, translated: &Tran
 /// What is met, and where.
 fn met(case: &Case, fitted: Option<&Fitted>, translated: &Translated) -> String {
     let (goal, speed) = (case.goal(), quantity(case.speed, "m/s"));
-    let at = case.wanted.iter().position(|one| one == goal).unwrap_or(0);
-    let promised = &translated.promised[at].mean;
+    let promised = &translated.promised[case.at()].mean;
     let Some(fitted) = fitted else {
         return format!(
             "The restitution is the scene's at {speed}. Contact time, largest force and depth are not defined: the speed changes in \
@@ -128,8 +127,7 @@ fn course(values: &[f64]) -> String {
 fn softened(case: &Case, fitted: &Fitted, translated: &Translated) -> Option<String> {
     let step = fitted.step.filter(|_| fitted.softening > 1.0)?;
     let goal = case.goal();
-    let at = case.wanted.iter().position(|one| one == goal).unwrap_or(0);
-    let depth = translated.promised[at].mean.depth;
+    let depth = translated.promised[case.at()].mean.depth;
     let count = fitted.softening * goal.contact_time / step;
     let why = if count > 30.5 { ", and an implicit solver damps less the more steps there are" } else { "" };
     let deep = if depth > case.pair.radius {
