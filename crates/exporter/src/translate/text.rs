@@ -3,7 +3,7 @@
 use super::motion::{Outcome, Promise};
 use super::{Translated, Translation};
 use crate::layout::{paragraph, table};
-use crate::numbers::{cell, prefixed, quantity, significant};
+use crate::numbers::{prefixed, quantity, significant};
 
 /// The whole answer.
 pub fn of(translation: &Translation) -> String {
@@ -60,7 +60,7 @@ fn errors(translation: &Translation, way: &Translated) -> String {
     let defined = way.promised.iter().any(|one| !one.mean.contact_time.is_nan());
     let spread = |one: &Promise| one.most_restitution - one.least_restitution > 5e-4;
     let spreads = way.promised.iter().any(spread);
-    let mut rows = vec![vec!["speed".to_string(), "restitution".into(), "tool's".into()]];
+    let mut rows = vec![vec!["speed".to_string(), "law's".into(), "tool's".into()]];
     if spreads {
         rows[0].push("spread".into());
     }
@@ -71,18 +71,19 @@ fn errors(translation: &Translation, way: &Translated) -> String {
         let mut row =
             vec![quantity(*speed, "m/s"), significant(law.restitution, 3), significant(tool.mean.restitution, 3)];
         if spreads {
-            row.push(format!(
-                "{} .. {}",
-                significant(tool.least_restitution, 3),
-                significant(tool.most_restitution, 3)
-            ));
+            row.push(format!("{}..{}", significant(tool.least_restitution, 3), significant(tool.most_restitution, 3)));
         }
         if defined {
             row.extend(compared(law, &tool.mean));
         }
         rows.push(row);
     }
-    let mut text = table(&rows, 0, 2);
+    let mut text = "  restitution by the law, and the tool's".to_string();
+    if defined {
+        text += "; what else the tool does, and how far that is from the law";
+    }
+    text.push('\n');
+    text += &table(&rows, 0, 2);
     if !defined {
         text += "  largest force, contact time and depth: not defined\n";
     }
@@ -102,7 +103,7 @@ pub fn change(ratio: f64) -> String {
 fn compared(law: &Outcome, tool: &Outcome) -> [String; 3] {
     let of = |law: f64, tool: f64, unit: &'static str| {
         let size = prefixed(tool, unit);
-        format!("{} {} ({})", cell(tool, size.size), size.unit, change(tool / law))
+        format!("{} {} ({})", significant(tool / size.size, 3), size.unit, change(tool / law))
     };
     [
         of(law.largest_force, tool.largest_force, "N"),
