@@ -1,5 +1,7 @@
 """Numbers for other tools: MuJoCo runs its block; the laws of the others are integrated anew, from the numbers as typed."""
 
+import functools
+
 import brinell
 import mujoco
 import numpy as np
@@ -9,6 +11,7 @@ from drops import PHASES, SCENE, law_of_tool, promised_at, stepped, touched
 from scipy.integrate import solve_ivp
 
 RADIUS, MASS = 5e-3, 4e-3
+translated = functools.cache(brinell.translate)
 
 
 @pytest.mark.parametrize("step", [None, "1e-4"])
@@ -61,7 +64,7 @@ INTEGRATED = [
 
 @pytest.mark.parametrize(("tool", "name"), INTEGRATED)
 def test_the_published_law_integrated_anew_gives_what_is_promised(tool, name):
-    way = brinell.translate(SCENE, tool)[name]
+    way = translated(SCENE, tool)[name]
     assert way.step is None
     for speed in way.promised["speed"]:
         force, pulls = law_of_tool(tool, name, way.numbers, RADIUS, MASS, speed)
@@ -95,7 +98,7 @@ STEPPED = [
 @pytest.mark.parametrize(("tool", "name"), STEPPED)
 def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
     for step in (None, "1e-4"):
-        way = brinell.translate(SCENE, tool, step=step)[name]
+        way = translated(SCENE, tool, step=step)[name]
         for speed in (0.1, 1.0, 3.0):
             outcomes = [
                 stepped(tool, name, way.numbers, RADIUS, MASS, speed, way.step, phase)
@@ -109,7 +112,7 @@ def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
 
 def test_at_the_speed_of_the_fit_restitution_and_contact_time_are_the_scenes():
     for tool, name in INTEGRATED + STEPPED:
-        translation = brinell.translate(SCENE, tool)
+        translation = translated(SCENE, tool)
         promise = promised_at(translation[name], translation.speed)
         at = list(translation.wanted["speed"]).index(translation.speed)
         assert promise["restitution"] == pytest.approx(
@@ -146,7 +149,7 @@ def test_a_step_longer_than_the_contact_softens_it_and_says_so():
 
 @pytest.mark.parametrize("tool", ["mujoco", "newton", "chrono", "lammps", "mercurydpm"])
 def test_no_phase_gains_energy_up_to_the_largest_step_and_some_does_beyond(tool):
-    way = brinell.translate(SCENE, tool).ways[0]
+    way = translated(SCENE, tool).ways[0]
     phases = (np.arange(50) + 0.5) / 50
 
     def most(step):
@@ -160,9 +163,7 @@ def test_no_phase_gains_energy_up_to_the_largest_step_and_some_does_beyond(tool)
 
 
 def test_millimetres_are_the_same_contact():
-    si, mm = (
-        brinell.translate(SCENE, "adams", units=units)["impact"] for units in ("si", "mm-t-s")
-    )
+    si, mm = (translated(SCENE, "adams", units=units)["impact"] for units in ("si", "mm-t-s"))
     exponent = si.numbers["exponent"]
     assert mm.units["stiffness"] == "N/mm^n" and mm.numbers["exponent"] == exponent
     assert mm.numbers["stiffness"] == pytest.approx(
@@ -217,12 +218,12 @@ def test_a_scene_that_a_tool_cannot_express_gets_a_sentence():
     assert any("2 contacts; the numbers are for the first" in note for note in many.notes)
     shared = brinell.translate(scenes / "stack.toml", "mujoco")
     assert any("share bodies" in note for note in shared.notes)
-    dented = brinell.translate(SCENE, "mujoco")
+    dented = translated(SCENE, "mujoco")
     assert any("No tool remembers a dent" in note for note in dented.notes)
 
 
 def test_an_integration_of_this_test_finds_a_wrong_number():
-    way = brinell.translate(SCENE, "adams")["impact"]
+    way = translated(SCENE, "adams")["impact"]
     wrong = {**way.numbers, "damping": 1.01 * way.numbers["damping"]}
     force, pulls = law_of_tool("adams", "impact", wrong, RADIUS, MASS, 1.0)
     assert touched(force, pulls, MASS, 1.0)["restitution"] != pytest.approx(
