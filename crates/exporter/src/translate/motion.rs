@@ -62,7 +62,9 @@ pub fn exact(law: &Law, mass: f64, speed: f64) -> Option<Outcome> {
         let (next, error) = runge_kutta::step(&state, step, slope)?;
         let error = (error[0].abs() / length).max(error[1].abs() / speed);
         let factor = runge_kutta::factor(TOLERANCE, error);
-        if !(error <= TOLERANCE) {
+        // written positively to reject NaN
+        let accepted = error <= TOLERANCE;
+        if !accepted {
             step *= if factor > 0.1 { factor } else { 0.1 };
             continue;
         }
