@@ -23,7 +23,7 @@ from ..errors import ContactError, ProgramError
 from ..library import Library
 from ..program import export, predict, sweep, tables
 from ..studies.impacts import impact
-from ..studies.scene import of_impacts, toml
+from ..studies.scene import OUTPUTS, of_impacts, toml
 from .measured import Measured
 from .parameters import DEFAULTS, INSTRUMENT, RATES
 
@@ -76,6 +76,8 @@ class Law:
                 if key != "elastic_restitution" or not isinstance(it, str)
             }
         self._data = of_impacts(data, self._mass) if self._of_impacts else _slow(data)
+        if self._of_impacts:
+            self._data["fmu"] = {"outputs": [*OUTPUTS, "contact_radius"]}
         losses = {"elastic_restitution"} & {*self._data.get("law", ())}
         self._is_lossy = bool(losses | ({"plate_thickness"} & {*self._data["target"]}))
         self._open()

@@ -35,6 +35,10 @@ MOST_FOR_START = 40
 """Number of points that a search for a start takes."""
 TOLERANCE = 1e-12
 """Relative change at which the search ends."""
+FEWEST_FOR_BOOTSTRAP = 8
+"""Fewest degrees of freedom of a bootstrap: of fewer differences, draws repeat each other."""
+AT_BOUND = 1e-9
+"""Distance from a bound, in the variables of the search, that is rounding."""
 ROUNDS = 12
 """Most rounds of weights for several kinds of results."""
 BEYOND = "the law of the scene can't be evaluated for all points of the measurement"
@@ -180,10 +184,17 @@ class Problem:
                     ftol=tolerance,
                     gtol=TOLERANCE,
                 )
-                start = np.clip(found.x, self.low, self.high)
+                start = self._snapped(found.x)
         except (ValueError, np.linalg.LinAlgError) as error:
             # derivatives at the end of the law's range
             raise ValueError(BEYOND) from error
+        found.x = self._snapped(found.x)
+        return found
+
+    def _snapped(self, variables: Numbers) -> Numbers:
+        """The variables, at a bound where rounding keeps them from it."""
+        low = np.where(variables - self.low < AT_BOUND, self.low, variables)
+        found: Numbers = np.where(self.high - low < AT_BOUND, self.high, low)
         return found
 
     def weighted(self) -> Any:
@@ -207,13 +218,15 @@ class Problem:
                 self.sizes[name] = max(size, 1e-9 * self._size(name))
             if all(abs(self.sizes[it] / before[it] - 1.0) < 1e-4 for it in free):
                 break
-            found = self.solve(np.clip(found.x, self.low, self.high))
+            found = self.solve(found.x)
         return found
 
     def near(self, found: Any) -> Linear:
         """The neighbourhood of an optimum."""
         # at its bound, and held there: a parameter without effect may have started there
-        self.bound = np.where(found.active_mask * found.grad < 0.0, found.active_mask, 0)
+        gradient = np.asarray(found.jac).T @ np.asarray(found.fun)
+        side = np.where(found.x == self.low, -1, np.where(found.x == self.high, 1, 0))
+        self.bound = np.where(side * gradient < 0.0, side, 0)
         free = self.bound == 0
         # points that repeat others to the last digit don't tell how much a measurement scatters
         enough = self.points.different + len(self.priors) > np.count_nonzero(free)
@@ -238,7 +251,9 @@ def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
     trend = _trend(problem, flow)
     drawn = _drawn(problem, near, draws, seed, has_trend=trend is not None)
     said = _estimates(problem, near, found, drawn)
+    few = near.freedom < FEWEST_FOR_BOOTSTRAP
     notes = [
+        f"The bootstrap needs {FEWEST_FOR_BOOTSTRAP} points more than parameters." if draws > 0 and few else None,
         *_correlations(problem, near, said),
         *_priors(problem, near),
         _parts(problem, flow),
@@ -288,6 +303,7 @@ def _drawn(
 ) -> list[tuple[float, float] | None]:
     """The intervals of the bootstrap."""
     usable = near.freedom > 0 and np.all(np.isfinite(near.errors[near.free]))
+    usable = usable and near.freedom >= FEWEST_FOR_BOOTSTRAP
     if draws <= 0 or not usable or not np.all(near.errors[near.free] > 0.0):
         return [None] * len(near.at)
 

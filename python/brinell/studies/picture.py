@@ -57,6 +57,10 @@ def draw(
                 style = "." if len(names) > 1 else "-"
                 values = _values(one, result)[order]
                 axes.plot(one[name][order], values, style, markersize=2, label=law)
+                if len(names) == 1 and f"{result}_low" in one:
+                    size = 1e6 if result == "dent" else 1.0
+                    ends = (size * one[f"{result}_{end}"][order] for end in ("low", "high"))
+                    axes.fill_between(one[name][order], *ends, alpha=0.3)
             _axes(axes, first, name, _label(result))
             if others and index == 0:
                 axes.legend(fontsize="small")

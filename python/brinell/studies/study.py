@@ -41,6 +41,8 @@ def study(
     mass: float | None = None,
     speed: float | None = None,
     parameters: Mapping[str, float] | None = None,
+    uncertainty: Mapping[str, Any] | None = None,
+    draws: int = 128,
     output: str | Path | Sequence[str | Path] = (),
     workers: int | None = None,
     chunk: int | None = None,
@@ -60,8 +62,14 @@ def study(
     chunks of `chunk` runs. With `scheduler` it uses Dask: "local", or an address such as
     "tcp://host:8786".
 
+    `uncertainty` maps quantities to their spreads (see `predict`): each run is then the median of so
+    many `draws`, a power of two, with the columns `restitution_low`, `restitution_high` ... between
+    which 95 % of them are. Such a study can't be resumed.
+
     A run that fails has its reason in the column `error`, and NaN as its results.
     """
+    from .. import uncertainty as forward
+
     outputs = _outputs(output)
     values = plan.runs(vary, sample, seed)
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
@@ -72,17 +80,34 @@ def study(
         columns = _columns(values, {**usual, **(parameters or {})})
         # in memory until the end: processes that are forked have it without unpacking it again
         library = Library.of(unit)
+        if uncertainty:
+            known_names = dict.fromkeys(columns, 0.0)
+            for name, value in forward.centres(library, known_names, uncertainty).items():
+                columns.setdefault(name, np.full(len(next(iter(columns.values()))), value))
         _check(library, columns)
         names, rows = list(columns), np.column_stack(list(columns.values()))
-        workers = workers or _workers(len(rows), scheduler)
-        size = chunk or max(FEWEST, min(MOST, len(rows) // CHUNKS))
-        table = _run(library, names, rows, size, outputs, workers, scheduler, progress)
+        drawn = forward.spread(names, rows, uncertainty, draws, seed) if uncertainty else rows
+        workers = workers or _workers(len(drawn), scheduler)
+        size = chunk or max(FEWEST, min(MOST, len(drawn) // CHUNKS))
+        kept = () if uncertainty else outputs
+        table = _run(library, names, drawn, size, kept, workers, scheduler, progress)
+    if uncertainty:
+        table = forward.banded(table, rows, names, draws)
+        _write(outputs, table)
     for path in outputs:
         if path.suffix in (".svg", ".png"):
             from .picture import draw
 
             draw(path, table, list(values))
     return table
+
+
+def _write(outputs: Sequence[Path], table: Table) -> None:
+    from . import store
+
+    for path in outputs:
+        if path.suffix in (".parquet", ".csv"):
+            store.write(path, table)
 
 
 def _outputs(output: str | Path | Sequence[str | Path]) -> list[Path]:
