@@ -10,11 +10,11 @@ from .contact import Contact, State
 from .errors import ContactError, ContactWarning, ProgramError, ProgramWarning, UnknownName
 from .fits.fit import fit
 from .fits.result import Estimate, Fit
-from .uncertainty import Bands
 from .program import Prediction, curve, export, predict, program, sweep
 from .studies.picture import draw
 from .studies.plan import Range
 from .studies.study import study
+from .uncertainty import Bands
 
 __all__ = [
     "Bands",

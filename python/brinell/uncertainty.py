@@ -10,7 +10,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -172,7 +172,7 @@ def _values(name: str, one: Spread, centre: float, places: Numbers) -> Numbers:
         found: Numbers = centre + deviation * ndtri(places)
         return found
     try:
-        low, high = (number_of(it, si, name) for it in one)
+        low, high = (number_of(it, si, name) for it in cast("Sequence[Any]", one))
     except (TypeError, ValueError) as error:
         raise ValueError(
             f"{name} = {one!r}: a standard deviation ('5 %', '10 MPa'), two ends of a range, or a "
@@ -217,7 +217,11 @@ def banded(table: impacts.Table, rows: Numbers, names: Sequence[str], draws: int
     bad = (errors != "").any(axis=1)
     for name in impacts.RESULTS:
         values = np.asarray(table[name], dtype=float).reshape(shape)
-        for column, part in ((name, 0.5), (f"{name}_low", 0.5 - 0.5 * LEVEL), (f"{name}_high", 0.5 + 0.5 * LEVEL)):
+        for column, part in (
+            (name, 0.5),
+            (f"{name}_low", 0.5 - 0.5 * LEVEL),
+            (f"{name}_high", 0.5 + 0.5 * LEVEL),
+        ):
             found[column] = np.where(bad, np.nan, np.quantile(values, part, axis=1))
     for name in ("error", "warning"):
         texts = table[name].reshape(shape)

@@ -19,6 +19,7 @@ from brinell.fits.problem import Problem, _drawn
 COUNT = int(os.environ.get("BRINELL_COVERAGE", "0"))
 FEW = 60
 DRAWS = 400
+BOOTSTRAPS = COUNT // 4
 DEPTHS = np.linspace(2e-6, 40e-6, 20)
 SPEEDS = (0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0)
 SCENE = """name = "ball"
@@ -73,19 +74,24 @@ def simulated(path, case, count):
     random = np.random.default_rng(11)
     inside = {"linearised": np.zeros(len(true)), "bootstrap": np.zeros(len(true))}
     drawn = np.zeros(len(true))
-    for _ in range(count):
+    for index in range(count):
         noisy = values + deviation * random.standard_normal(len(values))
         arguments = dict(points.arguments) | ({"force": noisy} if name == "force" else {})
         own = replace(points, arguments=arguments, results={name: noisy})
         problem = Problem(law, own, list(truth))
         near = problem.near(problem.solve(true))
-        ends = [intervals.interval(near, it, problem.low[it], problem.high[it]) for it in range(len(true))]
-        inside["linearised"] += [low <= it <= high for (low, high), it in zip(ends, true, strict=True)]
-        if COUNT and near.freedom >= 8:
-            for index, both in enumerate(_drawn(problem, near, DRAWS, 0, has_trend=False)):
+        ends = [
+            intervals.interval(near, it, problem.low[it], problem.high[it])
+            for it in range(len(true))
+        ]
+        inside["linearised"] += [
+            low <= it <= high for (low, high), it in zip(ends, true, strict=True)
+        ]
+        if index < BOOTSTRAPS and near.freedom >= 8:
+            for place, both in enumerate(_drawn(problem, near, DRAWS, 0, has_trend=False)):
                 if both is not None:
-                    drawn[index] += 1
-                    inside["bootstrap"][index] += both[0] <= true[index] <= both[1]
+                    drawn[place] += 1
+                    inside["bootstrap"][place] += both[0] <= true[place] <= both[1]
     return {
         "linearised": inside["linearised"] / count,
         "bootstrap": inside["bootstrap"] / np.maximum(drawn, 1),

@@ -46,9 +46,7 @@ def scene(tmp_path):
 
 def rebounds(scene, speeds=SPEEDS, errors=0.0):
     """The program's restitutions, with errors."""
-    values = np.array(
-        [brinell.predict(scene, speed=speed).restitution for speed in speeds]
-    )
+    values = np.array([brinell.predict(scene, speed=speed).restitution for speed in speeds])
     # an elastic impact may exceed 1 by its rounding
     return {"speed": speeds, "restitution": np.minimum(values + errors, 1.0)}
 
@@ -67,9 +65,7 @@ def close(found, expected, tolerance):
 
 
 @pytest.mark.parametrize("start", [20e6, 300e6, 5e9])
-def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(
-    scene, start
-):
+def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(scene, start):
     for strength in (50e6, 300e6, 2e9):
         found = brinell.fit(scene(start), rebounds(scene(strength)))
         (estimate,) = found.estimates
@@ -78,18 +74,12 @@ def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(
         close(estimate.value, strength, 1e-6)
         low, high = estimate.interval
         assert (
-            low <= strength * (1 + 1e-6)
-            and high >= strength * (1 - 1e-6)
-            and high / low < 1.0001
+            low <= strength * (1 + 1e-6) and high >= strength * (1 - 1e-6) and high / low < 1.0001
         )
         assert found.rms["restitution"] < 1e-9 and found.count == 10
         assert found.values == {"target.yield_strength": estimate.value}
         # 8 m/s make too wide a dent in the softest target
-        wide = [
-            note
-            for note in found.notes
-            if "at 1 of 10 points (speeds from 8 m/s" in note
-        ]
+        wide = [note for note in found.notes if "at 1 of 10 points (speeds from 8 m/s" in note]
         assert (len(found.notes), len(wide)) == ((1, 1) if strength < 100e6 else (0, 0))
 
 
@@ -104,7 +94,8 @@ def test_a_fit_finds_the_strength_of_a_loading_curve_and_its_hardening(scene):
     # the strength alone can't describe a target that hardens
     alone = brinell.fit(start, points)
     assert (
-        alone.values["target.yield_strength"] > 410e6 and alone.rms["force"] > 100.0 * found.rms["force"]
+        alone.values["target.yield_strength"] > 410e6
+        and alone.rms["force"] > 100.0 * found.rms["force"]
     )
     assert any("follow a trend" in note for note in alone.notes)
 
@@ -122,16 +113,12 @@ def test_a_fit_finds_the_constant_of_a_rate_model(scene):
 
 def test_planted_strength_and_rate_are_found_away_from_the_bound(scene):
     points = rebounds(scene(350e6, JOHNSON_COOK.format(0.03)))
-    found = brinell.fit(
-        scene(200e6, JOHNSON_COOK.format(0.0)), points, ("yield_strength", "rate")
-    )
+    found = brinell.fit(scene(200e6, JOHNSON_COOK.format(0.0)), points, ("yield_strength", "rate"))
     close(found.values["target.yield_strength"], 350e6, 1e-3)
     close(found.values["target.rate.c"], 0.03, 1e-2)
 
 
-@pytest.mark.parametrize(
-    "model", [JOHNSON_COOK.format(0.02), COWPER_SYMONDS.format(40.4)]
-)
+@pytest.mark.parametrize("model", [JOHNSON_COOK.format(0.02), COWPER_SYMONDS.format(40.4)])
 @pytest.mark.parametrize("name", ["yield_strength", "hardening_modulus"])
 def test_the_unit_and_the_program_give_the_same_numbers(scene, model, name):
     """With the scene's rate constant the FMU answers, with others the program."""
@@ -150,10 +137,7 @@ def test_a_rate_constant_is_fitted_beside_a_power_law_and_beside_a_loss(scene):
         (power, steel),
         ("plate_thickness = 0.01\ndensity = 7850.0\n", None),
     ):
-        both = [
-            scene(300e6, more + JOHNSON_COOK.format(c), target=target)
-            for c in (0.04, 0.02)
-        ]
+        both = [scene(300e6, more + JOHNSON_COOK.format(c), target=target) for c in (0.04, 0.02)]
         found = brinell.fit(both[1], rebounds(both[0], (0.2, 1.0, 3.0)), "rate")
         close(found.values["target.rate.c"], 0.04, 1e-5)
 
@@ -167,9 +151,7 @@ def test_a_slow_loading_knows_neither_rate_nor_loss(scene):
 
 def test_the_softer_body_is_fitted_even_beyond_the_strength_of_the_other(scene):
     ball = ", youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength = {!r}"
-    points = rebounds(
-        scene(800e6, ball=", youngs_modulus = 206e9, poissons_ratio = 0.3")
-    )
+    points = rebounds(scene(800e6, ball=", youngs_modulus = 206e9, poissons_ratio = 0.3"))
     found = brinell.fit(scene(300e6, ball=ball.format(400e6)), points)
     close(found.values["target.yield_strength"], 800e6, 1e-6)
     # the ball yields first, and bulges as no plane does
@@ -178,15 +160,11 @@ def test_the_softer_body_is_fitted_even_beyond_the_strength_of_the_other(scene):
     close(found.values["impactor.yield_strength"], 800e6, 1e-6)
 
 
-@pytest.mark.parametrize(
-    "name", ["steel_ball", "mass_known", "rough_contacts", "two_contacts"]
-)
+@pytest.mark.parametrize("name", ["steel_ball", "mass_known", "rough_contacts", "two_contacts"])
 def test_scenes_of_every_kind_are_fitted(name):
     path = SCENES / f"{name}.toml"
     table = {"speed": [0.5, 1.0, 2.0]}
-    table["restitution"] = [
-        brinell.predict(path, speed=it).restitution for it in table["speed"]
-    ]
+    table["restitution"] = [brinell.predict(path, speed=it).restitution for it in table["speed"]]
     found = brinell.fit(path, table)
     (estimate,) = found.estimates
     close(estimate.value, estimate.scene, 1e-6)
@@ -195,32 +173,12 @@ def test_scenes_of_every_kind_are_fitted(name):
 
 def test_another_mass_takes_the_place_of_the_scenes(scene):
     speeds = (0.2, 1.0, 3.0)
-    values = [
-        brinell.predict(scene(500e6), speed=it, mass=0.1).restitution for it in speeds
-    ]
-    found = brinell.fit(
-        scene(300e6), {"speed": speeds, "restitution": values}, mass=0.1
-    )
+    values = [brinell.predict(scene(500e6), speed=it, mass=0.1).restitution for it in speeds]
+    found = brinell.fit(scene(300e6), {"speed": speeds, "restitution": values}, mass=0.1)
     close(found.values["target.yield_strength"], 500e6, 1e-6)
 
 
 # how sure it is
-
-
-def test_the_interval_contains_the_true_strength_in_95_of_100_measurements(scene):
-    random, count, inside = np.random.default_rng(7), 200, 0
-    exact = measured(rebounds(scene(300e6), SPEEDS[:5]))
-    law = Law(scene(300e6), exact, None, hardens=False)
-    for _ in range(count):
-        values = exact.values + 0.01 * random.standard_normal(5)
-        problem = _Problem(
-            law, Measured(exact.kind, exact.at, values, 0), ["yield_strength"]
-        )
-        (estimate,), _note = problem.estimates(problem.solve())
-        low, high = estimate.interval
-        inside += low <= 300e6 <= high
-    # three standard deviations of the binomial distribution
-    assert abs(inside / count - 0.95) < 0.046
 
 
 def test_where_a_parameter_would_be_negative_the_others_are_fitted_again_with_zero(
@@ -319,11 +277,7 @@ def test_points_that_repeat_each_other_give_no_interval(scene):
 )
 def test_points_too_wide_for_the_law_are_named(scene, kind, at, words):
     normal = scene(300e6)
-    notes = [
-        it
-        for it in brinell.fit(normal, kind(normal, at)).notes
-        if "effective radii" in it
-    ]
+    notes = [it for it in brinell.fit(normal, kind(normal, at)).notes if "effective radii" in it]
     assert [words in it for it in notes] == ([] if words is None else [True])
 
 
@@ -340,9 +294,7 @@ def test_what_a_scene_cannot_fit_is_rejected_with_the_reason(scene):
     speeds = {"speed": [1.0, 2.0], "restitution": [0.5, 0.4]}
     forces = {"depth [um]": [1.0, 10.0], "force": [10.0, 200.0]}
     steel = "youngs_modulus = 206e9\npoissons_ratio = 0.3\n"
-    power = scene(
-        0.0, "power_law = { coefficient = 700e6, exponent = 0.2 }", target=steel
-    )
+    power = scene(0.0, "power_law = { coefficient = 700e6, exponent = 0.2 }", target=steel)
     fit = functools.partial
     for call, words in [
         (
@@ -391,44 +343,47 @@ def test_a_bad_scene_is_told_by_the_program(tmp_path):
 
 
 def test_the_guide_shows_what_its_code_prints_and_draws(tmp_path):
-    page = (SCENES.parent / "docs/guide/python.md").read_text(encoding="utf-8")
-    section = page.split("## Fits")[1]
-    code, text = (
-        section.split(f"```{it}\n")[1].split("```")[0] for it in ("python", "text")
-    )
-    (tmp_path / "scenes").symlink_to(SCENES)
-    environment = os.environ | {"MPLBACKEND": "Agg"}
+    page = (SCENES.parent / "docs/guide/fits.md").read_text(encoding="utf-8")
+    code, text = (page.split(f"```{it}\n")[1].split("```")[0] for it in ("python", "text"))
+    for name in ("scenes", "data"):
+        (tmp_path / name).symlink_to(SCENES.parent / name)
     printed = subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert (printed.stdout, printed.stderr, printed.returncode) == (text, "", 0)
     assert (tmp_path / "fit.svg").stat().st_size > 10_000
 
 
-def test_a_result_is_drawn(scene):
-    points = {
-        "depth [um]": [5.0, 10.0, 15.0, 20.0],
-        "force": [114.40, 257.01, 404.79, 558.65],
-    }
-    axes = brinell.fit(scene(300e6), points, BOTH).plot()
-    lines = {line.get_label(): line.get_xydata() for line in axes.get_lines()}
+def test_a_result_is_drawn_with_its_differences(scene):
+    points = {"depth [um]": [5.0, 10.0, 15.0, 20.0], "force": [114.40, 257.01, 404.79, 558.65]}
+    found = brinell.fit(scene(300e6), points, BOTH)
+    above, below = found.plot().get_axes()
+    lines = {line.get_label(): line.get_xydata() for line in above.get_lines()}
     assert lines["measured"] == pytest.approx(
         np.column_stack([points["depth [um]"], points["force"]])
     )
     assert set(lines) == {"measured", "law, scene", "law, fitted"}
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [um]", "force [N]")
-    # between measured points of a curve that the law fits
-    near = np.interp(12.0, *lines["law, fitted"].T)
-    assert near == pytest.approx(
-        np.interp(12.0, points["depth [um]"], points["force"]), rel=0.02
-    )
-    assert (
-        brinell.fit(scene(300e6), rebounds(scene(300e6))).plot().get_xscale() == "log"
-    )
+    assert (below.get_xlabel(), above.get_ylabel()) == ("depth [um]", "force [N]")
+    left = points["force"] - lines["law, fitted"][:, 1]
+    assert below.get_lines()[0].get_ydata() == pytest.approx(left)
+    speeds = brinell.fit(scene(300e6), rebounds(scene(300e6))).plot()
+    assert speeds.get_axes()[0].get_xscale() == "log"
+
+
+def test_the_scene_of_a_result_predicts_what_was_fitted(scene, tmp_path):
+    points = rebounds(scene(350e6, JOHNSON_COOK.format(0.03)), SPEEDS[::3])
+    hard = 'hardness = "200 HBW 10/3000"\n'
+    steel = "youngs_modulus = 206e9\npoissons_ratio = 0.3\n"
+    # a hardness has the rate of its own test
+    own = 'rate = { model = "johnson-cook", c = 0.0 }'
+    start = scene(0.0, own, target=steel + hard)
+    found = brinell.fit(start, points, ("yield_strength", "rate"))
+    path = tmp_path / "fitted.toml"
+    text = found.scene(path)
+    assert "hardness" not in text.split("\n", 2)[2] and "# fitted: target.yield_strength" in text
+    again = [brinell.predict(path, speed=it).restitution for it in points["speed"]]
+    assert again == pytest.approx(points["restitution"], rel=1e-4)
+    assert brinell.export(path, tmp_path / "unit.fmu").exists()
 
 
 @pytest.mark.parametrize(
@@ -447,19 +402,3 @@ def test_a_result_is_drawn(scene):
 )
 def test_numbers_have_four_digits_and_a_prefix(value, unit, words):
     assert quantity(value, unit) == words
-
-
-def test_the_record_of_a_machine_is_fitted_with_all_that_is_said_of_it(scene):
-    path = scene(300e6, ball=", youngs_modulus = 630e9, poissons_ratio = 0.21")
-    path.write_text(path.read_text().replace("radius = 5e-3", "radius = 0.5e-3"))
-    found = brinell.fit(path, RECORD, BOTH)
-    strength, hardening = found.estimates
-    close(strength.value, 1137.0e6, 1e-3)
-    close(found.rms, 38.13, 1e-3)
-    assert hardening.value < 1e-3 * 206e9 and (found.count, found.left_out) == (18, 36)
-    for words in (
-        "36 points without a greater depth",
-        "at 16 of 18 points",
-        "Durbin-Watson 0.49",
-    ):
-        assert words in str(found)

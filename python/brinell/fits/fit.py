@@ -76,7 +76,9 @@ def fit(
         if name in names:
             raise ValueError(f"{name} is free and fixed: leave it out of one of them")
     for name in {*(bounds or {}), *(priors or {})} - {*names}:
-        raise ValueError(f"{name} has bounds or a prior, but it is not fitted: add it to parameters")
+        raise ValueError(
+            f"{name} has bounds or a prior, but it is not fitted: add it to parameters"
+        )
     if outside not in ("mark", "leave out"):
         raise ValueError(f"outside = {outside!r}; allowed are 'mark' and 'leave out'")
     if not unloading and points.kind == "record":
@@ -87,7 +89,9 @@ def fit(
         own = points
         if points.kind == "hardness":
             values = strengths_of(points.readings, scene_file, law)
-            own = Measured("hardness", {}, {"flow_stress": values}, points.part, points.notes, points.readings)
+            own = Measured(
+                "hardness", {}, {"flow_stress": values}, points.part, points.notes, points.readings
+            )
         _check_scene(law, [*names, *(fixed or {})])
         problem = Problem(
             law,
@@ -169,7 +173,9 @@ def _accuracy(accuracy: Mapping[str, Value] | None, points: Measured) -> dict[st
     found = {}
     for name, value in (accuracy or {}).items():
         if name not in points.results:
-            raise ValueError(f"accuracy: {name!r} was not measured; expected {one_of(points.results)}")
+            raise ValueError(
+                f"accuracy: {name!r} was not measured; expected {one_of(points.results)}"
+            )
         found[name] = number_of(value, UNITS[name], name)
         if not found[name] > 0.0:
             raise ValueError(f"accuracy: {name} = {value!r} must be positive")

@@ -48,7 +48,9 @@ class Linear:
     """Degrees of freedom."""
 
 
-def linear(at: Numbers, jacobian: Numbers, differences: Numbers, free: NDArray[np.bool_], freedom: int) -> Linear:
+def linear(
+    at: Numbers, jacobian: Numbers, differences: Numbers, free: NDArray[np.bool_], freedom: int
+) -> Linear:
     """The neighbourhood of the optimum `at`."""
     count = len(at)
     errors, beyond = np.full(count, np.nan), at.copy()
@@ -89,7 +91,11 @@ def interval(near: Linear, index: int, low: float, high: float) -> tuple[float, 
     below, above = (value - low) / error, (high - value) / error
     if below <= above:
         first, last = _bounded(float(below), freedom)
-        found = (low + error * first, low + error * last) if np.isfinite(low) else _central(value, error, freedom)
+        found = (
+            (low + error * first, low + error * last)
+            if np.isfinite(low)
+            else _central(value, error, freedom)
+        )
     else:
         first, last = _bounded(float(above), freedom)
         found = (high - error * last, high - error * first)
@@ -274,4 +280,5 @@ def _drawn(differences: Numbers, block: int, random: np.random.Generator) -> Num
     centred = differences - differences.mean() if count > 1 else differences
     block = min(block, count)
     starts = random.integers(0, count - block + 1, -(-count // block))
-    return centred[(starts[:, None] + np.arange(block)).ravel()[:count]]
+    found: Numbers = centred[(starts[:, None] + np.arange(block)).ravel()[:count]]
+    return found

@@ -7,6 +7,7 @@ has not (the constants of a strain rate, contact times, oblique impacts) the pro
 
 from __future__ import annotations
 
+import json
 import tempfile
 import warnings
 from collections.abc import Callable, Mapping
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 from ..contact import Contact
 from ..errors import ContactError, ProgramError
 from ..library import Library
-from ..program import export, predict, sweep, tables
+from ..program import _run, export, predict, sweep, tables
 from ..studies.impacts import impact
 from ..studies.scene import OUTPUTS, of_impacts, toml
 from .measured import Measured
@@ -37,6 +38,10 @@ LARGEST_RADIUS_RATIO = 0.3
 UNYIELDING = 1e18
 """Strength [Pa] of a body that is not fitted: the largest of an FMU. The fitted body stays the
 softer one."""
+RATE_OF_TESTS = 1e-3
+"""Strain rate [1/s] of hardness and tensile tests, as the program takes it."""
+C_OF_STEEL = 0.014
+"""The constant that the program takes for steel without a rate: AISI 4340, Johnson and Cook 1983."""
 OBLIQUE = {"tangential_restitution", "rebound_angle"}
 
 
@@ -56,7 +61,9 @@ class Law:
         fitted: set[str],
         loading: str | None = None,
     ) -> None:
-        self.points = points
+        self.points, self._path = points, path
+        self.rates: dict[str, dict[str, Any]] = {}
+        """The strain rates of bodies whose strength was read from a test, with all their numbers."""
         self._of_impacts = points.kind == "impacts"
         speed = float(points.arguments["speed"][0]) if self._of_impacts else None
         if "mass" in points.arguments:
@@ -124,7 +131,11 @@ class Law:
         for body in ("impactor", "target"):
             strength = self._starts.get(f"{body}.yield_strength")
             if strength is not None and not {"yield_strength", "power_law"} & {*self._data[body]}:
-                self._data[body] = without_readings(self._data[body]) | {"yield_strength": strength}
+                self.rates |= _rates_of_readings(self._data[body], body, self._path)
+                kept = without_readings(self._data[body]) | {"yield_strength": strength}
+                if self._of_impacts and body in self.rates:
+                    kept["rate"] = self.rates[body]
+                self._data[body] = kept
                 found = True
         return found
 
@@ -135,7 +146,9 @@ class Law:
             if f"{body}.yield_strength" in self._starts
         }
         if not strengths:
-            raise ValueError(f"{path}: the law {self.law} doesn't yield: it has no parameter to fit")
+            raise ValueError(
+                f"{path}: the law {self.law} doesn't yield: it has no parameter to fit"
+            )
         # at equal strengths the target, as in an FMU
         softer = min(strengths, key=lambda body: strengths[body])
         self._harder = [body for body in strengths if body != softer]
@@ -233,7 +246,9 @@ class Law:
         found, radius = np.full(count, np.nan), np.full(count, np.nan)
         stiffness = np.zeros(count)
         contact, deepest, at, before = self._contact, -np.inf, 0.0, 0
-        for index, (part, now) in enumerate(zip(points.part.tolist(), pressed.tolist(), strict=True)):
+        for index, (part, now) in enumerate(
+            zip(points.part.tolist(), pressed.tolist(), strict=True)
+        ):
             try:
                 if part == 0:
                     # bodies that start pressed in are on the loading curve
@@ -322,7 +337,11 @@ class Law:
         return data
 
     def _each(
-        self, data: Mapping[str, Any], one: Callable[[Path, int], list[float]], count: int, width: int
+        self,
+        data: Mapping[str, Any],
+        one: Callable[[Path, int], list[float]],
+        count: int,
+        width: int,
     ) -> Numbers:
         """A row of numbers for each impact of a scene, by the program; NaN beyond the law."""
         with tempfile.TemporaryDirectory(prefix="brinell-") as folder, warnings.catch_warnings():
@@ -394,6 +413,22 @@ def without_readings(body: Mapping[str, Any]) -> dict[str, Any]:
     return {key: it for key, it in body.items() if key not in readings}
 
 
+def _rates_of_readings(body: Mapping[str, Any], name: str, path: str | Path) -> dict[str, Any]:
+    """The strain rate of a body whose strength was read from a test: it starts at that of the test,
+    and steel has one, even if the scene gives none."""
+    if not {"hardness", "tensile_strength"} & {*body}:
+        return {}
+    rate = body.get("rate")
+    if rate is None:
+        strength = _strength(path)
+        if strength is None or strength["factor"] == 1.0:
+            return {}
+        rate = {"model": "johnson-cook", "c": C_OF_STEEL}
+    if rate["model"] == "johnson-cook":
+        rate = {"reference_rate": RATE_OF_TESTS, **rate}
+    return {name: rate}
+
+
 def _slow(data: Mapping[str, Any]) -> dict[str, Any]:
     """The scene of a slow first loading: without a mass, a rate, and losses."""
     made = of_impacts(data, 1.0)
@@ -435,9 +470,15 @@ def strengths_of(readings: tuple[str, ...], path: str | Path, law: Law) -> Numbe
 
 
 def _flow_stress(path: Path) -> float:
-    import json
-
-    from ..program import _run
-
-    strength = json.loads(_run("predict", path))["strength"]
+    strength = _strength(path)
+    if strength is None:
+        raise ValueError(f"{path}: the program gives no strength for this reading")
     return float(strength["yield_strength"] / strength["factor"])
+
+
+def _strength(path: str | Path) -> dict[str, Any] | None:
+    """What the program says of the strength in the scene's impact."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found: dict[str, Any] | None = json.loads(_run("predict", path))["strength"]
+    return found

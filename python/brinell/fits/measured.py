@@ -213,7 +213,9 @@ def _check(rows: Rows, one: Column, values: Numbers, is_record: bool) -> None:
         if not quantity.unit:
             at = int(np.flatnonzero(np.abs(values) == largest)[0])
             place = f"{rows.rows[at][0]}, column {one.index + 1}"
-            raise ValueError(f"{place}: {name} = {_shown(rows, at, one)} must be above 0 and at most 1")
+            raise ValueError(
+                f"{place}: {name} = {_shown(rows, at, one)} must be above 0 and at most 1"
+            )
         from .quantities import UNITS as ALL
 
         raise ValueError(
@@ -231,9 +233,13 @@ def _check(rows: Rows, one: Column, values: Numbers, is_record: bool) -> None:
         if is_record or one.quantity in ("angle", "tangential_restitution", "rebound_angle"):
             continue
         if one.quantity == "restitution" and not 0.0 < value <= 1.0:
-            raise ValueError(f"{place}: {name} = {_shown(rows, at, one)} must be above 0 and at most 1")
+            raise ValueError(
+                f"{place}: {name} = {_shown(rows, at, one)} must be above 0 and at most 1"
+            )
         if not value > 0.0:
-            raise ValueError(f"{place}: {name} = {_shown(rows, at, one)} must be positive and finite")
+            raise ValueError(
+                f"{place}: {name} = {_shown(rows, at, one)} must be positive and finite"
+            )
 
 
 def _shown(rows: Rows, at: int, one: Column) -> str:
@@ -242,7 +248,8 @@ def _shown(rows: Rows, at: int, one: Column) -> str:
 
 
 def _is_empty(cell: Any) -> bool:
-    return cell is None or cell != cell or (isinstance(cell, str) and not cell.strip())
+    is_nan = isinstance(cell, float) and np.isnan(cell)
+    return cell is None or bool(is_nan) or (isinstance(cell, str) and not cell.strip())
 
 
 def _impacts(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measured:
@@ -262,9 +269,15 @@ def _impacts(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measur
     for at, point in enumerate(np.column_stack(list(results.values()))):
         if np.all(np.isnan(point)):
             raise ValueError(f"{rows.rows[at][0]}: no result is given: {one_of(results)}")
-    arguments = {"speed": speed} | {name: values[name] for name in ("mass", "angle") if name in values}
-    if ("tangential_restitution" in results or "rebound_angle" in results) and "angle" not in values:
-        raise ValueError(f"{rows.place}: oblique impacts need a column `angle [deg]`, from the normal")
+    arguments = {"speed": speed} | {
+        name: values[name] for name in ("mass", "angle") if name in values
+    }
+    if (
+        "tangential_restitution" in results or "rebound_angle" in results
+    ) and "angle" not in values:
+        raise ValueError(
+            f"{rows.place}: oblique impacts need a column `angle [deg]`, from the normal"
+        )
     order = np.lexsort((arguments.get("angle", speed), speed))
     return Measured(
         "impacts",
@@ -285,7 +298,9 @@ def _hardness(rows: Rows, one: Column, notes: list[str]) -> Measured:
             continue
         where = f"{place}, column {one.index + 1}: {one.heading} = `{shortened(str(cell))}`"
         if scale is None:
-            raise ValueError(f"{where} has no scale; expected a heading such as `HV10` or `HBW 10/3000`")
+            raise ValueError(
+                f"{where} has no scale; expected a heading such as `HV10` or `HBW 10/3000`"
+            )
         try:
             value = number(cell, rows.decimal)
         except (TypeError, ValueError):
@@ -316,7 +331,9 @@ def _record(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measure
             f"The record has {part.max()} unloadings: {count} of {len(part)} points are used as such."
         )
     depth, force = depth[order], force[order]
-    return Measured("record", {"depth": depth, "force": force}, {"force": force}, part[order], tuple(notes))
+    return Measured(
+        "record", {"depth": depth, "force": force}, {"force": force}, part[order], tuple(notes)
+    )
 
 
 def parts(depth: Numbers, force: Numbers) -> NDArray[np.int_]:

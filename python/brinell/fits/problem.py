@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -31,9 +32,11 @@ ROUNDING = 1e-14
 STRENGTHS = np.geomspace(1e-6, 0.5, 61)
 """Yield strengths that the search may start at, relative to the effective modulus: the restitution
 of some laws is not monotone."""
+COMPLIANCES = (0.0, 0.15, 0.5)
+"""Compliances that the search may start at, relative to depth over force of the whole record."""
 MOST_FOR_START = 40
 """Number of points that a search for a start takes."""
-TOLERANCE = 1e-12
+TOLERANCE = 1e-10
 """Relative change at which the search ends."""
 FEWEST_FOR_BOOTSTRAP = 8
 """Fewest degrees of freedom of a bootstrap: of fewer differences, draws repeat each other."""
@@ -67,8 +70,14 @@ class Problem:
             force = float(np.max(self.points.arguments["force"]))
             scale |= {"zero_point": depth, "preload": force, "compliance": depth / force}
         self.scales = np.array([scale.get(name, 1.0) for name in self.names])
-        low = [max(one.low, self.bounds.get(it, (-np.inf,))[0]) for it, one in zip(self.names, ones, strict=True)]
-        high = [min(one.high, self.bounds.get(it, (0.0, np.inf))[1]) for it, one in zip(self.names, ones, strict=True)]
+        low = [
+            max(one.low, self.bounds.get(it, (-np.inf,))[0])
+            for it, one in zip(self.names, ones, strict=True)
+        ]
+        high = [
+            min(one.high, self.bounds.get(it, (0.0, np.inf))[1])
+            for it, one in zip(self.names, ones, strict=True)
+        ]
         # those of a scene are far away, unless the user gives them
         self.low = np.where(
             self.logarithmic & (np.array([it not in self.bounds for it in self.names])),
@@ -76,6 +85,7 @@ class Problem:
             self.variables(low),
         )
         self.high = np.where(np.array(high) >= 1e18, np.inf, self.variables(high))
+        self.ends = np.array(low), np.array(high)
         self.known = {name: np.isfinite(it) for name, it in self.points.results.items()}
         self.sizes = {name: self._size(name) for name in self.points.results}
 
@@ -95,8 +105,11 @@ class Problem:
 
     def values(self, variables: Numbers) -> Numbers:
         with np.errstate(over="ignore"):
-            found: Numbers = np.where(self.logarithmic, np.exp(variables), variables * self.scales)
-        return found
+            found = np.where(self.logarithmic, np.exp(variables), variables * self.scales)
+        # a bound is what the user gave, to the last bit
+        found = np.where(variables == self.low, self.ends[0], found)
+        values: Numbers = np.where(variables == self.high, self.ends[1], found)
+        return values
 
     def flow(self, variables: Numbers) -> dict[str, float]:
         values = [float(it) for it in self.values(variables)]
@@ -120,7 +133,7 @@ class Problem:
     def groups(self) -> list[NDArray[np.int_]]:
         """The places of each kind of result in the differences."""
         ends = np.cumsum([0, *(np.count_nonzero(it) for it in self.known.values())])
-        return [np.arange(a, b) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+        return [np.arange(a, b) for a, b in pairwise(ends.tolist())]
 
     @property
     def freedom(self) -> int:
@@ -129,27 +142,37 @@ class Problem:
 
     # optimum
 
-    def starts(self) -> list[Numbers]:
-        """The scene's values, and other strengths, with the zero point that belongs to each."""
+    def starts(self) -> list[list[Numbers]]:
+        """Groups of starts: the scene's values and other strengths, for each of some compliances, with
+        the zero point that belongs to them."""
         own = np.clip(self.variables([self.given[it] for it in self.names]), self.low, self.high)
-        if "yield_strength" not in self.names:
-            return [own]
-        starts = [own]
-        for strength in STRENGTHS * self.law.modulus:
-            starts.append(own.copy())
-            starts[-1][self.names.index("yield_strength")] = np.log(strength)
-        if "zero_point" in self.names:
-            forces = self.points.arguments["force"] + self.given["preload"]
-            loading = self.points.part == 0
-            for start in starts[1:]:
-                flow = self.flow(start)
-                deep = self.law.depths(forces[loading], flow)
-                zero = float(np.median(deep - self.points.arguments["depth"][loading]))
-                start[self.names.index("zero_point")] = zero / self.scales[self.names.index("zero_point")]
-        return [np.clip(it, self.low, self.high) for it in starts]
+        place = {name: index for index, name in enumerate(self.names)}
+        groups = []
+        for part in COMPLIANCES if "compliance" in place else (0.0,):
+            group = [own.copy()]
+            if "yield_strength" in place:
+                for strength in STRENGTHS * self.law.modulus:
+                    group.append(own.copy())
+                    group[-1][place["yield_strength"]] = np.log(strength)
+            for start in group:
+                if part > 0.0:
+                    start[place["compliance"]] = part
+                if "zero_point" in place:
+                    start[place["zero_point"]] = (
+                        self._zero(start) / self.scales[place["zero_point"]]
+                    )
+            groups.append([np.clip(it, self.low, self.high) for it in group])
+        return groups
 
-    def start(self) -> Numbers:
-        """The best of the starts, by a part of the points."""
+    def _zero(self, start: Numbers) -> float:
+        """The zero point [m] with which a first loading has the recorded forces, in the median."""
+        flow, loading = self.flow(start), self.points.part == 0
+        force = self.points.arguments["force"][loading] + flow["preload"]
+        deep = self.law.depths(force, flow) + flow["compliance"] * force
+        return float(np.median(deep - self.points.arguments["depth"][loading]))
+
+    def start(self) -> list[Numbers]:
+        """The best start of each group, by a part of the points."""
         loading = np.flatnonzero(self.points.part == 0)
         step = -(-len(loading) // MOST_FOR_START)
         some = np.ones(self.points.count, dtype=bool)
@@ -164,32 +187,41 @@ class Problem:
             )
             return np.inf if bad else sum_
 
-        return min(self.starts(), key=squares)
+        return [min(group, key=squares) for group in self.starts()]
 
     def solve(self, start: Numbers | None = None) -> Any:
-        """The optimum within the bounds, by scipy: first with derivatives of one side, then of both."""
-        from scipy.optimize import least_squares
-
-        start = self.start() if start is None else start
+        """The optimum within the bounds, by scipy: first with derivatives of one side from each start,
+        then of both from the best."""
         try:
-            for jac, tolerance in (("2-point", 1e-8), ("3-point", TOLERANCE)):
-                found = least_squares(
-                    lambda variables: self.differences(self.flow(variables)),
-                    start,
-                    jac=jac,
-                    bounds=(self.low, self.high),
-                    method="dogbox",
-                    x_scale="jac",
-                    xtol=tolerance,
-                    ftol=tolerance,
-                    gtol=TOLERANCE,
-                )
-                start = self._snapped(found.x)
+            rough = [
+                self._least("2-point", 1e-6, it)
+                for it in (self.start() if start is None else [start])
+            ]
+            best = min(rough, key=lambda it: float(it.cost))
+            found = self._least("3-point", TOLERANCE, self._snapped(best.x))
         except (ValueError, np.linalg.LinAlgError) as error:
             # derivatives at the end of the law's range
             raise ValueError(BEYOND) from error
         found.x = self._snapped(found.x)
         return found
+
+    def _least(self, jac: Any, tolerance: float, start: Numbers) -> Any:
+        from scipy.optimize import least_squares
+
+        def differences(variables: Numbers) -> Numbers:
+            return self.differences(self.flow(variables))
+
+        return least_squares(
+            differences,
+            start,
+            jac=jac,
+            bounds=(self.low, self.high),
+            method="dogbox",
+            x_scale="jac",
+            xtol=tolerance,
+            ftol=tolerance,
+            gtol=1e-14,
+        )
 
     def _snapped(self, variables: Numbers) -> Numbers:
         """The variables, at a bound where rounding keeps them from it."""
@@ -231,7 +263,9 @@ class Problem:
         # points that repeat others to the last digit don't tell how much a measurement scatters
         enough = self.points.different + len(self.priors) > np.count_nonzero(free)
         freedom = len(found.fun) - int(np.count_nonzero(free)) if enough else 0
-        return intervals.linear(found.x, np.asarray(found.jac), np.asarray(found.fun), free, freedom)
+        return intervals.linear(
+            found.x, np.asarray(found.jac), np.asarray(found.fun), free, freedom
+        )
 
 
 def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
@@ -253,7 +287,9 @@ def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
     said = _estimates(problem, near, found, drawn)
     few = near.freedom < FEWEST_FOR_BOOTSTRAP
     notes = [
-        f"The bootstrap needs {FEWEST_FOR_BOOTSTRAP} points more than parameters." if draws > 0 and few else None,
+        f"The bootstrap needs {FEWEST_FOR_BOOTSTRAP} points more than parameters."
+        if draws > 0 and few
+        else None,
         *_correlations(problem, near, said),
         *_priors(problem, near),
         _parts(problem, flow),
@@ -283,6 +319,7 @@ def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
         data=problem.law.scene,
         body=problem.law.body,
         flow=flow,
+        rates=problem.law.rates,
     )
 
 
@@ -302,9 +339,9 @@ def _drawn(
     problem: Problem, near: Linear, draws: int, seed: int, *, has_trend: bool
 ) -> list[tuple[float, float] | None]:
     """The intervals of the bootstrap."""
-    usable = near.freedom > 0 and np.all(np.isfinite(near.errors[near.free]))
-    usable = usable and near.freedom >= FEWEST_FOR_BOOTSTRAP
-    if draws <= 0 or not usable or not np.all(near.errors[near.free] > 0.0):
+    errors = near.errors[near.free]
+    usable = near.freedom >= FEWEST_FOR_BOOTSTRAP and bool(np.all(errors > 0.0))
+    if draws <= 0 or not usable or not np.all(np.isfinite(errors)):
         return [None] * len(near.at)
 
     def differences(variables: Numbers) -> Numbers:
@@ -316,7 +353,14 @@ def _drawn(
     # blocks as long as the cube root of the number of points, longer under a trend
     block = max(1, round(problem.points.count ** (0.5 if has_trend else 0.0)))
     return intervals.bootstrap(
-        expanded, near, problem.groups(), problem.low, problem.high, draws=draws, block=block, seed=seed
+        expanded,
+        near,
+        problem.groups(),
+        problem.low,
+        problem.high,
+        draws=draws,
+        block=block,
+        seed=seed,
     )
 
 
@@ -331,11 +375,8 @@ def _estimates(
         one = parameter(name, problem.law.model)
         interval = intervals.interval(near, index, problem.low[index], problem.high[index])
         doubt = _doubt(problem, near, index, effects[index], interval)
-        same = near.free[index] and any(
-            not abs(near.correlation[free.tolist().index(index), it]) < SAME
-            for it in range(len(free))
-            if free[it] != index
-        )
+        others = near.correlation[free == index][:, free != index]
+        same = not bool(np.all(np.abs(others) < SAME))
         if not effects[index] > NO_EFFECT or same:
             # an interval says nothing where the parameter has no effect
             interval = None
@@ -380,7 +421,13 @@ def _doubt(
         if bound < 0 and end == 0.0:
             return "not distinguishable from 0: the best value would be negative"
         side = "below" if bound < 0 else "above"
-        of = "the bound" if own else "the smallest of a scene" if bound < 0 else "the largest of a scene"
+        of = (
+            "the bound"
+            if own
+            else "the smallest of a scene"
+            if bound < 0
+            else "the largest of a scene"
+        )
         return f"not determined: the best value would be {side} {shown}, {of}"
     if not effect > NO_EFFECT:
         if problem.points.kind == "record":
@@ -407,7 +454,11 @@ def _doubt(
     if problem.logarithmic[index]:
         with np.errstate(over="ignore"):
             factor = float(np.exp(high - low))
-        return f"hardly determined: its interval spans a factor of {factor:.2e}" if factor > 4.0 else None
+        return (
+            f"hardly determined: its interval spans a factor of {factor:.2e}"
+            if factor > 4.0
+            else None
+        )
     if low <= 0.0 <= high and name not in ("zero_point", "preload"):
         return "not distinguishable from 0"
     return None
@@ -474,7 +525,7 @@ def _outside(problem: Problem, wide: NDArray[np.bool_], left_out: int) -> str | 
     at = problem.points.arguments[name][wide]
     unit = UNITS[name]
     ends = f"{quantity(at.min(), unit)} to {quantity(at.max(), unit)}"
-    return f"{words} ({name}s from {ends}): outside=\"leave out\" fits without them."
+    return f'{words} ({name}s from {ends}): outside="leave out" fits without them.'
 
 
 def _trend(problem: Problem, flow: Mapping[str, float]) -> str | None:

@@ -187,9 +187,7 @@ def size_of(unit: str, si: str, name: str) -> float:
         raise ValueError(f"`{unit}` is ambiguous for {name}: it may be {' or '.join(alike)}")
     if not si:
         raise ValueError(f"{name} has no unit, not `{shortened(unit)}`")
-    raise ValueError(
-        f"`{shortened(unit)}` is no unit of {name}; expected {one_of(units)}"
-    )
+    raise ValueError(f"`{shortened(unit)}` is no unit of {name}; expected {one_of(units)}")
 
 
 def is_unit(text: str) -> bool:

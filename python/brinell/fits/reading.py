@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from .quantities import is_unit, known, nearest, shortened
+from .quantities import HARDNESS, is_unit, known, nearest, shortened
 
 MOST = 100_000
 """Largest number of rows."""
@@ -109,7 +109,7 @@ def _of_text(path: Path, text: str, decimal: Decimal | None) -> Rows:
         first = _cells(cells, f"{path}:{below[0][0]}", below[0][1])
         if any(map(is_unit, first)) and all(is_unit(it) or not it for it in first):
             units, below = [it.strip("[]()") for it in first], below[1:]
-    rows = []
+    rows = list[tuple[str, list[Any]]]()
     for number, line in below:
         place = f"{path}:{number}"
         if len(rows) == MOST:
@@ -120,12 +120,14 @@ def _of_text(path: Path, text: str, decimal: Decimal | None) -> Rows:
         while len(row) > len(heading) and not row[-1]:
             row.pop()
         if len(row) != len(heading):
-            why = "; a decimal comma needs another separator than commas" if separator == "," else ""
+            why = (
+                "; a decimal comma needs another separator than commas" if separator == "," else ""
+            )
             raise ValueError(
                 f"{place}: {len(row)} cells, and the heading has {len(heading)}, separated by "
                 f"{SEPARATORS[separator]}{why}"
             )
-        rows.append((place, list[Any](row)))
+        rows.append((place, [*row]))
     sign = decimal or _decimal(str(path), [row for _, row in rows], separator)
     if separator != "," or sign == ",":
         words = {".": "point", ",": "comma"}[sign]
@@ -159,6 +161,8 @@ def _heading(lines: Sequence[tuple[int, str]], said: str | None) -> tuple[str, i
                 row = cells(line)
             except csv.Error:
                 continue
+            if separator == " " and HARDNESS.fullmatch(line.strip()):
+                continue
             # a heading has no numbers
             is_heading = len(row) > 1 and not any(re.fullmatch(r"[-+\d.,]+", it) for it in row)
             names = sum(map(known, row)) if is_heading else 0
@@ -179,7 +183,9 @@ def _decimal(name: str, rows: Sequence[Sequence[str]], separator: str) -> Decima
 
     Raises `ValueError` if numbers such as `1.234` may be 1.234 or 1234.
     """
-    cells = [_GAPS.sub("", cell) for row in rows for cell in row if re.search(r"\d[.,]|[.,]\d", cell)]
+    cells = [
+        _GAPS.sub("", cell) for row in rows for cell in row if re.search(r"\d[.,]|[.,]\d", cell)
+    ]
     evidence: dict[Decimal, str] = {}
     for cell in cells:
         number = re.fullmatch(r"[-+\u2212]?[\d.,]+([eE][-+]?\d+)?", cell)
@@ -222,7 +228,7 @@ def _mixed(rows: Sequence[Sequence[str]]) -> str | None:
         grouped = [it for it in column if _GROUPED[","].fullmatch(it)]
         plain = [it for it in column if re.fullmatch(r"\d{1,3}", it)]
         if grouped and plain and len(grouped) + len(plain) == len([it for it in column if it]):
-            return grouped[0]
+            return str(grouped[0])
     return None
 
 
@@ -234,9 +240,7 @@ def number(cell: Any, decimal: Decimal) -> float:
     if cell is None or (isinstance(cell, str) and not cell.strip()):
         return math.nan
     if not isinstance(cell, str):
-        if isinstance(cell, bool):
-            raise ValueError
-        return float(cell)
+        return float("nope" if isinstance(cell, bool) else cell)
     text = _GAPS.sub("", cell.strip()).replace("\u2212", "-")
     if "_" in text:
         raise ValueError
@@ -280,13 +284,15 @@ def _of_excel(path: Path) -> Rows:
     found = None
     for sheet, frame in sheets.items():
         rows = [[None if pandas.isna(it) else it for it in row] for row in frame.values.tolist()]
-        counts = [sum(isinstance(it, str) and known(it) for it in row) for row in rows[:MOST_BEFORE]]
+        counts = [
+            sum(isinstance(it, str) and known(it) for it in row) for row in rows[:MOST_BEFORE]
+        ]
         if counts and max(counts) > 0:
             found = str(sheet), rows, counts.index(max(counts))
             break
     if found is None:
-        texts = [str(it) for one in sheets.values() for it in one.head(1).values.ravel().tolist()]
-        first = shortened(", ".join(texts))
+        firsts = [it for one in sheets.values() for it in one.head(1).to_numpy().ravel()]
+        first = shortened(", ".join(map(str, firsts)))
         raise ValueError(f"{path}: no sheet has a heading (`{first}`); {nearest(first)}")
     sheet, rows, at = found
     kept = [index for index, it in enumerate(rows[at]) if it is not None]

@@ -84,6 +84,7 @@ class Fit:
     """The tables of the scene that was fitted."""
     body: str = field(repr=False)
     flow: Mapping[str, float] = field(repr=False)
+    rates: Mapping[str, Mapping[str, Any]] = field(repr=False)
     laws: tuple[Fit, ...] = field(default=(), repr=False)
     """The fits of all laws that were asked for, the best first."""
 
@@ -136,11 +137,15 @@ class Fit:
         of_contact = {**first.get(body, {})}
         place = of_contact if {"yield_strength", "hardness", "material"} & {*of_contact} else own
         for name, value in self.flow.items():
-            fitted = any(it.name.startswith(f"{body}.") and name in it.name for it in self.estimates)
+            fitted = any(
+                it.name.startswith(f"{body}.") and name in it.name for it in self.estimates
+            )
             if name in ("yield_strength", "hardening_modulus") and fitted:
                 kept = without_readings(place)
                 place.clear()
                 place |= kept | {name: value}
+                if body in self.rates:
+                    place["rate"] = dict(self.rates[body])
                 if name == "hardening_modulus":
                     place.pop("tangent_modulus", None)
             if name == "rate" and fitted:
