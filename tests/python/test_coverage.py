@@ -14,7 +14,8 @@ import pytest
 from brinell.fits import intervals
 from brinell.fits.law import Law
 from brinell.fits.measured import measured
-from brinell.fits.problem import Problem, _drawn
+from brinell.fits.outcome import _drawn
+from brinell.fits.problem import Problem
 
 COUNT = int(os.environ.get("BRINELL_COVERAGE", "0"))
 FEW = 60

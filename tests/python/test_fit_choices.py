@@ -328,6 +328,14 @@ def test_bootstrap_and_linearised_intervals_agree_for_many_independent_points(sc
     assert few.estimates[0].bootstrap is None and "The bootstrap needs 8 points more" in str(few)
 
 
+def test_a_strength_that_no_metal_has_asks_for_the_units(scene):
+    """Kilonewtons in a column without a unit."""
+    table = {"depth [um]": [5.0, 10.0, 20.0, 30.0], "force": [0.114, 0.257, 0.558, 0.86]}
+    found = brinell.fit(scene(300e6), table)
+    assert any("are the units of the columns" in it for it in found.notes)
+    assert "`force` is force in N (no unit is given)" in str(found)
+
+
 def test_what_can_not_be_chosen_is_told(scene):
     path, speeds = scene(), {"speed": [1.0, 2.0], "restitution": [0.5, 0.4]}
     record = {"depth [um]": [1.0, 10.0, 20.0], "force": [10.0, 200.0, 400.0]}

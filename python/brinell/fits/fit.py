@@ -8,8 +8,9 @@ from typing import Literal
 
 from .law import Law, strengths_of
 from .measured import Measured, Table, measured
+from .outcome import fitted
 from .parameters import INSTRUMENT, PARAMETERS, parameter
-from .problem import Problem, fitted
+from .problem import Problem
 from .quantities import number_of, one_of
 from .reading import Decimal
 from .result import Fit

@@ -268,7 +268,9 @@ def bootstrap(
         known = found[np.isfinite(found[:, row]), row]
         if len(known) < 0.9 * draws or not np.isfinite(widths[row]):
             continue
-        first, last = np.quantile(known, [0.5 + 0.5 * CONFIDENCE, 0.5 - 0.5 * CONFIDENCE])
+        first, last = np.quantile(
+            known, [0.5 + 0.5 * CONFIDENCE, 0.5 - 0.5 * CONFIDENCE], method="weibull"
+        )
         ends = near.at[index] - widths[row] * np.array([first, last])
         intervals[index] = (max(float(ends[0]), low[index]), min(float(ends[1]), high[index]))
     return intervals
