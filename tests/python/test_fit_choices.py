@@ -190,7 +190,7 @@ def test_impacts_may_have_masses_of_their_own(scene):
 
 
 def test_friction_is_found_from_oblique_impacts(scene):
-    path = scene(more="friction = { coefficient = 0.3 }")
+    path = scene(more="friction = { coefficient = 0.15 }")
     angles, speed = (10.0, 60.0), 1.0
     ends = [
         brinell.sweep(path, {"angle": f"{it}:{it + 1e-6}:2"}, speed=speed, friction=0.12)
@@ -223,6 +223,45 @@ def test_elastic_restitution_is_that_of_a_ball_on_metallic_glass(scene):
     assert low < estimate.value < high < 1.0 and high - low < 1e-3
 
 
+def test_the_friction_of_a_measured_oblique_impact_is_found(tmp_path):
+    """Aluminium oxide on glass at 3.9 m/s: the published coefficient is 0.092."""
+    rows = [
+        line.split(",")
+        for line in (DATA / "oblique_elastic.csv").read_text().splitlines()
+        if line.startswith("mfix,e_t,")
+    ]
+    points = [(float(it[2]), float(it[3])) for it in rows][5::3]
+    path = tmp_path / "oxide.toml"
+    path.write_text(
+        'name = "oxide"\nlaw = { loading = "hertz" }\nfriction = { coefficient = 0.15 }\n'
+        "impactor = { radius = 2.5e-3, youngs_modulus = 380e9, poissons_ratio = 0.23, density = 4000 }\n"
+        "target = { youngs_modulus = 70e9, poissons_ratio = 0.25 }\nimpact = { speed = 3.9 }\n"
+    )
+    table = {
+        "speed": [3.9] * len(points),
+        "angle": [it[0] for it in points],
+        "e_t": [it[1] for it in points],
+    }
+    found = brinell.fit(path, table, "friction")
+    assert found.values["friction.coefficient"] == pytest.approx(0.092, abs=0.004)
+
+
+def test_rebound_hardness_devices_need_more_than_a_third_of_the_hardness(tmp_path):
+    """As data/experiment/README.md says: 1.24 to 1.32 times HV/3, with the law brinell."""
+    path = tmp_path / "leeb.toml"
+    path.write_text(
+        'name = "leeb"\nimpact = { mass = "5.45 g", speed = 2.05 }\n'
+        "impactor = { radius = 1.5e-3, youngs_modulus = 620e9, poissons_ratio = 0.22 }\n"
+        "target = { youngs_modulus = 210e9, poissons_ratio = 0.3, yield_strength = 1e9 }\n"
+    )
+    rows = np.loadtxt(DATA / "leeb_restitution.csv", delimiter=",", skiprows=1)
+    for restitution, hardness in rows[[3, 9]]:
+        found = brinell.fit(path, {"speed": [2.05], "restitution": [restitution]})
+        (estimate,) = found.estimates
+        assert 1.23 < estimate.value / (hardness * 9.80665e6 / 3.0) < 1.33
+        assert "without an interval: 1 points for 1 parameters" in estimate.doubt
+
+
 # readings
 
 
@@ -248,10 +287,10 @@ def test_a_scene_with_a_hardness_keeps_the_rate_that_comes_with_it(scene, tmp_pa
     found = brinell.fit(start, {"speed": speeds, "restitution": values})
     close(found.values["target.yield_strength"], 550.5e6, 0.05)
     fitted = tmp_path / "fitted.toml"
-    assert "hardness" not in found.scene(fitted).split("name =")[1]
+    text = found.scene(fitted).split("name =")[1]
+    assert "hardness" not in text and '"c" = 0.014' in text and '"reference_rate" = 0.001' in text
     for speed, value in zip(speeds, values, strict=True):
-        # one strength for the strains of all three; without the rate, the first would be 5 % off
-        close(brinell.predict(fitted, speed=speed).restitution, value, 0.02)
+        close(brinell.predict(fitted, speed=speed).restitution, value, 0.025)
 
 
 # choices
@@ -265,7 +304,10 @@ def test_bounds_hold_a_parameter_and_fit_the_others_again(scene):
     strength, hardening = found.estimates
     assert hardening.value == 2e9 and "above 2 GPa, the bound" in hardening.doubt
     close(strength.value, alone.estimates[0].value, 1e-6)
-    close(strength.interval, alone.estimates[0].interval, 1e-4)
+    # less hardening, which the bound allows, is made up for by more strength
+    sure = alone.estimates[0].interval
+    close(strength.interval[0], sure[0], 1e-3)
+    assert strength.interval[1] > sure[1]
 
 
 def test_a_prior_decides_where_the_points_do_not(scene):

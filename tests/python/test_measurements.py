@@ -104,7 +104,7 @@ def test_what_is_read_and_what_is_not_is_said(tmp_path):
     )
     words = said(found)
     for expected in (
-        "1 lines before the heading in line 2 were passed over",
+        "Before the heading in line 2, 1 line was passed over",
         "separated by semicolons, with a decimal comma",
         "`speed [mm/s]` is speed in mm/s",
         "`e` is restitution",

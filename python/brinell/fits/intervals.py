@@ -6,7 +6,10 @@ is the estimate plus and minus the quantile of Student's t distribution times th
 (G. A. F. Seber, C. J. Wild, *Nonlinear Regression*, Wiley 1989, sections 2.1 and 5.1).
 
 Near a bound: the unified interval of G. J. Feldman and R. D. Cousins, *Phys. Rev. D* 57 (1998)
-3873-3889, section IV.B, which becomes one-sided by itself; its tails are taken of Student's t.
+3873-3889, section IV.B, which becomes one-sided by itself; its tails are taken of Student's t. The
+interval of another parameter contains the values for which the best fit within all bounds has a sum of
+squares that is larger by no more than `s^2 t^2` (profile likelihood): with a parameter held at its bound,
+the others would seem surer than they are.
 
 Bootstrap: differences are drawn anew (in blocks, if they follow a trend), and the law is fitted to
 each draw by its expansion to second order; the interval is that of the studentised estimates
@@ -27,29 +30,52 @@ Function = Callable[[Numbers], Numbers]
 
 CONFIDENCE = 0.95
 """Confidence of the intervals."""
+FAR = 5.0
+"""Distance from a bound, in standard errors, at which it is of no account."""
 ITERATIONS = 6
 """Steps of a fit to a draw."""
 
 
 @dataclass(frozen=True)
 class Linear:
-    """The neighbourhood of an optimum. At a bound, a parameter is held there for all others."""
+    """The neighbourhood of an optimum within bounds."""
 
     at: Numbers
+    low: Numbers
+    high: Numbers
     free: NDArray[np.bool_]
     """Parameters that are not at a bound."""
     errors: Numbers
-    """Standard error of each parameter; NaN if the points give none."""
+    """Standard error of each parameter: of a free one with the others held at their bounds, of one at
+    a bound as if there were none; NaN if the points give none."""
     beyond: Numbers
-    """The optimum without bounds."""
+    """The optimum without bounds, of the parameters that are at one."""
     correlation: Numbers
     """Correlations of the free parameters."""
     freedom: int
-    """Degrees of freedom."""
+    """Degrees of freedom, of the free parameters."""
+    root: Numbers
+    """The upper triangle of the derivatives' QR decomposition, in units of the standard deviation of the
+    differences."""
+    rest: Numbers
+    """The differences in its basis, in the same units."""
+
+    def reach(self, index: int) -> float:
+        """Distance of a parameter from its nearest bound, in standard errors."""
+        room = min(self.beyond[index] - self.low[index], self.high[index] - self.beyond[index])
+        if not np.isfinite(room):
+            return np.inf
+        return float(room / self.errors[index]) if self.errors[index] > 0.0 else np.inf
 
 
 def linear(
-    at: Numbers, jacobian: Numbers, differences: Numbers, free: NDArray[np.bool_], freedom: int
+    at: Numbers,
+    jacobian: Numbers,
+    differences: Numbers,
+    free: NDArray[np.bool_],
+    freedom: int,
+    low: Numbers,
+    high: Numbers,
 ) -> Linear:
     """The neighbourhood of the optimum `at`."""
     count = len(at)
@@ -60,19 +86,19 @@ def linear(
         with np.errstate(invalid="ignore", divide="ignore"):
             spread = np.sqrt(np.diag(inner))
             correlation = inner / np.outer(spread, spread)
-        if freedom > 0:
-            errors[free] = spread * np.sqrt(np.sum(differences**2) / freedom)
+    size = float(np.sqrt(np.sum(differences**2) / freedom)) if freedom > 0 else np.nan
+    if inner is not None:
+        errors[free] = spread * size
     whole = _inverse(jacobian)
-    held = freedom - np.count_nonzero(~free)
     if whole is not None and not np.all(free):
-        step = -whole @ (jacobian.T @ differences)
-        beyond = at + np.where(free, 0.0, step)
-        left = differences + jacobian @ step
-        if held > 0:
-            size = np.sqrt(np.sum(left**2) / held)
-            with np.errstate(invalid="ignore"):
-                errors[~free] = size * np.sqrt(np.diag(whole))[~free]
-    return Linear(at, free, errors, beyond, correlation, freedom)
+        beyond = at - np.where(free, 0.0, whole @ (jacobian.T @ differences))
+        with np.errstate(invalid="ignore"):
+            errors[~free] = size * np.sqrt(np.diag(whole))[~free]
+    basis, root = np.linalg.qr(jacobian)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        rest = basis.T @ differences / size
+        root = root / size
+    return Linear(at, low, high, free, errors, beyond, correlation, freedom, root, rest)
 
 
 def _inverse(jacobian: Numbers) -> Numbers | None:
@@ -82,24 +108,64 @@ def _inverse(jacobian: Numbers) -> Numbers | None:
         return None
 
 
-def interval(near: Linear, index: int, low: float, high: float) -> tuple[float, float] | None:
-    """The interval of a parameter with these bounds; None if there is no standard error."""
+def interval(near: Linear, index: int) -> tuple[float, float] | None:
+    """The interval of a parameter; None if there is no standard error."""
     error, value = near.errors[index], near.beyond[index]
-    freedom = near.freedom - (0 if near.free[index] else int(np.count_nonzero(~near.free)))
+    low, high = near.low[index], near.high[index]
+    freedom = near.freedom
     if not (np.isfinite(error) and error > 0.0 and freedom > 0):
         return (value, value) if error == 0.0 else None
-    below, above = (value - low) / error, (high - value) / error
-    if below <= above:
-        first, last = _bounded(float(below), freedom)
-        found = (
-            (low + error * first, low + error * last)
-            if np.isfinite(low)
-            else _central(value, error, freedom)
+    if near.reach(index) < FAR:
+        if value - low <= high - value:
+            first, last = _bounded(float((value - low) / error), freedom)
+            return low + error * first, min(low + error * last, high)
+        first, last = _bounded(float((high - value) / error), freedom)
+        return max(high - error * last, low), high - error * first
+    others = [it for it in range(len(near.at)) if it != index]
+    if any(near.reach(it) < FAR for it in others):
+        ends = _profiled(near, index)
+        if ends is not None:
+            return ends
+    return _central(value, error, freedom)
+
+
+def _profiled(near: Linear, index: int) -> tuple[float, float] | None:
+    """The values of a parameter for which the others, within their bounds, explain the points almost as
+    well; None if the points don't tell."""
+    from scipy.optimize import brentq, lsq_linear
+
+    if not (np.all(np.isfinite(near.root)) and np.all(np.isfinite(near.rest))):
+        return None
+    others = [it for it in range(len(near.at)) if it != index]
+    room = near.low[others] - near.at[others], near.high[others] - near.at[others]
+    most = quantile(0.5 + 0.5 * CONFIDENCE, near.freedom) ** 2
+    least = float(np.sum(near.rest**2))
+
+    def excess(step: float) -> float:
+        right = -(near.rest + near.root[:, index] * step)
+        if len(others) == 1:
+            column = near.root[:, others[0]]
+            best = np.clip(column @ right / (column @ column), room[0][0], room[1][0])
+            left = float(np.sum((column * best - right) ** 2))
+        else:
+            left = 2.0 * float(lsq_linear(near.root[:, others], right, room, method="bvls").cost)
+        return left - least - most
+
+    whole = _inverse(near.root)
+    if whole is None:
+        return None
+    # beyond this, not even without bounds
+    far = np.sqrt(whole[index, index]) * np.sqrt(most + least)
+    far += abs(float((whole @ (near.root.T @ near.rest))[index]))
+    try:
+        first, last = (
+            sign * brentq(lambda it, s=sign: excess(s * it), 0.0, 1.01 * far)
+            for sign in (-1.0, 1.0)
         )
-    else:
-        first, last = _bounded(float(above), freedom)
-        found = (high - error * last, high - error * first)
-    return max(found[0], low), min(found[1], high)
+    except ValueError:
+        return None
+    value = near.at[index]
+    return max(value + first, near.low[index]), min(value + last, near.high[index])
 
 
 def _central(value: float, error: float, freedom: int) -> tuple[float, float]:
@@ -185,7 +251,7 @@ class Expansion:
         return found
 
 
-def expansion(function: Function, near: Linear, low: Numbers, high: Numbers) -> Expansion:
+def expansion(function: Function, near: Linear) -> Expansion:
     """The expansion of `function` within about a standard error of the optimum."""
     free = np.flatnonzero(near.free)
     start = function(near.at)
@@ -193,24 +259,13 @@ def expansion(function: Function, near: Linear, low: Numbers, high: Numbers) -> 
     slope = np.zeros((len(start), count))
     curvature = np.zeros((count, count, len(start)))
     steps = np.zeros((count, len(near.at)))
-    firsts = []
     for row, index in enumerate(free):
-        room = min(near.at[index] - low[index], high[index] - near.at[index])
         step = near.errors[index]
-        # to one side where the other is beyond a bound
-        one_sided = room < step
-        if one_sided and high[index] - near.at[index] < near.at[index] - low[index]:
-            step = -step
         steps[row, index] = step
         first = function(near.at + steps[row])
-        second = function(near.at + (2.0 if one_sided else -1.0) * steps[row])
-        firsts.append(first)
-        if one_sided:
-            slope[:, row] = (4.0 * first - 3.0 * start - second) / (2.0 * step)
-            curvature[row, row] = (second - 2.0 * first + start) / step**2
-        else:
-            slope[:, row] = (first - second) / (2.0 * step)
-            curvature[row, row] = (first - 2.0 * start + second) / step**2
+        second = function(near.at - steps[row])
+        slope[:, row] = (first - second) / (2.0 * step)
+        curvature[row, row] = (first - 2.0 * start + second) / step**2
     for row in range(count):
         for column in range(row):
             both = function(near.at + steps[row] + steps[column])
@@ -225,14 +280,12 @@ def bootstrap(
     expanded: Expansion,
     near: Linear,
     groups: Sequence[NDArray[np.int_]],
-    low: Numbers,
-    high: Numbers,
     *,
     draws: int,
     block: int,
     seed: int,
 ) -> list[tuple[float, float] | None]:
-    """The interval of each parameter; None for those at a bound.
+    """The interval of each parameter.
 
     `groups` are the indices of differences that may replace each other; the others (priors) are
     redrawn from the normal distribution. `block` is the number of neighbours that stay together.
@@ -243,7 +296,7 @@ def bootstrap(
     measured = np.concatenate(list(groups)) if groups else np.empty(0, dtype=int)
     prior = np.setdiff1d(np.arange(size), measured)
     widths = near.errors[free]
-    room = (low[free] - near.at[free], high[free] - near.at[free])
+    room = near.low[free] - near.at[free], near.high[free] - near.at[free]
     scale = np.sqrt(size / max(near.freedom, 1))
     found = np.full((draws, count), np.nan)
     for draw in range(draws):
@@ -272,7 +325,10 @@ def bootstrap(
             known, [0.5 + 0.5 * CONFIDENCE, 0.5 - 0.5 * CONFIDENCE], method="weibull"
         )
         ends = near.at[index] - widths[row] * np.array([first, last])
-        intervals[index] = (max(float(ends[0]), low[index]), min(float(ends[1]), high[index]))
+        intervals[index] = (
+            max(float(ends[0]), near.low[index]),
+            min(float(ends[1]), near.high[index]),
+        )
     return intervals
 
 

@@ -91,7 +91,7 @@ class Law:
         if self._forget_readings():
             self._open()
         self.law: str = loading or found.law
-        self.body = self._softer(path)
+        self.body = self._softer(path, fitted)
         own: dict[str, Any] = self._data[self.body]
         self.is_power_law = "power_law" in own and "yield_strength" not in own
         if (
@@ -139,13 +139,17 @@ class Law:
                 found = True
         return found
 
-    def _softer(self, path: str | Path) -> str:
+    def _softer(self, path: str | Path, fitted: set[str]) -> str:
         strengths = {
             body: self._starts[f"{body}.yield_strength"]
             for body in ("target", "impactor")
             if f"{body}.yield_strength" in self._starts
         }
+        self._yields = bool(strengths)
         if not strengths:
+            self._harder: list[str] = []
+            if fitted <= {"friction", "elastic_restitution", *INSTRUMENT}:
+                return "target"
             raise ValueError(
                 f"{path}: the law {self.law} doesn't yield: it has no parameter to fit"
             )
@@ -171,7 +175,7 @@ class Law:
 
     def _given(self) -> dict[str, float]:
         given = {name: 0.0 for name in INSTRUMENT} | {
-            "yield_strength": self._starts[self._name("yield_strength")],
+            "yield_strength": self._starts.get(self._name("yield_strength"), np.nan),
             "hardening_modulus": self._starts.get(self._name("hardening_modulus"), 0.0),
             "elastic_restitution": self._starts.get("elastic_restitution", 1.0),
             "friction": float(self._friction.get("coefficient", 0.0)),
@@ -322,7 +326,7 @@ class Law:
         """The scene of impacts with these values."""
         data = {**self._data, self.body: {**self._data[self.body]}}
         own = data[self.body]
-        if not self.is_power_law:
+        if self._yields and not self.is_power_law:
             own["yield_strength"] = flow["yield_strength"]
             own.pop("tangent_modulus", None)
             if self._name("hardening_modulus") in self._starts:

@@ -326,9 +326,10 @@ def _record(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measure
     part = parts(depth, force)
     order = np.arange(len(depth)) if part.any() else np.argsort(depth, kind="stable")
     if part.any():
-        count = np.count_nonzero(part)
+        unloadings = f"{part.max()} unloading" + ("s" if part.max() > 1 else "")
         notes.append(
-            f"The record has {part.max()} unloadings: {count} of {len(part)} points are used as such."
+            f"The record has {unloadings}: {np.count_nonzero(part)} of {len(part)} points are used as "
+            "such."
         )
     depth, force = depth[order], force[order]
     return Measured(

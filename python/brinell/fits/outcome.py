@@ -31,6 +31,8 @@ ROUNDING = 1e-14
 """A sum of squares that is rounding."""
 FEWEST_FOR_BOOTSTRAP = 8
 """Fewest degrees of freedom of a bootstrap: of fewer differences, draws repeat each other."""
+NEAR_BOUND = 3.0
+"""Distance from a bound, in standard errors, below which draws of the bootstrap pile up there."""
 USUAL_STRENGTHS = (1e6, 2e10)
 """Strengths [Pa] outside which a unit is probably wrong."""
 
@@ -52,12 +54,9 @@ def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
     trend = _trend(problem, flow)
     drawn = _drawn(problem, near, draws, seed, has_trend=trend is not None)
     said = _estimates(problem, near, found, drawn)
-    few = near.freedom < FEWEST_FOR_BOOTSTRAP
     notes = [
         _usual(problem, flow),
-        f"The bootstrap needs {FEWEST_FOR_BOOTSTRAP} points more than parameters."
-        if draws > 0 and few
-        else None,
+        _without_bootstrap(near) if draws > 0 else None,
         *_correlations(problem, near, said),
         *_priors(problem, near),
         _parts(problem, flow),
@@ -115,19 +114,28 @@ def _rms(differences: Numbers) -> float:
     return float(np.sqrt(np.nanmean(differences**2)))
 
 
+def _without_bootstrap(near: Linear) -> str | None:
+    """The reason why there is no bootstrap."""
+    if near.freedom < FEWEST_FOR_BOOTSTRAP:
+        return f"The bootstrap needs {FEWEST_FOR_BOOTSTRAP} points more than parameters."
+    if any(near.reach(it) < NEAR_BOUND for it in range(len(near.at))):
+        return f"The bootstrap needs parameters that are {NEAR_BOUND:g} standard errors from their bounds."
+    return None
+
+
 def _drawn(
     problem: Problem, near: Linear, draws: int, seed: int, *, has_trend: bool
 ) -> list[tuple[float, float] | None]:
     """The intervals of the bootstrap."""
     errors = near.errors[near.free]
-    usable = near.freedom >= FEWEST_FOR_BOOTSTRAP and bool(np.all(errors > 0.0))
+    usable = _without_bootstrap(near) is None and bool(np.all(errors > 0.0))
     if draws <= 0 or not usable or not np.all(np.isfinite(errors)):
         return [None] * len(near.at)
 
     def differences(variables: Numbers) -> Numbers:
         return problem.differences(problem.flow(variables))
 
-    expanded = intervals.expansion(differences, near, problem.low, problem.high)
+    expanded = intervals.expansion(differences, near)
     if not np.all(np.isfinite(expanded.curvature)):
         return [None] * len(near.at)
     # blocks as long as the cube root of the number of points, longer under a trend
@@ -136,8 +144,6 @@ def _drawn(
         expanded,
         near,
         problem.groups(),
-        problem.low,
-        problem.high,
         draws=draws,
         block=block,
         seed=seed,
@@ -153,7 +159,7 @@ def _estimates(
     estimates = []
     for index, name in enumerate(problem.names):
         one = parameter(name, problem.law.model)
-        interval = intervals.interval(near, index, problem.low[index], problem.high[index])
+        interval = intervals.interval(near, index)
         doubt = _doubt(problem, near, index, effects[index], interval)
         others = near.correlation[free == index][:, free != index]
         same = not bool(np.all(np.abs(others) < SAME))

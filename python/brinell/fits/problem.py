@@ -248,6 +248,5 @@ class Problem:
         # points that repeat others to the last digit don't tell how much a measurement scatters
         enough = self.points.different + len(self.priors) > np.count_nonzero(free)
         freedom = len(found.fun) - int(np.count_nonzero(free)) if enough else 0
-        return intervals.linear(
-            found.x, np.asarray(found.jac), np.asarray(found.fun), free, freedom
-        )
+        jacobian, left = np.asarray(found.jac), np.asarray(found.fun)
+        return intervals.linear(found.x, jacobian, left, free, freedom, self.low, self.high)

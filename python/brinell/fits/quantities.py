@@ -225,6 +225,11 @@ def shortened(text: str, most: int = 80) -> str:
     return text if len(text) <= most else text[:most] + "..."
 
 
+def counted(number: int, noun: str) -> str:
+    """`1 line was`, `2 lines were`."""
+    return f"{number} {noun} was" if number == 1 else f"{number} {noun}s were"
+
+
 def one_of(names: Iterable[str]) -> str:
     """`a, b or c`."""
     *first, last = names

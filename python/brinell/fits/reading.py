@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from .quantities import HARDNESS, is_unit, known, nearest, shortened
+from .quantities import HARDNESS, counted, is_unit, known, nearest, shortened
 
 MOST = 100_000
 """Largest number of rows."""
@@ -102,7 +102,7 @@ def _of_text(path: Path, text: str, decimal: Decimal | None) -> Rows:
     heading = _cells(cells, f"{path}:{number}", line)
     notes = []
     if at:
-        notes.append(f"{at} lines before the heading in line {number} were passed over.")
+        notes.append(f"Before the heading in line {number}, {counted(at, 'line')} passed over.")
     below = lines[at + 1 :]
     units = None
     if below:
@@ -300,7 +300,7 @@ def _of_excel(path: Path) -> Rows:
     notes = [f"The sheet {sheet} was read; others: {', '.join(map(str, set(sheets) - {sheet}))}."]
     notes = notes if len(sheets) > 1 else []
     if at:
-        notes.append(f"{at} rows before the heading in row {at + 1} were passed over.")
+        notes.append(f"Before the heading in row {at + 1}, {counted(at, 'row')} passed over.")
     below = [
         (f"{path}:{sheet}, row {at + 2 + offset}", [row[index] for index in kept])
         for offset, row in enumerate(rows[at + 1 :])
