@@ -1,6 +1,8 @@
 """Uncertainty forward: bands of predictions and studies."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import brinell
@@ -69,6 +71,15 @@ def test_a_study_spreads_around_each_value_that_varies():
     )
     assert np.all(table["restitution_low"] < table["restitution"])
     assert table["restitution_high"][0] < table["restitution_low"][1]
+
+
+def test_the_command_line_of_a_study_takes_spreads(tmp_path):
+    path = tmp_path / "x.csv"
+    call = [sys.executable, "-m", "brinell", "study", SCENE, "--vary", "speed=0.5:1:2", "--quiet"]
+    call += ["--uncertain", f"{STRENGTH}=8 %", "-o", path]
+    done = subprocess.run(list(map(str, call)), capture_output=True, encoding="utf-8", check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "restitution_low" in path.read_text().splitlines()[0]
 
 
 @pytest.mark.parametrize(

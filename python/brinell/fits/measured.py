@@ -178,7 +178,10 @@ def _used(rows: Rows, quantities: Mapping[str, Column]) -> list[str]:
     if speed is None or not results:
         names = " and ".join(one.heading for one in quantities.values())
         hint = ""
-        if results:
+        if {"depth", "force"} & {*quantities}:
+            other = "force" if "depth" in quantities else "depth"
+            hint = f"a record needs a {other}, too. "
+        elif results:
             hint = "impacts need a speed or a drop height. "
         elif speed is not None:
             hint = "impacts need a result, such as restitution or dent depth. "

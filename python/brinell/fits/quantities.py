@@ -80,7 +80,7 @@ QUANTITIES: Mapping[str, Quantity] = {
     "rebound_angle": Quantity("deg", ("rebound angle",), 90.0),
     "depth": Quantity("m", (
         "depth", "indentation", "displacement", "penetration", "penetration depth",
-        "indentation depth", "weg", "eindringtiefe"), 0.01),
+        "indentation depth", "extension", "stroke", "weg", "eindringtiefe"), 0.01),
     "force": Quantity("N", ("force", "load", "kraft", "prüfkraft", "standardkraft")),
     "hardness": Quantity("", ("hardness", "härte", "hv", "hbw", "hb", "hrc", "hrb", "hld")),
 }  # fmt: skip
