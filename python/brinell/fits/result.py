@@ -130,30 +130,14 @@ class Fit:
     def scene(self, path: str | Path | None = None) -> str:
         """The scene with the fitted numbers, ready to export; it is also written to `path`."""
         data = {**self.data}
-        body = self.body
-        own = {**data.get(body, {})}
         first = data.get("contact", [{}])[0]
         # a contact may have a body of its own
-        of_contact = {**first.get(body, {})}
-        place = of_contact if {"yield_strength", "hardness", "material"} & {*of_contact} else own
-        for name, value in self.flow.items():
-            fitted = any(
-                it.name.startswith(f"{body}.") and name in it.name for it in self.estimates
-            )
-            if name in ("yield_strength", "hardening_modulus") and fitted:
-                kept = without_readings(place)
-                place.clear()
-                place |= kept | {name: value}
-                if body in self.rates:
-                    place["rate"] = dict(self.rates[body])
-                if name == "hardening_modulus":
-                    place.pop("tangent_modulus", None)
-            if name == "rate" and fitted:
-                key = RATES[place["rate"]["model"]][0]
-                place["rate"] = {**place["rate"], key: value}
-        data[body] = own
-        if "contact" in data and of_contact:
-            data["contact"] = [{**first, body: of_contact}, *data["contact"][1:]]
+        of_contact = first.get(self.body, {})
+        if {"yield_strength", "hardness", "tensile_strength", "material"} & {*of_contact}:
+            own = {**first, self.body: self._body(of_contact)}
+            data["contact"] = [own, *data["contact"][1:]]
+        else:
+            data[self.body] = self._body(data.get(self.body, {}))
         law = {**data.get("law", {})}
         if self.law != "" and self.laws:
             loading, _, unloading = self.law.partition("/")
@@ -171,6 +155,24 @@ class Fit:
         if path is not None:
             Path(path).write_text(text, encoding="utf-8")
         return text
+
+    def _body(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """A body with the fitted numbers."""
+        fitted = {it.name.removeprefix(f"{self.body}.").split(".")[0] for it in self.estimates}
+        if not fitted & {"yield_strength", "hardening_modulus", "rate"}:
+            return {**given}
+        body = without_readings(given)
+        if "yield_strength" in fitted or len(body) < len(given):
+            body["yield_strength"] = self.flow["yield_strength"]
+        if self.body in self.rates:
+            body["rate"] = dict(self.rates[self.body])
+        if "hardening_modulus" in fitted:
+            body.pop("tangent_modulus", None)
+            body["hardening_modulus"] = self.flow["hardening_modulus"]
+        if "rate" in fitted:
+            key = RATES[body["rate"]["model"]][0]
+            body["rate"] = {**body["rate"], key: self.flow["rate"]}
+        return body
 
     def plot(self, path: str | Path | None = None) -> Any:
         """Draw measurement, scene and fit with matplotlib, and the differences below; return the
