@@ -102,8 +102,10 @@ def linear(
 
 
 def _inverse(jacobian: Numbers) -> Numbers | None:
+    """The inverse of `J^T J`, by a decomposition: products would lose half of the digits."""
     try:
-        return np.asarray(np.linalg.inv(jacobian.T @ jacobian))
+        root = np.linalg.inv(np.linalg.qr(jacobian, mode="r"))
+        return np.asarray(root @ root.T)
     except np.linalg.LinAlgError:
         return None
 
