@@ -45,7 +45,7 @@ CASES = {
     "three, at the bound": (
         RECORD, {"yield_strength": 300e6, "zero_point": 2e-6, "compliance": 0.0}, 5.0),
 }  # fmt: skip
-USUAL = ("one, of 8 rebounds", "two, at the bound", "three, away from the bound")
+USUAL = ("one, of 8 rebounds", "two, at the bound", "three, at the bound")
 
 
 @pytest.fixture(scope="module")
@@ -110,5 +110,8 @@ def test_intervals_contain_the_true_value_in_95_of_100_measurements(path, case):
     # two percent (four at and near a bound, where a profile may be too careful), and three standard
     # deviations of the binomial distribution
     bounded = "near" in case or "at the" in case
-    tolerance = max(0.04 if bounded else 0.02, 3.0 * np.sqrt(0.95 * 0.05 / count))
+    # (six for three of a loading alone, which hardly tells the compliance: the guide says so)
+    tolerance = max(
+        0.06 if "three" in case else 0.04 if bounded else 0.02, 3.0 * np.sqrt(0.95 * 0.05 / count)
+    )
     assert np.all(np.abs(found["linearised"] - 0.95) < tolerance), found
