@@ -164,7 +164,8 @@ def _profiled(near: Linear, index: int) -> tuple[float, float] | None:
             sign * brentq(lambda it, s=sign: excess(s * it), 0.0, 1.01 * far)
             for sign in (-1.0, 1.0)
         )
-    except ValueError:
+    except (ValueError, RuntimeError):
+        # parameters that can't be told apart: the interval has no end
         return None
     value = near.at[index]
     return max(value + first, near.low[index]), min(value + last, near.high[index])
