@@ -18,11 +18,13 @@ from .studies.plan import Range
 from .studies.study import study
 from .sweeps import curve, sweep
 from .translate import Translation, translate
+from .uncertainty import Bands
 from .version import version
 
 __version__ = version()
 
 __all__ = [
+    "Bands",
     "Contact",
     "ContactError",
     "ContactWarning",

@@ -1,4 +1,4 @@
-"""`python -m brinell study`, and every command of the exporter: if the folder of scripts is not on
+"""`python -m brinell study` and `fit`, and every command of the exporter: if the folder of scripts is not on
 PATH, `python -m brinell export scene.toml` is the same as `brinell export scene.toml`."""
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import ContactError, ProgramError
+from .fits import command_line
 from .program import program
 from .studies.study import study
 
@@ -59,6 +60,14 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         metavar="NAME=VALUE",
         help="a parameter for all runs",
     )
+    add(
+        "--uncertain",
+        type=_pair,
+        action="append",
+        default=[],
+        metavar="NAME=SPREAD",
+        help="a standard deviation ('5 %%', '10 MPa'); bands of the results follow",
+    )
     add("--mass", help="effective mass [kg, or with a unit], instead of the scene's")
     add("--speed", help="closing speed [m/s, or with a unit], instead of the scene's")
     add(
@@ -73,16 +82,19 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--chunk", type=int, help="runs per task of a process")
     add("--scheduler", metavar="local|ADDRESS", help="use Dask, here or at tcp://HOST:PORT")
     add("--quiet", action="store_true", help="show no progress bar")
+    command_line.add_arguments(commands)
     return parser.parse_args(arguments)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status."""
     arguments = sys.argv[1:] if arguments is None else arguments
-    if arguments and arguments[0] not in ("study", "-h", "--help"):
+    if arguments and arguments[0] not in ("study", "fit", "-h", "--help"):
         return _exporter(arguments)
     given = _arguments(arguments)
     try:
+        if given.command == "fit":
+            return command_line.run(given)
         table = study(
             given.scene,
             dict(given.vary),
@@ -91,6 +103,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             mass=given.mass,
             speed=given.speed,
             parameters=dict(given.set),
+            uncertainty=dict(given.uncertain),
             output=given.output,
             workers=given.workers,
             chunk=given.chunk,
@@ -98,7 +111,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             progress=not given.quiet,
         )
     except ModuleNotFoundError as error:
-        more = "dask" if error.name in ("dask", "distributed") else "study"
+        more = "dask" if error.name in ("dask", "distributed") else given.command
         print(f"brinell: {error}: pip install 'brinell[{more}]'", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -5,10 +5,16 @@ from __future__ import annotations
 import html
 import math
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .uncertainty import Bands
 
 GRAVITY = 9.80665
 """Standard gravity [m/s^2]."""
-PREFIXES = {-12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+PREFIXES = {-15: "f", -12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+PREFIXED = ("m", "m/s", "N", "Pa", "s", "m/N", "J", "g")
+"""Units that take a prefix."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +53,8 @@ class Prediction:
     warnings: tuple[str, ...] = ()
     """What is doubtful: first numbers of the scene and of the call, then the validity of the law for
     this impact."""
+    bands: Bands | None = None
+    """The bands of the results, if an uncertainty was given."""
     notes: tuple[str, ...] = field(default=(), compare=False)
     """Remarks on the surface and on the accuracy of the laws that were asked for."""
 
@@ -104,17 +112,20 @@ class Prediction:
 
 
 def quantity(value: float, unit: str) -> str:
-    """A number with four significant digits and its SI unit with a prefix: `12.82 um`."""
+    """A number with four significant digits and its SI unit with a prefix: `12.82 um`; without one
+    where the unit takes none."""
     if unit == "kg":
         value, unit = 1e3 * value, "g"
     rounded = float(f"{value:.3e}")
     power = 0
-    if unit and rounded != 0.0 and math.isfinite(rounded):
+    if unit in PREFIXED and rounded != 0.0 and math.isfinite(rounded):
         power = 3 * (math.floor(math.log10(abs(rounded))) // 3)
-        power = max(-12, min(power, 12))
+        power = max(-15, min(power, 12))
     if unit == "g" and power >= 3:
         power, unit, value = power - 3, "kg", 1e-3 * value
     # no prefix makes a length, a speed or a time larger
-    if unit in ("m", "m/s", "s", "kg"):
+    if unit not in ("N", "Pa", "J", "g"):
         power = min(power, 0)
-    return f"{float(f'{value / 10.0**power:.3e}'):.12g} {PREFIXES[power]}{unit}".rstrip()
+    number = float(f"{value / 10.0**power:.3e}")
+    is_plain = number == 0.0 or 1e-3 <= abs(number) < 1e6
+    return f"{number:{'.12g' if is_plain else 'g'}} {PREFIXES[power]}{unit}".rstrip()

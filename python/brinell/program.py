@@ -9,13 +9,16 @@ import shutil
 import subprocess
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from .errors import ProgramError, ProgramWarning, missing, tell
 from .prediction import Prediction
 from .version import MODULE, installed
+
+if TYPE_CHECKING:
+    from .uncertainty import Spread
 
 __all__ = ["Prediction", "export", "predict", "program"]
 
@@ -115,6 +118,7 @@ def predict(
     speed: float | str | None = None,
     energy: float | str | None = None,
     drop_height: float | str | None = None,
+    uncertainty: Mapping[str, Spread] | None = None,
 ) -> Prediction: ...
 
 
@@ -138,13 +142,20 @@ def predict(
     speed: float | str | None = None,
     energy: float | str | None = None,
     drop_height: float | str | None = None,
+    uncertainty: Mapping[str, Spread] | None = None,
 ) -> Prediction | list[Prediction]:
     """Predict an impact on the first contact of a scene file.
 
     `mass` [kg] and one of `speed` [m/s], `energy` [J] and `drop_height` [m] replace those of the
     scene; texts such as "4 g" have another unit. With `laws` (names "LOADING" or
     "LOADING/UNLOADING", or "all"), the result is a list with a prediction for each law.
+
+    `uncertainty` maps "speed", "mass" and parameters of the scene to their spreads: a standard
+    deviation ("5 %", "10 MPa", a number in SI units), two ends of a range, or a distribution of
+    `scipy.stats`. The prediction then has `bands`: 95 % of 1024 draws are within.
     """
+    if uncertainty and laws is not None:
+        raise ValueError("uncertainty belongs to the scene's own law: leave laws out")
     given = {"mass": mass, "speed": speed, "energy": energy, "drop-height": drop_height}
     options = options_of(given, laws)
     text, doubts = of_scene("predict", scene, *options)
@@ -158,6 +169,12 @@ def predict(
         values["warnings"] = (*doubts, *law["warnings"])
         values["notes"] = tuple(data["notes"])
         predictions.append(Prediction(mass=data["mass"], speed=data["speed"], **values))
+    if uncertainty:
+        from .uncertainty import bands
+
+        first = predictions[0]
+        drawn = bands(scene, uncertainty, mass=first.mass, speed=first.speed)
+        return replace(first, bands=drawn)
     return predictions if laws is not None else predictions[0]
 
 

@@ -214,8 +214,7 @@ class Stepping:
         names, path = self._variables.masses, self._path
         if not names:
             raise ContactError(
-                f"mass = {mass} kg: {path} has no effective_mass; "
-                "[coupling] in its scene adds one"
+                f"mass = {mass} kg: {path} has no effective_mass; [coupling] in its scene adds one"
             )
         if not self._variables.mass_is_settable:
             raise ContactError(

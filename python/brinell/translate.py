@@ -8,8 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .program import Columns, _run
+from .program import of_scene
+
+Columns = dict[str, NDArray[np.float64]]
+"""Columns of a table by name."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +100,7 @@ def translate(
             raise TypeError(f"{name} = {value!r}: a number or a text is needed")
         if value is not None:
             options.append(f"--{name}={value if isinstance(value, str) else repr(float(value))}")
-    data = json.loads(_run("translate", scene, *options))
+    data = json.loads(of_scene("translate", scene, *options)[0])
     speeds = data["speeds"]
     known = {"tool", "title", "versions", "reference", "law", "mass", "speed"}
     return Translation(

@@ -37,7 +37,8 @@ pub fn unloading_with(name: &str) -> &'static str {
 /// The numbers of a table in a file, of the lines that begin with `start`; other cells are NaN.
 pub fn numbers(file: &str, start: &str) -> Vec<Vec<f64>> {
     let text = read(Path::new(file));
-    let rows = text.lines().skip(1).filter_map(|line| line.strip_prefix(start));
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    let rows = lines.skip(1).filter_map(|line| line.strip_prefix(start));
     rows.map(|line| line.split(',').map(|cell| cell.trim().parse().unwrap_or(f64::NAN)).collect()).collect()
 }
 

@@ -73,9 +73,13 @@ impl Fit {
     }
 }
 
+/// Points of the record up to the end of its first unloading.
+const FIRST: usize = 44;
+
 /// Depth \[m\] and force \[N\] to the end of the first unloading.
 fn record() -> Vec<(f64, f64)> {
-    numbers("data/experiment/indentation_record_start.csv", "").iter().map(|row| (1e-6 * row[0], row[1])).collect()
+    let rows = numbers("data/experiment/indentation_record.csv", "");
+    rows.iter().take(FIRST).map(|row| (1e-6 * row[0], row[1])).collect()
 }
 
 /// The indentation \[m\] under this force \[N\], on the loading curve.

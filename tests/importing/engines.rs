@@ -341,7 +341,13 @@ fn studies_run_completely_and_are_resumed() {
 
 #[test]
 fn fits_find_what_made_a_measurement() {
-    pytest(&["test_fit.py"], &["scipy", "matplotlib"], "fits");
+    let files = ["test_measurements.py", "test_fit.py", "test_fit_choices.py", "test_coverage.py"];
+    pytest(&files, &["scipy", "matplotlib", "pandas", "openpyxl", "pyarrow"], "fits");
+}
+
+#[test]
+fn uncertain_inputs_give_bands() {
+    pytest(&["test_uncertainty.py"], &["scipy", "pyarrow", "tqdm", "matplotlib"], "uncertainty");
 }
 
 #[test]

@@ -10,10 +10,8 @@ import brinell
 import matplotlib
 import numpy as np
 import pytest
-from brinell.fits.fit import _Problem
 from brinell.fits.law import LARGEST_RADIUS_RATIO, Law
-from brinell.fits.measured import Measured, measured
-from brinell.fits.result import quantity
+from brinell.fits.measured import measured
 
 matplotlib.use("Agg")
 
@@ -45,9 +43,7 @@ def scene(tmp_path):
 
 def rebounds(scene, speeds=SPEEDS, errors=0.0):
     """The program's restitutions, with errors."""
-    values = np.array(
-        [brinell.predict(scene, speed=speed).restitution for speed in speeds]
-    )
+    values = np.array([brinell.predict(scene, speed=speed).restitution for speed in speeds])
     # an elastic impact may exceed 1 by its rounding
     return {"speed": speeds, "restitution": np.minimum(values + errors, 1.0)}
 
@@ -62,171 +58,11 @@ def close(found, expected, tolerance):
     assert found == pytest.approx(expected, rel=tolerance)
 
 
-# what is read
-
-
-def read(tmp_path, text):
-    path = tmp_path / "m.csv"
-    path.write_bytes(text.encode())
-    return measured(path)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "speed,restitution\n2,0.5\n1,0.6\n",
-        "\ufeffspeed,restitution\n2,0.5\n1,0.6\n",
-        "# a drop test\nrestitution , speed [m/s]\r\n0.5, 2\n\n0.6, 1\n",
-        "Speed [mm/s],restitution\n2000,0.5\n1e3,0.6",
-        'speed_m_per_s,"restitution"\n"2",0.5\n1,0.6\n',
-    ],
-)
-def test_a_measurement_is_read_with_its_units_in_either_order(tmp_path, text):
-    found = read(tmp_path, text)
-    assert found.kind == "restitution"
-    assert (found.at.tolist(), found.values.tolist()) == ([1.0, 2.0], [0.6, 0.5])
-
-
-def test_a_loading_is_read_with_its_units(tmp_path):
-    found = read(tmp_path, "depth [um],force [kN]\n12,0.3\n")
-    assert found.kind == "force"
-    assert (found.at[0], found.values[0]) == (pytest.approx(12e-6, rel=1e-14), 300.0)
-    found = read(tmp_path, "indentation_m,force_N\n1e-6,2\n")
-    assert (found.at.tolist(), found.values.tolist()) == ([1e-6], [2.0])
-
-
-def test_a_table_is_a_measurement_too():
-    found = measured({"force [kN]": np.array([0.3, 0.2]), "depth [um]": [12.0, 8.0]})
-    assert found.values.tolist() == [200.0, 300.0] and found.at == pytest.approx(
-        [8e-6, 12e-6]
-    )
-    for table, words in [
-        (
-            {"depth": [1e-6, 2e-6], "force": [1.0, -2.0]},
-            "row 1, column 2: force = -2.0 must be",
-        ),
-        ({"depth": [1e-6], "force": [1.0, 2.0]}, "depth has 1 numbers, and force 2"),
-        ({"depth": [], "force": []}, "has 0 rows; allowed is 1 to 10000"),
-        (
-            {"depth": [1e-6], "force": [None]},
-            "row 0, column 2: force = `None` is no number",
-        ),
-        ({"depth": [1e-6]}, "`depth` has no comma"),
-        ({"speed": [1.0], "force": [1.0]}, "speed and force don't belong together"),
-    ]:
-        with pytest.raises(ValueError) as error:
-            measured(table)
-        assert words in str(error.value)
-
-
-def test_unloadings_of_a_record_are_left_out_and_counted():
-    """A ball of tungsten carbide on steel, every 20th point of a machine's record: unloadings were
-    once fitted as a first loading."""
-    found = measured(RECORD)
-    assert found.left_out > 20 and len(found.at) > 10
-    assert np.all(np.diff(found.at) > 0.0) and np.all(np.diff(found.values) > 0.0)
-
-
-@pytest.mark.parametrize(
-    "points",
-    [
-        "1,2\n2,5\n3,9",
-        "3,9\n2,5\n1,2",
-        "2,5\n1,2\n3,9",
-        "1,2\n2,5\n3,9\n1,2.1\n2,4.8\n3,8.9",
-    ],
-)
-def test_a_first_loading_in_any_order_and_of_several_specimens_is_kept(
-    tmp_path, points
-):
-    found = read(tmp_path, f"depth [um],force\n{points}\n")
-    assert found.left_out == 0 and len(found.at) == points.count(",")
-
-
-def test_points_of_an_unloading_are_left_out(tmp_path):
-    found = read(tmp_path, "depth [um],force\n1,2\n2,5\n3,9\n2.5,4\n2.9,8\n4,14\n")
-    assert (found.left_out, found.values.tolist()) == (2, [2.0, 5.0, 9.0, 14.0])
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        (
-            "",
-            ": the file is empty; expected a first line such as `speed [m/s], restitution`",
-        ),
-        ("speed,restitution\n", ": there are no numbers"),
-        (
-            "speed;restitution\n1;0.5\n",
-            ":1: `speed;restitution` has no comma; columns are separated by commas",
-        ),
-        ("speed,restitution,mass\n", ":1: `speed,restitution,mass` has 3 columns"),
-        (
-            "velocity,restitution\n",
-            ":1, column 1: no quantity is called `velocity`; expected",
-        ),
-        ("1.0,0.5\n", ":1, column 1: no quantity is called `1.0`"),
-        (
-            "speed [mph],restitution\n",
-            ":1, column 1: `mph` is no unit of speed; expected",
-        ),
-        (
-            "speed [m/s,restitution\n",
-            ":1, column 1: `speed [m/s` has no closing bracket",
-        ),
-        ("speed,restitution [%]\n", ":1, column 2: restitution has no unit, not `%`"),
-        ("speed,force\n", ":1: speed and force don't belong together"),
-        ("speed,speed\n", ":1: speed and speed don't belong together"),
-        (
-            "speed,restitution\n1,0.5\n2,half\n",
-            ":3, column 2: restitution = `half` is no number",
-        ),
-        (
-            "speed,restitution\n1,0.5\n1_0,0.5\n",
-            ":3, column 1: speed = `1_0` is no number",
-        ),
-        (
-            "speed,restitution\n1,0.5\n\n2,1.2\n",
-            ":4, column 2: restitution = 1.2 must be above 0 and at most 1",
-        ),
-        (
-            "# one\r\nspeed,restitution\r\n\r\n# two\r\n1,0.5\r\n\r\n2,2\r\n",
-            ":7, column 2: restitution",
-        ),
-        (
-            "speed,restitution\n0,0.5\n",
-            ":2, column 1: speed = 0 must be positive and finite",
-        ),
-        ("speed,restitution\nNaN,0.5\n", ":2, column 1: speed = NaN must be positive"),
-        ("speed,restitution\ninf,0.5\n", ":2, column 1: speed = inf must be positive"),
-        ("speed,restitution\n1\n", ":2: 1 numbers instead of two"),
-        ('speed,restitution\n"1,0.5\n', ":2: a quotation mark is not closed"),
-        ("depth,force\n1e-6,-3\n", ":2, column 2: force = -3 must be positive"),
-        ("depth,force\n,3\n", ":2, column 1: depth = `` is no number"),
-        ("depth,force\n" + "1,1\n" * 10_001, ":10002: there are more than 10000 rows"),
-    ],
-)
-def test_errors_name_the_line_and_the_column(tmp_path, text, words):
-    with pytest.raises(ValueError) as error:
-        read(tmp_path, text)
-    assert str(error.value).startswith(f"{tmp_path / 'm.csv'}{words}")
-
-
-def test_what_is_no_text_is_told(tmp_path):
-    (tmp_path / "m.csv").write_bytes(b"speed,restitution\n\xff\xfe\n")
-    with pytest.raises(ValueError, match="m.csv: the file is no text in UTF-8"):
-        measured(tmp_path / "m.csv")
-    with pytest.raises(FileNotFoundError):
-        measured(tmp_path / "nowhere.csv")
-
-
 # what is found
 
 
 @pytest.mark.parametrize("start", [20e6, 300e6, 5e9])
-def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(
-    scene, start
-):
+def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(scene, start):
     for strength in (50e6, 300e6, 2e9):
         found = brinell.fit(scene(start), rebounds(scene(strength)))
         (estimate,) = found.estimates
@@ -235,18 +71,12 @@ def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(
         close(estimate.value, strength, 1e-6)
         low, high = estimate.interval
         assert (
-            low <= strength * (1 + 1e-6)
-            and high >= strength * (1 - 1e-6)
-            and high / low < 1.0001
+            low <= strength * (1 + 1e-6) and high >= strength * (1 - 1e-6) and high / low < 1.0001
         )
-        assert found.rms < 1e-9 and found.count == 10
+        assert found.rms["restitution"] < 1e-9 and found.count == 10
         assert found.values == {"target.yield_strength": estimate.value}
         # 8 m/s make too wide a dent in the softest target
-        wide = [
-            note
-            for note in found.notes
-            if "at 1 of 10 points (speeds from 8 m/s" in note
-        ]
+        wide = [note for note in found.notes if "at 1 of 10 points (speeds from 8 m/s" in note]
         assert (len(found.notes), len(wide)) == ((1, 1) if strength < 100e6 else (0, 0))
 
 
@@ -257,11 +87,12 @@ def test_a_fit_finds_the_strength_of_a_loading_curve_and_its_hardening(scene):
     found = brinell.fit(start, points, BOTH)
     close(found.values["target.yield_strength"], 400e6, 1e-5)
     close(found.values["target.hardening_modulus"], 5e9, 1e-4)
-    assert found.points["fitted"] == pytest.approx(points["force"], rel=1e-6)
+    assert found.points["force, fitted"] == pytest.approx(points["force"], rel=1e-6)
     # the strength alone can't describe a target that hardens
     alone = brinell.fit(start, points)
     assert (
-        alone.values["target.yield_strength"] > 410e6 and alone.rms > 100.0 * found.rms
+        alone.values["target.yield_strength"] > 410e6
+        and alone.rms["force"] > 100.0 * found.rms["force"]
     )
     assert any("follow a trend" in note for note in alone.notes)
 
@@ -279,24 +110,20 @@ def test_a_fit_finds_the_constant_of_a_rate_model(scene):
 
 def test_planted_strength_and_rate_are_found_away_from_the_bound(scene):
     points = rebounds(scene(350e6, JOHNSON_COOK.format(0.03)))
-    found = brinell.fit(
-        scene(200e6, JOHNSON_COOK.format(0.0)), points, ("yield_strength", "rate")
-    )
+    found = brinell.fit(scene(200e6, JOHNSON_COOK.format(0.0)), points, ("yield_strength", "rate"))
     close(found.values["target.yield_strength"], 350e6, 1e-3)
     close(found.values["target.rate.c"], 0.03, 1e-2)
 
 
-@pytest.mark.parametrize(
-    "model", [JOHNSON_COOK.format(0.02), COWPER_SYMONDS.format(40.4)]
-)
+@pytest.mark.parametrize("model", [JOHNSON_COOK.format(0.02), COWPER_SYMONDS.format(40.4)])
 @pytest.mark.parametrize("name", ["yield_strength", "hardening_modulus"])
 def test_the_unit_and_the_program_give_the_same_numbers(scene, model, name):
     """With the scene's rate constant the FMU answers, with others the program."""
     points = measured({"speed": SPEEDS, "restitution": [0.5] * len(SPEEDS)})
-    law = Law(scene(300e6, model), points, None, hardens=True)
+    law = Law(scene(300e6, model), points, None, {"hardening_modulus"})
     flow = law.given | {name: 2.0 * law.given[name] + 1e8}
-    by_unit = law.values(points.at, flow)
-    by_program = [it.restitution for it in law._predicted(points.at, flow)]
+    by_unit = law.values(points, flow)["restitution"]
+    by_program = law._predicted(law._impacts_of(points), tuple(flow.items()))["restitution"]
     assert law._unit_follows and by_unit == pytest.approx(by_program, rel=1e-10)
 
 
@@ -307,10 +134,7 @@ def test_a_rate_constant_is_fitted_beside_a_power_law_and_beside_a_loss(scene):
         (power, steel),
         ("plate_thickness = 0.01\ndensity = 7850.0\n", None),
     ):
-        both = [
-            scene(300e6, more + JOHNSON_COOK.format(c), target=target)
-            for c in (0.04, 0.02)
-        ]
+        both = [scene(300e6, more + JOHNSON_COOK.format(c), target=target) for c in (0.04, 0.02)]
         found = brinell.fit(both[1], rebounds(both[0], (0.2, 1.0, 3.0)), "rate")
         close(found.values["target.rate.c"], 0.04, 1e-5)
 
@@ -324,9 +148,7 @@ def test_a_slow_loading_knows_neither_rate_nor_loss(scene):
 
 def test_the_softer_body_is_fitted_even_beyond_the_strength_of_the_other(scene):
     ball = ", youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength = {!r}"
-    points = rebounds(
-        scene(800e6, ball=", youngs_modulus = 206e9, poissons_ratio = 0.3")
-    )
+    points = rebounds(scene(800e6, ball=", youngs_modulus = 206e9, poissons_ratio = 0.3"))
     found = brinell.fit(scene(300e6, ball=ball.format(400e6)), points)
     close(found.values["target.yield_strength"], 800e6, 1e-6)
     # the ball yields first, and bulges as no plane does
@@ -335,49 +157,25 @@ def test_the_softer_body_is_fitted_even_beyond_the_strength_of_the_other(scene):
     close(found.values["impactor.yield_strength"], 800e6, 1e-6)
 
 
-@pytest.mark.parametrize(
-    "name", ["steel_ball", "mass_known", "rough_contacts", "two_contacts"]
-)
+@pytest.mark.parametrize("name", ["steel_ball", "mass_known", "rough_contacts", "two_contacts"])
 def test_scenes_of_every_kind_are_fitted(name):
     path = SCENES / f"{name}.toml"
     table = {"speed": [0.5, 1.0, 2.0]}
-    table["restitution"] = [
-        brinell.predict(path, speed=it).restitution for it in table["speed"]
-    ]
+    table["restitution"] = [brinell.predict(path, speed=it).restitution for it in table["speed"]]
     found = brinell.fit(path, table)
     (estimate,) = found.estimates
     close(estimate.value, estimate.scene, 1e-6)
-    assert found.rms_of_scene < 1e-9
+    assert found.rms_of_scene["restitution"] < 1e-9
 
 
 def test_another_mass_takes_the_place_of_the_scenes(scene):
     speeds = (0.2, 1.0, 3.0)
-    values = [
-        brinell.predict(scene(500e6), speed=it, mass=0.1).restitution for it in speeds
-    ]
-    found = brinell.fit(
-        scene(300e6), {"speed": speeds, "restitution": values}, mass=0.1
-    )
+    values = [brinell.predict(scene(500e6), speed=it, mass=0.1).restitution for it in speeds]
+    found = brinell.fit(scene(300e6), {"speed": speeds, "restitution": values}, mass=0.1)
     close(found.values["target.yield_strength"], 500e6, 1e-6)
 
 
 # how sure it is
-
-
-def test_the_interval_contains_the_true_strength_in_95_of_100_measurements(scene):
-    random, count, inside = np.random.default_rng(7), 200, 0
-    exact = measured(rebounds(scene(300e6), SPEEDS[:5]))
-    law = Law(scene(300e6), exact, None, hardens=False)
-    for _ in range(count):
-        values = exact.values + 0.01 * random.standard_normal(5)
-        problem = _Problem(
-            law, Measured(exact.kind, exact.at, values, 0), ["yield_strength"]
-        )
-        (estimate,), _note = problem.estimates(problem.solve())
-        low, high = estimate.interval
-        inside += low <= 300e6 <= high
-    # three standard deviations of the binomial distribution
-    assert abs(inside / count - 0.95) < 0.046
 
 
 def test_where_a_parameter_would_be_negative_the_others_are_fitted_again_with_zero(
@@ -392,13 +190,16 @@ def test_where_a_parameter_would_be_negative_the_others_are_fitted_again_with_ze
     alone = brinell.fit(scene(300e6), points)
     strength, hardening = both.estimates
     close(strength.value, 294.39e6, 1e-4)
-    close(strength.interval, (286.40e6, 302.60e6), 2e-4)
-    close(both.rms, 3.878, 2e-4)
-    close(both.rms_of_scene, 6.236, 2e-4)
-    assert (hardening.value, hardening.interval) == (0.0, None)
+    close(both.rms["force"], 3.878, 2e-4)
+    close(both.rms_of_scene["force"], 6.236, 2e-4)
+    low, high = hardening.interval
+    assert hardening.value == low == 0.0 and 0.0 < high < 0.05 * 206e9
     assert "the best value would be negative" in hardening.doubt
     close(strength.value, alone.estimates[0].value, 1e-6)
-    close(strength.interval, alone.estimates[0].interval, 1e-5)
+    # a hardening that the points allow makes the strength smaller, but not larger
+    sure = alone.estimates[0].interval
+    close(strength.interval[1], sure[1], 1e-4)
+    assert 0.8 * sure[0] < strength.interval[0] < sure[0]
 
 
 def test_a_rate_constant_that_would_be_negative_is_zero(scene):
@@ -413,7 +214,7 @@ def test_a_rate_constant_that_would_be_negative_is_zero(scene):
         alone.values["target.yield_strength"],
         1e-5,
     )
-    close(both.rms, alone.rms, 1e-6)
+    close(both.rms["restitution"], alone.rms["restitution"], 1e-6)
 
 
 def test_what_a_measurement_does_not_determine_is_said(scene):
@@ -449,7 +250,7 @@ def test_a_constant_above_those_of_scenes_is_no_value(scene):
     start = scene(30e6, JOHNSON_COOK.format(0.02))
     found = brinell.fit(start, rebounds(scene(3e9), (0.5, 1.0, 2.0)), "rate")
     (estimate,) = found.estimates
-    assert (estimate.value, estimate.interval) == (1.0, None)
+    assert estimate.value == estimate.interval[1] == 1.0
     assert "the best value would be above 1" in estimate.doubt
 
 
@@ -475,11 +276,7 @@ def test_points_that_repeat_each_other_give_no_interval(scene):
 )
 def test_points_too_wide_for_the_law_are_named(scene, kind, at, words):
     normal = scene(300e6)
-    notes = [
-        it
-        for it in brinell.fit(normal, kind(normal, at)).notes
-        if "effective radii" in it
-    ]
+    notes = [it for it in brinell.fit(normal, kind(normal, at)).notes if "effective radii" in it]
     assert [words in it for it in notes] == ([] if words is None else [True])
 
 
@@ -496,9 +293,7 @@ def test_what_a_scene_cannot_fit_is_rejected_with_the_reason(scene):
     speeds = {"speed": [1.0, 2.0], "restitution": [0.5, 0.4]}
     forces = {"depth [um]": [1.0, 10.0], "force": [10.0, 200.0]}
     steel = "youngs_modulus = 206e9\npoissons_ratio = 0.3\n"
-    power = scene(
-        0.0, "power_law = { coefficient = 700e6, exponent = 0.2 }", target=steel
-    )
+    power = scene(0.0, "power_law = { coefficient = 700e6, exponent = 0.2 }", target=steel)
     fit = functools.partial
     for call, words in [
         (
@@ -529,7 +324,7 @@ def test_what_a_scene_cannot_fit_is_rejected_with_the_reason(scene):
             "target.yield_strength follows from target.power_law",
         ),
         (
-            fit(brinell.fit, normal, {"depth": [1e-6, 1e7], "force": [1.0, 2.0]}),
+            fit(brinell.fit, normal, {"depth [m]": [1e-6, 1e7], "force": [1.0, 2.0]}),
             "can't be evaluated",
         ),
     ]:
@@ -547,75 +342,44 @@ def test_a_bad_scene_is_told_by_the_program(tmp_path):
 
 
 def test_the_guide_shows_what_its_code_prints_and_draws(tmp_path):
-    page = (SCENES.parent / "docs/guide/python.md").read_text(encoding="utf-8")
-    section = page.split("## Fits")[1]
-    code, text = (
-        section.split(f"```{it}\n")[1].split("```")[0] for it in ("python", "text")
-    )
-    (tmp_path / "scenes").symlink_to(SCENES)
-    environment = os.environ | {"MPLBACKEND": "Agg"}
+    page = (SCENES.parent / "docs/guide/fits.md").read_text(encoding="utf-8")
+    code, text = (page.split(f"```{it}\n")[1].split("```")[0] for it in ("python", "text"))
+    for name in ("scenes", "data"):
+        (tmp_path / name).symlink_to(SCENES.parent / name)
     printed = subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert (printed.stdout, printed.stderr, printed.returncode) == (text, "", 0)
     assert (tmp_path / "fit.svg").stat().st_size > 10_000
 
 
-def test_a_result_is_drawn(scene):
-    points = {
-        "depth [um]": [5.0, 10.0, 15.0, 20.0],
-        "force": [114.40, 257.01, 404.79, 558.65],
-    }
-    axes = brinell.fit(scene(300e6), points, BOTH).plot()
-    lines = {line.get_label(): line.get_xydata() for line in axes.get_lines()}
+def test_a_result_is_drawn_with_its_differences(scene):
+    points = {"depth [um]": [5.0, 10.0, 15.0, 20.0], "force": [114.40, 257.01, 404.79, 558.65]}
+    found = brinell.fit(scene(300e6), points, BOTH)
+    above, below = found.plot().get_axes()
+    lines = {line.get_label(): line.get_xydata() for line in above.get_lines()}
     assert lines["measured"] == pytest.approx(
         np.column_stack([points["depth [um]"], points["force"]])
     )
     assert set(lines) == {"measured", "law, scene", "law, fitted"}
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [um]", "force [N]")
-    # between measured points of a curve that the law fits
-    near = np.interp(12.0, *lines["law, fitted"].T)
-    assert near == pytest.approx(
-        np.interp(12.0, points["depth [um]"], points["force"]), rel=0.02
-    )
-    assert (
-        brinell.fit(scene(300e6), rebounds(scene(300e6))).plot().get_xscale() == "log"
-    )
+    assert (below.get_xlabel(), above.get_ylabel()) == ("depth [um]", "force [N]")
+    left = points["force"] - lines["law, fitted"][:, 1]
+    assert below.get_lines()[0].get_ydata() == pytest.approx(left)
+    speeds = brinell.fit(scene(300e6), rebounds(scene(300e6))).plot()
+    assert speeds.get_axes()[0].get_xscale() == "log"
 
 
-@pytest.mark.parametrize(
-    ("value", "unit", "words"),
-    [
-        (294.32e6, "Pa", "294.3 MPa"),
-        (999.96e6, "Pa", "1 GPa"),
-        (0.0, "Pa", "0 Pa"),
-        (5e-6, "m", "5 um"),
-        (1200.0, "m", "1200 m"),
-        (3.8671, "N", "3.867 N"),
-        (12473.58, "1/s", "12470 1/s"),
-        (1.5e7, "1/s", "1.5e+07 1/s"),
-        (0.00932, "", "0.00932"),
-    ],
-)
-def test_numbers_have_four_digits_and_a_prefix(value, unit, words):
-    assert quantity(value, unit) == words
-
-
-def test_the_record_of_a_machine_is_fitted_with_all_that_is_said_of_it(scene):
-    path = scene(300e6, ball=", youngs_modulus = 630e9, poissons_ratio = 0.21")
-    path.write_text(path.read_text().replace("radius = 5e-3", "radius = 0.5e-3"))
-    found = brinell.fit(path, RECORD, BOTH)
-    strength, hardening = found.estimates
-    close(strength.value, 1137.0e6, 1e-3)
-    close(found.rms, 38.13, 1e-3)
-    assert hardening.value < 1e-3 * 206e9 and (found.count, found.left_out) == (18, 36)
-    for words in (
-        "36 points without a greater depth",
-        "at 16 of 18 points",
-        "Durbin-Watson 0.49",
-    ):
-        assert words in str(found)
+def test_the_scene_of_a_result_predicts_what_was_fitted(scene, tmp_path):
+    points = rebounds(scene(350e6, JOHNSON_COOK.format(0.03)), SPEEDS[::3])
+    hard = 'hardness = "200 HBW 10/3000"\n'
+    steel = "youngs_modulus = 206e9\npoissons_ratio = 0.3\n"
+    # a hardness has the rate of its own test
+    own = 'rate = { model = "johnson-cook", c = 0.0 }'
+    start = scene(0.0, own, target=steel + hard)
+    found = brinell.fit(start, points, ("yield_strength", "rate"))
+    path = tmp_path / "fitted.toml"
+    text = found.scene(path)
+    assert "hardness" not in text.split("\n", 2)[2] and "# fitted: target.yield_strength" in text
+    again = [brinell.predict(path, speed=it).restitution for it in points["speed"]]
+    assert again == pytest.approx(points["restitution"], rel=1e-4)
+    assert brinell.export(path, tmp_path / "unit.fmu").exists()

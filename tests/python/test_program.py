@@ -79,6 +79,9 @@ def test_a_prediction_is_a_table_in_a_notebook_and_text_in_a_terminal():
         (0.0, "m", "0 m"),
         (0.44021, "", "0.4402"),
         (float("nan"), "s", "nan s"),
+        (999.96e6, "Pa", "1 GPa"),
+        (12473.58, "1/s", "12470 1/s"),
+        (1.5e7, "1/s", "1.5e+07 1/s"),
     ],
 )
 def test_quantities_in_words(value, unit, words):

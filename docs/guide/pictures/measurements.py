@@ -128,7 +128,6 @@ def dents(depths, diameters, scenes):
 
 def branches(columns):
     """Force and depth [um] of the loading and of the unloading that a curve begins with."""
-    columns = next(iter(columns.values()))
     depth, force = 1e6 * np.asarray(columns["indentation"]), np.asarray(columns["force"])
     top = np.argmax(np.diff(depth) < 0.0)
     bottom = top + np.argmax(np.diff(depth[top:]) > 0.0)
@@ -137,7 +136,8 @@ def branches(columns):
 
 def record(axes, scenes):
     """What the best fit of each law leaves of the record of an indentation: strength, zero point and compliance are free."""
-    depth, force = table("indentation_record_start.csv")
+    # to the end of the first unloading
+    depth, force = table("indentation_record.csv")[:, :44]
     last = np.argmax(force)
 
     def left_over(law, strength):

@@ -1,16 +1,18 @@
-"""The law of a scene's first contact, with other strengths, hardening moduli and rate constants.
+"""The law of a scene's first contact, with other numbers than the scene's.
 
-Numbers come from an FMU of the scene, whose parameters are set. The constants of a strain rate are
-no parameters of an FMU: with others than the scene's, the program predicts each impact.
+Numbers come from an FMU of the scene, whose parameters are set: 20 to 50 us for a point. What an FMU
+has not (the constants of a strain rate, contact times, oblique impacts) the program predicts: some
+5 ms for an impact. Zero point, preload and compliance of a machine are computed here.
 """
 
 from __future__ import annotations
 
+import json
 import tempfile
 import warnings
-from bisect import bisect_left
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -20,55 +22,81 @@ from numpy.typing import NDArray
 from ..contact import Contact
 from ..errors import ContactError, ProgramError
 from ..library import Library
-from ..program import Prediction, export, predict, tables
+from ..program import export, predict, run, tables
 from ..studies.impacts import impact
-from ..studies.scene import of_impacts, toml
+from ..studies.scene import OUTPUTS, of_impacts, toml
+from ..sweeps import sweep
 from .measured import Measured
+from .parameters import DEFAULTS, INSTRUMENT, RATES
 
 Flow = Mapping[str, float]
-"""Yield strength [Pa], hardening modulus [Pa] and rate constant of the softer body, by the names
-`PARAMETERS`."""
+"""Values of parameters in SI units, by the names `PARAMETERS`; strength, hardening and rate are
+those of the softer body."""
 Numbers = NDArray[np.float64]
 
-PARAMETERS = ("yield_strength", "hardening_modulus", "rate")
-"""What can be fitted."""
-RATES = {"johnson-cook": ("c", ""), "cowper-symonds": ("d", "1/s")}
-"""The constant of each rate model that can be fitted, with its unit."""
 LARGEST_RADIUS_RATIO = 0.3
 """Contact radius over effective radius up to which laws are valid: that of FMUs and the program."""
 UNYIELDING = 1e18
 """Strength [Pa] of a body that is not fitted: the largest of an FMU. The fitted body stays the
 softer one."""
+RATE_OF_TESTS = 1e-3
+"""Strain rate [1/s] of hardness and tensile tests, as the program takes it."""
+C_OF_STEEL = 0.014
+"""The constant that the program takes for steel without a rate: AISI 4340, Johnson and Cook 1983."""
+OBLIQUE = {"tangential_restitution", "rebound_angle"}
 
 
 class Law:
     """The law of the first contact of a scene file, for one measurement.
 
-    `mass` [kg] replaces that of the scene's impact. `hardens` is whether the hardening modulus must
-    be settable, although the scene gives none.
+    `mass` [kg] replaces that of the scene's impact, where the measurement has none. `fitted` are
+    the parameters that must be settable, although the scene gives none. `loading` replaces the
+    loading law of the scene, "LOADING" or "LOADING/UNLOADING".
     """
 
     def __init__(
-        self, path: str | Path, points: Measured, mass: float | None, *, hardens: bool
+        self,
+        path: str | Path,
+        points: Measured,
+        mass: float | None,
+        fitted: set[str],
+        loading: str | None = None,
     ) -> None:
-        self._of_impacts = points.kind == "restitution"
+        self.points, self._path = points, path
+        self.rates: dict[str, dict[str, Any]] = {}
+        """The strain rates of bodies whose strength was read from a test, with all their numbers."""
+        self._of_impacts = points.kind == "impacts"
+        speed = float(points.arguments["speed"][0]) if self._of_impacts else None
+        if "mass" in points.arguments:
+            mass = float(points.arguments["mass"][0])
         # the program knows the mass of a solid ball, and tells what is wrong with a scene
-        found = predict(path, mass=mass, speed=float(points.at[0]) if self._of_impacts else None)
+        found = predict(path, mass=mass, speed=speed)
         self._mass = found.mass
-        data = tables(path)
-        # all impacts are along the normal
-        data.pop("friction", None)
+        self.scene = tables(path)
+        data = {**self.scene}
+        if loading is not None:
+            data["law"] = _with_loading(data.get("law", {}), loading)
+        self._friction = {**data.pop("friction", {})}
+        if "elastic_restitution" in fitted:
+            data["law"] = {"elastic_restitution": DEFAULTS["elastic_restitution"]} | {
+                key: it
+                for key, it in data.get("law", {}).items()
+                if key != "elastic_restitution" or not isinstance(it, str)
+            }
         self._data = of_impacts(data, self._mass) if self._of_impacts else _slow(data)
+        if self._of_impacts:
+            self._data["fmu"] = {"outputs": [*OUTPUTS, "contact_radius"]}
         losses = {"elastic_restitution"} & {*self._data.get("law", ())}
         self._is_lossy = bool(losses | ({"plate_thickness"} & {*self._data["target"]}))
         self._open()
         if self._forget_readings():
             self._open()
-        self.body = self._softer(path, found.law)
+        self.law: str = loading or found.law
+        self.body = self._softer(path, fitted)
         own: dict[str, Any] = self._data[self.body]
         self.is_power_law = "power_law" in own and "yield_strength" not in own
         if (
-            hardens
+            "hardening_modulus" in fitted
             and not self.is_power_law
             and self._name("hardening_modulus") not in self._starts
         ):
@@ -81,6 +109,9 @@ class Law:
         self.given = self._given()
         # an FMU finds anew in each impact neither a power law nor a rate beside another loss
         self._unit_follows = not self.is_power_law and not (self.model and self._is_lossy)
+        self._predicts = lru_cache(maxsize=64)(self._predicted)
+
+    # the scene
 
     def _open(self) -> None:
         """Export the FMU, and make its instance."""
@@ -95,27 +126,34 @@ class Law:
         self._contact = Contact(library)
 
     def _forget_readings(self) -> bool:
-        """Put the strength of the scene in place of a hardness, a tensile strength or that of a material,
-        since a strength is fitted; return whether there was one."""
-        readings = {"hardness", "tensile_strength", "hardening_exponent"}
+        """Put the strength of the scene in place of a hardness, a tensile strength or that of a
+        material, since a strength is fitted; return whether there was one."""
         found = False
         for body in ("impactor", "target"):
-            table = self._data[body]
             strength = self._starts.get(f"{body}.yield_strength")
-            if strength is not None and not {"yield_strength", "power_law"} & {*table}:
-                kept = {key: it for key, it in table.items() if key not in readings}
-                self._data[body] = kept | {"yield_strength": strength}
+            if strength is not None and not {"yield_strength", "power_law"} & {*self._data[body]}:
+                self.rates |= _rates_of_readings(self._data[body], body, self._path)
+                kept = without_readings(self._data[body]) | {"yield_strength": strength}
+                if self._of_impacts and body in self.rates:
+                    kept["rate"] = self.rates[body]
+                self._data[body] = kept
                 found = True
         return found
 
-    def _softer(self, path: str | Path, law: str) -> str:
+    def _softer(self, path: str | Path, fitted: set[str]) -> str:
         strengths = {
             body: self._starts[f"{body}.yield_strength"]
             for body in ("target", "impactor")
             if f"{body}.yield_strength" in self._starts
         }
+        self._yields = bool(strengths)
         if not strengths:
-            raise ValueError(f"{path}: the law {law} doesn't yield: it has no parameter to fit")
+            self._harder: list[str] = []
+            if fitted <= {"friction", "elastic_restitution", *INSTRUMENT}:
+                return "target"
+            raise ValueError(
+                f"{path}: the law {self.law} doesn't yield: it has no parameter to fit"
+            )
         # at equal strengths the target, as in an FMU
         softer = min(strengths, key=lambda body: strengths[body])
         self._harder = [body for body in strengths if body != softer]
@@ -125,19 +163,23 @@ class Law:
         return f"{self.body}.{parameter}"
 
     def name(self, parameter: str) -> str:
-        """The name of a parameter in the scene."""
-        return self._name(
-            f"rate.{RATES[self.model][0]}" if parameter == "rate" and self.model else parameter
-        )
-
-    def unit(self, parameter: str) -> str:
-        """Its SI unit."""
-        return RATES[self.model][1] if parameter == "rate" and self.model else "Pa"
+        """The name of a parameter in the scene, or of one of the instrument."""
+        if parameter in INSTRUMENT:
+            return f"instrument.{parameter}"
+        if parameter == "elastic_restitution":
+            return "law.elastic_restitution"
+        if parameter == "friction":
+            return "friction.coefficient"
+        if parameter == "rate" and self.model:
+            return self._name(f"rate.{RATES[self.model][0]}")
+        return self._name(parameter)
 
     def _given(self) -> dict[str, float]:
-        given = {
-            "yield_strength": self._starts[self._name("yield_strength")],
+        given = {name: 0.0 for name in INSTRUMENT} | {
+            "yield_strength": self._starts.get(self._name("yield_strength"), np.nan),
             "hardening_modulus": self._starts.get(self._name("hardening_modulus"), 0.0),
+            "elastic_restitution": self._starts.get("elastic_restitution", 1.0),
+            "friction": float(self._friction.get("coefficient", 0.0)),
         }
         if self.model:
             given["rate"] = float(self._data[self.body]["rate"][RATES[self.model][0]])
@@ -156,95 +198,244 @@ class Law:
         )
 
     @property
-    def _radius(self) -> float:
+    def radius(self) -> float:
         """Effective radius [m]: `1/R = sum of 1/R_i`; a target without a radius is flat."""
         radii = (f"{body}.radius" for body in ("impactor", "target"))
         return 1.0 / sum(1.0 / self._starts[name] for name in radii if name in self._starts)
 
-    def values(self, at: Numbers, flow: Flow) -> Numbers:
-        """Restitutions at closing speeds [m/s], or forces [N] of a slow first loading to depths
-        [m]; NaN beyond the range of the law."""
-        if not self._of_impacts:
-            return self._by_unit(at, flow, self._force)
-        if self._unit_follows and flow.get("rate") == self.given.get("rate"):
-            return self._by_unit(at, flow, self._restitution)
-        return np.array(
-            [np.nan if it is None else it.restitution for it in self._predicted(at, flow)]
-        )
+    # values
 
-    def outside(self, at: Numbers, flow: Flow) -> Numbers:
-        """Those of the ascending arguments `at` whose contact is wider than laws are valid."""
-        if not self._of_impacts:
-            radii = self._by_unit(
-                at, flow, lambda depth, own: self._force(depth, own, "contact_radius")
-            )
-            return at[radii > LARGEST_RADIUS_RATIO * self._radius]
-
-        def is_wide(speed: float) -> bool:
-            it = self._predicted(np.array([speed]), flow)[0]
-            return it is None or it.largest_contact_radius > LARGEST_RADIUS_RATIO * self._radius
-
-        # the faster an impact, the wider its contact
-        return at[bisect_left(at.tolist(), True, key=is_wide) :]
-
-    def _by_unit(
-        self, at: Numbers, flow: Flow, value: Callable[[float, dict[str, float]], float]
-    ) -> Numbers:
-        names = [name for name in PARAMETERS if self._name(name) in self._starts]
-        own = {self._name(name): flow[name] for name in names}
-        own |= {f"{body}.yield_strength": UNYIELDING for body in self._harder}
-        found = np.full(len(at), np.nan)
+    def values(self, points: Measured, flow: Flow) -> dict[str, Numbers]:
+        """What the law says instead of each result of these points; NaN beyond its range."""
+        if points.kind == "hardness":
+            return {"flow_stress": np.full(points.count, flow["yield_strength"])}
         with warnings.catch_warnings():
             # trial values may be implausible; points outside the validity are told at the end
             warnings.simplefilter("ignore")
-            for index, argument in enumerate(at.tolist()):
-                try:
-                    found[index] = value(argument, own)
-                except ContactError:
-                    pass
+            if points.kind == "record":
+                return {"force": self._recorded(points, flow)[0]}
+            return self._impacts(points, flow)
+
+    def outside(self, points: Measured, flow: Flow) -> NDArray[np.bool_]:
+        """Which of the points have a contact that is wider than laws are valid."""
+        if points.kind == "hardness":
+            return np.zeros(points.count, dtype=bool)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            if points.kind == "record":
+                radii = self._recorded(points, flow)[1]
+            else:
+                radii = 0.5 * self._by_unit(points, flow, ("dent_diameter",))["dent_diameter"]
+        # beyond the range of the law, nothing is known
+        return ~(radii <= LARGEST_RADIUS_RATIO * self.radius)
+
+    def _own(self, flow: Flow) -> dict[str, float]:
+        """The parameters of the FMU."""
+        names = ("yield_strength", "hardening_modulus")
+        own = {self._name(it): flow[it] for it in names if self._name(it) in self._starts}
+        if "elastic_restitution" in self._starts and "elastic_restitution" in flow:
+            own["elastic_restitution"] = flow["elastic_restitution"]
+        return own | {f"{body}.yield_strength": UNYIELDING for body in self._harder}
+
+    def _recorded(self, points: Measured, flow: Flow) -> tuple[Numbers, Numbers]:
+        """The force that the machine would record at each depth, and the contact radius.
+
+        The bodies are pressed in by `depth + zero_point - compliance (force + preload)`. The force
+        within the bracket is the recorded one; one step of Newton's method, by the stiffness of the
+        contact, turns it into that of the law.
+        """
+        depth, force = points.arguments["depth"], points.arguments["force"]
+        preload, compliance = flow["preload"], flow["compliance"]
+        pressed = depth + flow["zero_point"] - compliance * (force + preload)
+        own, count = self._own(flow), len(depth)
+        found, radius = np.full(count, np.nan), np.full(count, np.nan)
+        stiffness = np.zeros(count)
+        contact, deepest, at, before = self._contact, -np.inf, 0.0, 0
+        for index, (part, now) in enumerate(
+            zip(points.part.tolist(), pressed.tolist(), strict=True)
+        ):
+            try:
+                if part == 0:
+                    # bodies that start pressed in are on the loading curve
+                    contact.reset(initial_gap=-now, parameters=own)
+                    deepest = max(deepest, now)
+                else:
+                    if before != part:
+                        contact.reset(initial_gap=-max(deepest, now), parameters=own)
+                        at = max(deepest, now)
+                    # each step of a second is one of the record
+                    contact.step(1.0, now - at)
+                    at = now
+                before = part
+                found[index] = contact["force"]
+                radius[index] = contact["contact_radius"]
+                if compliance != 0.0:
+                    stiffness[index] = contact["stiffness"]
+            except ContactError:
+                before = -1
+        recorded = force + (found - force - preload) / (1.0 + stiffness * compliance)
+        return recorded, radius
+
+    def depths(self, forces: Numbers, flow: Flow) -> Numbers:
+        """The depths [m] of a first loading at these forces [N], by interpolation: a start."""
+        grid = self.radius * np.geomspace(1e-6, 0.5, 60)
+        line = Measured("record", {"depth": grid, "force": 0.0 * grid}, {}, np.zeros(60, dtype=int))
+        plain = {**flow} | {name: 0.0 for name in INSTRUMENT}
+        values = self.values(line, plain)["force"]
+        known = np.isfinite(values)
+        found: Numbers = np.interp(forces, values[known], grid[known])
         return found
 
-    def _force(self, depth: float, own: dict[str, float], output: str = "force") -> float:
-        # bodies that start pressed in are on the loading curve
-        self._contact.reset(initial_gap=-depth, parameters=own)
-        return float(self._contact[output])
+    def _impacts(self, points: Measured, flow: Flow) -> dict[str, Numbers]:
+        names = tuple(points.results)
+        oblique = tuple(it for it in names if it in OBLIQUE)
+        normal = tuple(it for it in names if it not in OBLIQUE)
+        found = self._oblique(points, flow, oblique) if oblique else {}
+        if not normal:
+            return found
+        follows = self._unit_follows and flow.get("rate") == self.given.get("rate")
+        if not follows or "contact_time" in normal or (self.model and normal != ("restitution",)):
+            columns = self._predicts(self._impacts_of(points), tuple(sorted(flow.items())))
+            return found | {name: columns[name] for name in normal}
+        return found | self._by_unit(points, flow, normal)
 
-    def _restitution(self, speed: float, own: dict[str, float]) -> float:
-        return impact(self._contact, {"speed": speed, "mass": self._mass, **own})[0]
+    def _impacts_of(self, points: Measured) -> tuple[tuple[float, float], ...]:
+        masses = points.arguments.get("mass", np.full(points.count, self._mass))
+        # the speed of a sweep over angles is that along the path
+        angles = np.radians(points.arguments.get("angle", np.zeros(points.count)))
+        speeds = points.arguments["speed"] * np.cos(angles)
+        return tuple(zip(masses.tolist(), speeds.tolist(), strict=True))
 
-    def _predicted(self, speeds: Numbers, flow: Flow) -> list[Prediction | None]:
-        """The program's predictions; None beyond the range of the law."""
+    def _by_unit(self, points: Measured, flow: Flow, names: tuple[str, ...]) -> dict[str, Numbers]:
+        found = {name: np.full(points.count, np.nan) for name in names}
+        own = self._own(flow)
+        for index, (mass, speed) in enumerate(self._impacts_of(points)):
+            try:
+                results = impact(self._contact, {"speed": speed, "mass": mass, **own})
+                one = {"restitution": results[0], "dent_depth": results[3]}
+                if {"dent_diameter", "largest_force"} & {*names}:
+                    self._contact.reset(initial_gap=-results[2], parameters=own)
+                    one["largest_force"] = self._contact["force"]
+                    one["dent_diameter"] = 2.0 * self._contact["contact_radius"]
+            except ContactError:
+                continue
+            for name in names:
+                found[name][index] = one[name]
+        return found
+
+    def changed(self, flow: Flow) -> dict[str, Any]:
+        """The scene of impacts with these values."""
         data = {**self._data, self.body: {**self._data[self.body]}}
         own = data[self.body]
-        if not self.is_power_law:
+        if self._yields and not self.is_power_law:
             own["yield_strength"] = flow["yield_strength"]
             own.pop("tangent_modulus", None)
             if self._name("hardening_modulus") in self._starts:
                 own["hardening_modulus"] = flow["hardening_modulus"]
         if self.model:
             own["rate"] = own["rate"] | {RATES[self.model][0]: flow["rate"]}
+        if "elastic_restitution" in self._starts:
+            data["law"] = data["law"] | {"elastic_restitution": flow["elastic_restitution"]}
         for body in self._harder:
             kept = {key: it for key, it in data[body].items() if key not in ("rate", "power_law")}
             data[body] = kept | {"yield_strength": UNYIELDING}
+        return data
+
+    def _each(
+        self,
+        data: Mapping[str, Any],
+        one: Callable[[Path, int], list[float]],
+        count: int,
+        width: int,
+    ) -> Numbers:
+        """A row of numbers for each impact of a scene, by the program; NaN beyond the law."""
         with tempfile.TemporaryDirectory(prefix="brinell-") as folder, warnings.catch_warnings():
             warnings.simplefilter("ignore")
             path = Path(folder) / "scene.toml"
             path.write_text(toml(data), encoding="utf-8")
 
-            def one(speed: float) -> Prediction | None:
+            def row(index: int) -> list[float]:
                 try:
-                    return predict(path, mass=self._mass, speed=speed)
+                    return one(path, index)
                 except ProgramError:
-                    return None
+                    return [np.nan] * width
 
             with ThreadPoolExecutor() as pool:
-                return list(pool.map(one, speeds.tolist()))
+                return np.array(list(pool.map(row, range(count)))).reshape(count, width)
+
+    def _predicted(
+        self, impacts: tuple[tuple[float, float], ...], flow: tuple[tuple[str, float], ...]
+    ) -> dict[str, Numbers]:
+        """The program's predictions, each different impact once."""
+        different = sorted(set(impacts))
+
+        def one(path: Path, index: int) -> list[float]:
+            mass, speed = different[index]
+            it = predict(path, mass=mass, speed=speed)
+            time = it.loading_time + it.unloading_time
+            return [
+                it.restitution, it.dent, 2.0 * it.largest_contact_radius, time, it.largest_force,
+            ]  # fmt: skip
+
+        rows = self._each(self.changed(dict(flow)), one, len(different), 5)
+        places = [different.index(it) for it in impacts]
+        names = ("restitution", "dent_depth", "dent_diameter", "contact_time", "largest_force")
+        return dict(zip(names, rows[places].T, strict=True))
+
+    def _oblique(self, points: Measured, flow: Flow, names: tuple[str, ...]) -> dict[str, Numbers]:
+        masses = points.arguments.get("mass", np.full(points.count, self._mass))
+        speeds, angles = points.arguments["speed"], points.arguments["angle"]
+        data = self.changed(flow) | {"friction": self._friction | {"coefficient": flow["friction"]}}
+        for key in ("coupling", "fmu"):
+            data.pop(key, None)
+
+        def one(path: Path, index: int) -> list[float]:
+            table = sweep(
+                path,
+                {"angle": [float(angles[index])]},
+                speed=float(speeds[index]),
+                mass=float(masses[index]),
+                friction=flow["friction"],
+            )
+            return [float(table[name][0]) for name in names]
+
+        rows = self._each(data, one, points.count, len(names))
+        return dict(zip(names, rows.T, strict=True))
+
+
+def _with_loading(law: Mapping[str, Any], loading: str) -> dict[str, Any]:
+    """The table `law` of a scene with another law, and the same losses."""
+    first, _, second = loading.partition("/")
+    kept = {key: it for key, it in law.items() if key == "elastic_restitution"}
+    return kept | {"loading": first} | ({"unloading": second} if second else {})
+
+
+def without_readings(body: Mapping[str, Any]) -> dict[str, Any]:
+    """A body without hardness, tensile strength and tensile test."""
+    readings = {"hardness", "tensile_strength", "tensile_test", "hardening_exponent"}
+    return {key: it for key, it in body.items() if key not in readings}
+
+
+def _rates_of_readings(body: Mapping[str, Any], name: str, path: str | Path) -> dict[str, Any]:
+    """The strain rate of a body whose strength was read from a test: it starts at that of the test,
+    and steel has one, even if the scene gives none."""
+    if not {"hardness", "tensile_strength"} & {*body}:
+        return {}
+    rate = body.get("rate")
+    if rate is None:
+        strength = _strength(path)
+        if strength is None or strength["factor"] == 1.0:
+            return {}
+        rate = {"model": "johnson-cook", "c": C_OF_STEEL}
+    if rate["model"] == "johnson-cook":
+        rate = {"reference_rate": RATE_OF_TESTS, **rate}
+    return {name: rate}
 
 
 def _slow(data: Mapping[str, Any]) -> dict[str, Any]:
     """The scene of a slow first loading: without a mass, a rate, and losses."""
     made = of_impacts(data, 1.0)
-    made["fmu"] = {"outputs": ["contact_radius"]}
+    made["fmu"] = {"outputs": ["contact_radius", "stiffness"]}
     for key in ("coupling", "impact"):
         made.pop(key, None)
     made["law"] = {
@@ -259,3 +450,38 @@ def _without_rates(data: Mapping[str, Any]) -> dict[str, Any]:
     return {**data} | {
         body: {key: it for key, it in data[body].items() if key != "rate"} for body in bodies
     }
+
+
+def strengths_of(readings: tuple[str, ...], path: str | Path, law: Law) -> Numbers:
+    """The slow flow stress [Pa] of the softer body at the strain of the scene's impact, for each
+    reading of its hardness."""
+    found = dict.fromkeys(readings, np.nan)
+    scene = tables(path)
+    own = {
+        key: it
+        for key, it in without_readings(scene[law.body]).items()
+        if key not in ("yield_strength", "power_law", "hardening_modulus", "tangent_modulus")
+    }
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for reading in found:
+            one = Path(folder) / "scene.toml"
+            data = scene | {law.body: own | {"hardness": reading}}
+            one.write_text(toml(data), encoding="utf-8")
+            found[reading] = _flow_stress(one)
+    return np.array([found[it] for it in readings])
+
+
+def _flow_stress(path: Path) -> float:
+    strength = _strength(path)
+    if strength is None:
+        raise ValueError(f"{path}: the program gives no strength for this reading")
+    return float(strength["yield_strength"] / strength["factor"])
+
+
+def _strength(path: str | Path) -> dict[str, Any] | None:
+    """What the program says of the strength in the scene's impact."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found: dict[str, Any] | None = json.loads(run("predict", path)[0])["strength"]
+    return found

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .measured import KINDS, Kind
+from ..prediction import quantity
+from ..studies.scene import toml
+from .law import without_readings
+from .measured import UNITS, Kind
+from .parameters import RATES
 
 Columns = dict[str, NDArray[np.float64]]
-
-SI = {"speed": "m/s", "restitution": "", "depth": "m", "force": "N"}
-PREFIXES = {-15: "f", -12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
 @dataclass(frozen=True)
@@ -28,17 +31,22 @@ class Estimate:
     """The scene's value."""
     value: float
     interval: tuple[float, float] | None
-    """95 % confidence interval, if the measurement gives one."""
+    """95 % confidence interval, linearised, if the measurement gives one."""
     doubt: str | None
     """The reason why the measurement does not determine the parameter."""
+    bootstrap: tuple[float, float] | None = None
+    """95 % confidence interval of the bootstrap, if it was asked for."""
 
     def __str__(self) -> str:
         words = f"{self.name}: {quantity(self.value, self.unit)}"
-        if self.interval:
-            low, high = (quantity(it, self.unit) for it in self.interval)
-            words += f", with 95 % confidence {low} to {high}"
+        for interval, kind in ((self.interval, ""), (self.bootstrap, "bootstrap: ")):
+            if interval:
+                low, high = (quantity(it, self.unit) for it in interval)
+                words += f", {kind}with 95 % confidence {low} to {high}"
         if self.doubt:
             words += f" ({self.doubt})"
+        if self.name.startswith("instrument."):
+            return f"{words}."
         return f"{words}; in the scene {quantity(self.scene, self.unit)}."
 
 
@@ -47,67 +55,126 @@ class Fit:
     """The parameters that explain a measurement; `print` tells all but the points."""
 
     kind: Kind
-    """What was measured: "restitution" over speed, or "force" over depth."""
+    """What was measured: "impacts", "record" or "hardness"."""
+    law: str
     estimates: tuple[Estimate, ...]
     count: int
     """Number of points that were fitted."""
     left_out: int
-    """Number of points besides, which belong to no first loading."""
-    rms: float
-    """Root mean square of the differences that remain, in the unit of the measurement."""
-    rms_of_scene: float
+    """Number of points besides, outside the validity of the law."""
+    rms: Mapping[str, float]
+    """Root mean square of the differences that remain, for each kind of result, in SI units."""
+    rms_of_scene: Mapping[str, float]
     """The same with the scene's values."""
+    squares: float = field(repr=False)
+    """The sum of squares that was minimised."""
     notes: tuple[str, ...]
     """Remarks on the quality of the fit."""
+    columns: tuple[str, ...]
+    """What was read: columns, units, and what was not used."""
+    argument: str = field(repr=False)
     points: Columns = field(repr=False)
-    """The points in SI units: "speed" and "restitution", or "depth" and "force", and the values by
-    the "scene" and with the "fitted" parameters."""
+    """The points in SI units: arguments, and for each result the values "measured", by the "scene"
+    and "fitted": `points["restitution, fitted"]`."""
     curves: Columns = field(repr=False)
-    """The same over the range of the measurement; NaN beyond the range of the law."""
+    """The same over the range of the impacts; NaN beyond the range of the law."""
+    data: Mapping[str, Any] = field(repr=False)
+    """The tables of the scene that was fitted."""
+    body: str = field(repr=False)
+    flow: Mapping[str, float] = field(repr=False)
+    rates: Mapping[str, Mapping[str, Any]] = field(repr=False)
+    laws: tuple[Fit, ...] = field(default=(), repr=False)
+    """The fits of all laws that were asked for, the best first."""
+
+    @staticmethod
+    def best(fits: Sequence[Fit]) -> Fit:
+        """The best of the fits of several laws, with a note on the others."""
+        if len(fits) == 1:
+            return fits[0]
+        ordered = sorted(fits, key=lambda one: one._misfit())
+        first, second = ordered[0], ordered[1]
+        listed = "; ".join(f"{one.law}: {one._differences(one.rms)}" for one in ordered)
+        note = f"Of the laws asked, {first.law} explains the points best ({listed})."
+        # by Akaike's criterion for equal numbers of parameters
+        if first.count * (second._misfit() - first._misfit()) < 2.0:
+            note += f" {second.law} is as good: the points don't tell them apart."
+        return replace(first, notes=(*first.notes, note), laws=tuple(ordered))
+
+    def _misfit(self) -> float:
+        """Logarithm of the mean square difference, over all kinds of results."""
+        return float(sum(2.0 * math.log(max(it, 1e-300)) for it in self.rms.values()))
 
     @property
     def values(self) -> dict[str, float]:
         """The fitted values in SI units, by their names in the scene."""
         return {estimate.name: estimate.value for estimate in self.estimates}
 
-    def __str__(self) -> str:
-        unit = SI[KINDS[self.kind][1]]
-        rms = (
-            f"{self.count} measured points. Root-mean-square difference of the scene's law: "
-            f"{quantity(self.rms_of_scene, unit)}; with the fitted value: "
-            f"{quantity(self.rms, unit)}."
+    @staticmethod
+    def _differences(rms: Mapping[str, float]) -> str:
+        named = len(rms) > 1
+        return ", ".join(
+            quantity(it, UNITS[name]) + (f" ({name.replace('_', ' ')})" if named else "")
+            for name, it in rms.items()
         )
-        return "\n".join([rms, *map(str, self.estimates), *self.notes])
 
-    def plot(self, axes: Any = None) -> Any:
-        """Draw the measurement, the scene's law and the fitted one with matplotlib, in `axes` or a
-        new figure; return the axes."""
-        if axes is None:
-            from matplotlib import pyplot
+    def __str__(self) -> str:
+        rms = (
+            f"{self.count} measured points, law {self.law}. Root-mean-square difference with the "
+            f"scene's values: {self._differences(self.rms_of_scene)}; with the fitted ones: "
+            f"{self._differences(self.rms)}."
+        )
+        return "\n".join([*self.columns, rms, *map(str, self.estimates), *self.notes])
 
-            axes = pyplot.figure(layout="constrained").add_subplot()
-        at, value = KINDS[self.kind]
-        scale, prefix = (1e6, "u") if at == "depth" else (1.0, "")
-        for name, style in (("scene", "--"), ("fitted", "-")):
-            axes.plot(scale * self.curves[at], self.curves[name], style, label=f"law, {name}")
-        axes.plot(scale * self.points[at], self.points[value], "o", markersize=4, label="measured")
-        unit = f" [{SI[value]}]" if SI[value] else ""
-        axes.set(xlabel=f"{at} [{prefix}{SI[at]}]", ylabel=value + unit)
-        steps = np.diff(self.curves[at])
-        if not math.isclose(steps[0], steps[-1], rel_tol=1e-6):
-            axes.set(xscale="log")
-        axes.grid(alpha=0.3)
-        axes.legend()
-        return axes
+    def scene(self, path: str | Path | None = None) -> str:
+        """The scene with the fitted numbers, ready to export; it is also written to `path`."""
+        data = {**self.data}
+        first = data.get("contact", [{}])[0]
+        # a contact may have a body of its own
+        of_contact = first.get(self.body, {})
+        if {"yield_strength", "hardness", "tensile_strength", "material"} & {*of_contact}:
+            own = {**first, self.body: self._body(of_contact)}
+            data["contact"] = [own, *data["contact"][1:]]
+        else:
+            data[self.body] = self._body(data.get(self.body, {}))
+        law = {**data.get("law", {})}
+        if self.law != "" and self.laws:
+            loading, _, unloading = self.law.partition("/")
+            law = {key: it for key, it in law.items() if key == "elastic_restitution"}
+            law |= {"loading": loading} | ({"unloading": unloading} if unloading else {})
+        if "law.elastic_restitution" in self.values:
+            law["elastic_restitution"] = self.values["law.elastic_restitution"]
+        if law:
+            data["law"] = law
+        if "friction.coefficient" in self.values:
+            coefficient = self.values["friction.coefficient"]
+            data["friction"] = {**data.get("friction", {}), "coefficient": coefficient}
+        lines = [f"# fitted: {it}" for it in map(str, self.estimates)]
+        text = "\n".join(lines) + "\n" + toml(data)
+        if path is not None:
+            Path(path).write_text(text, encoding="utf-8")
+        return text
 
+    def _body(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """A body with the fitted numbers."""
+        fitted = {it.name.removeprefix(f"{self.body}.").split(".")[0] for it in self.estimates}
+        if not fitted & {"yield_strength", "hardening_modulus", "rate"}:
+            return {**given}
+        body = without_readings(given)
+        if "yield_strength" in fitted or len(body) < len(given):
+            body["yield_strength"] = self.flow["yield_strength"]
+        if self.body in self.rates:
+            body["rate"] = dict(self.rates[self.body])
+        if "hardening_modulus" in fitted:
+            body.pop("tangent_modulus", None)
+            body["hardening_modulus"] = self.flow["hardening_modulus"]
+        if "rate" in fitted:
+            key = RATES[body["rate"]["model"]][0]
+            body["rate"] = {**body["rate"], key: self.flow["rate"]}
+        return body
 
-def quantity(value: float, unit: str) -> str:
-    """A number with four significant digits, and its unit with a prefix: `294.3 MPa`."""
-    rounded = float(f"{value:.3e}")
-    power = 0
-    if unit in ("m", "m/s", "N", "Pa") and rounded != 0.0 and math.isfinite(rounded):
-        power = 3 * (math.floor(math.log10(abs(rounded))) // 3)
-        power = max(-15, min(power, 12 if unit in ("N", "Pa") else 0))
-    number = float(f"{value / 10.0**power:.3e}")
-    plain = number == 0.0 or 1e-3 <= abs(number) < 1e6
-    return f"{number:{'.12g' if plain else 'g'}} {PREFIXES[power]}{unit}".rstrip()
+    def plot(self, path: str | Path | None = None) -> Any:
+        """Draw measurement, scene and fit with matplotlib, and the differences below; return the
+        figure. It is also written to `path`, whose extension selects the format."""
+        from .picture import draw
+
+        return draw(self, path)

@@ -56,6 +56,9 @@ def draw(
                 style = "." if len(names) > 1 else "-"
                 values = _values(one, result)[order]
                 axes.plot(one[name][order], values, style, markersize=2, label=law)
+                if len(names) == 1 and f"{result}_low" in one:
+                    low, high = (_values(one, f"{result}_{end}") for end in ("low", "high"))
+                    axes.fill_between(one[name][order], low[order], high[order], alpha=0.3)
             _axes(axes, first, name, units, _label(result, units))
             if others and index == 0:
                 axes.legend(fontsize="small")
@@ -97,7 +100,7 @@ def _label(name: str, units: Mapping[str, str]) -> str:
 
 
 def _values(table: Table, name: str) -> NDArray[Any]:
-    return np.asarray((1e6 if name == "dent" else 1.0) * table[name])
+    return np.asarray((1e6 if name.startswith("dent") else 1.0) * table[name])
 
 
 def _map(

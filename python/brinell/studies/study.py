@@ -46,6 +46,8 @@ def study(
     mass: float | str | None = None,
     speed: float | str | None = None,
     parameters: Mapping[str, float | str] | None = None,
+    uncertainty: Mapping[str, Any] | None = None,
+    draws: int = 128,
     output: str | Path | Sequence[str | Path] = (),
     workers: int | None = None,
     chunk: int | None = None,
@@ -66,8 +68,14 @@ def study(
     chunks of `chunk` runs. With `scheduler` it uses Dask: "local", or an address such as
     "tcp://host:8786".
 
+    `uncertainty` maps quantities to their spreads (see `predict`): each run is then the median of so
+    many `draws`, a power of two, with the columns `restitution_low`, `restitution_high` ... between
+    which 95 % of them are. Such a study can't be resumed.
+
     A run that fails has its reason in the column `error`, and NaN as its results.
     """
+    from .. import uncertainty as forward
+
     outputs = _outputs(output)
     dataframe = pandas_of("brinell.study").DataFrame
     values = plan.runs(vary, sample, seed)
@@ -84,14 +92,25 @@ def study(
         columns = _columns(values, {**usual, **fixed})
         # in memory until the end: processes that are forked have it without unpacking it again
         library = Library.of(unit)
+        if uncertainty:
+            known_names = dict.fromkeys(columns, 0.0)
+            for name, value in forward.centres(library, known_names, uncertainty).items():
+                columns.setdefault(name, np.full(len(next(iter(columns.values()))), value))
         _check(library, columns)
         names, rows = list(columns), np.column_stack(list(columns.values()))
-        workers = workers or _workers(len(rows), scheduler)
-        size = chunk or max(FEWEST, min(MOST, len(rows) // CHUNKS))
-        table = _run(library, names, rows, size, outputs, workers, scheduler, progress)
+        drawn = forward.spread(names, rows, uncertainty, draws, seed) if uncertainty else rows
+        workers = workers or _workers(len(drawn), scheduler)
+        size = chunk or max(FEWEST, min(MOST, len(drawn) // CHUNKS))
+        kept = () if uncertainty else outputs
+        table = _run(library, names, drawn, size, kept, workers, scheduler, progress)
         units = UNITS | {name: _unit_of(library, name) for name in names if name not in UNITS}
+    if uncertainty:
+        table = forward.banded(table, rows, names, draws)
+        _write(outputs, table)
     made: pandas.DataFrame = dataframe(table)
-    made.attrs["units"] = {name: units[name] for name in table}
+    # a band has the unit of its quantity
+    plain = {name: name.removesuffix("_low").removesuffix("_high") for name in table}
+    made.attrs["units"] = {name: units.get(name) or units[plain[name]] for name in table}
     for path in outputs:
         if path.suffix in (".svg", ".png"):
             from .picture import draw
@@ -103,6 +122,14 @@ def study(
 def _unit_of(library: Library, name: str) -> str:
     """The unit of a parameter."""
     return library.variables[name].unit or ""
+
+
+def _write(outputs: Sequence[Path], table: Table) -> None:
+    from . import store
+
+    for path in outputs:
+        if path.suffix in (".parquet", ".csv"):
+            store.write(path, table)
 
 
 def _outputs(output: str | Path | Sequence[str | Path]) -> list[Path]:

@@ -1,0 +1,252 @@
+"""The differences between a law and a measurement, and their least squares."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import intervals
+from .intervals import Linear, Numbers
+from .law import Law
+from .measured import Measured
+from .parameters import parameter
+
+STRENGTHS = np.geomspace(1e-6, 0.5, 61)
+"""Yield strengths that the search may start at, relative to the effective modulus: the restitution
+of some laws is not monotone."""
+COMPLIANCES = (0.0, 0.15, 0.5)
+"""Compliances that the search may start at, relative to depth over force of the whole record."""
+MOST_FOR_START = 40
+"""Number of points that a search for a start takes."""
+TOLERANCE = 1e-10
+"""Relative change at which the search ends."""
+AT_BOUND = 1e-9
+"""Distance from a bound, in the variables of the search, that is rounding."""
+ROUNDS = 12
+"""Most rounds of weights for several kinds of results."""
+BEYOND = "the law of the scene can't be evaluated for all points of the measurement"
+
+
+@dataclass
+class Problem:
+    """Variables are logarithms of parameters that span orders of magnitude, otherwise parameters in
+    units of their sizes; differences are in units of `sizes`."""
+
+    law: Law
+    points: Measured
+    names: Sequence[str]
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    priors: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    accuracy: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.given = {**self.law.given, **self.fixed}
+        ones = [parameter(name, self.law.model) for name in self.names]
+        self.logarithmic = np.array([one.is_logarithmic for one in ones])
+        scale = {"hardening_modulus": self.law.modulus}
+        if self.points.kind == "record":
+            depth = float(np.max(np.abs(self.points.arguments["depth"])))
+            force = float(np.max(self.points.arguments["force"]))
+            scale |= {"zero_point": depth, "preload": force, "compliance": depth / force}
+        self.scales = np.array([scale.get(name, 1.0) for name in self.names])
+        low = [
+            max(one.low, self.bounds.get(it, (-np.inf,))[0])
+            for it, one in zip(self.names, ones, strict=True)
+        ]
+        high = [
+            min(one.high, self.bounds.get(it, (0.0, np.inf))[1])
+            for it, one in zip(self.names, ones, strict=True)
+        ]
+        # those of a scene are far away, unless the user gives them
+        self.low = np.where(
+            self.logarithmic & (np.array([it not in self.bounds for it in self.names])),
+            -np.inf,
+            self.variables(low),
+        )
+        self.high = np.where(np.array(high) >= 1e18, np.inf, self.variables(high))
+        self.ends = np.array(low), np.array(high)
+        self.known = {name: np.isfinite(it) for name, it in self.points.results.items()}
+        self.sizes = {name: self._size(name) for name in self.points.results}
+
+    def _size(self, name: str) -> float:
+        if name in self.accuracy:
+            return self.accuracy[name]
+        values = self.points.results[name][self.known[name]]
+        return 1.0 if name.endswith("restitution") else float(np.max(np.abs(values)))
+
+    # variables
+
+    def variables(self, values: Sequence[float]) -> Numbers:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            given = np.array(values, dtype=float)
+            found: Numbers = np.where(self.logarithmic, np.log(given), given / self.scales)
+        return found
+
+    def values(self, variables: Numbers) -> Numbers:
+        with np.errstate(over="ignore"):
+            found = np.where(self.logarithmic, np.exp(variables), variables * self.scales)
+        # a bound is what the user gave, to the last bit
+        found = np.where(variables == self.low, self.ends[0], found)
+        values: Numbers = np.where(variables == self.high, self.ends[1], found)
+        return values
+
+    def flow(self, variables: Numbers) -> dict[str, float]:
+        values = [float(it) for it in self.values(variables)]
+        return self.given | dict(zip(self.names, values, strict=True))
+
+    # differences
+
+    def of(self, flow: Mapping[str, float], points: Measured | None = None) -> dict[str, Numbers]:
+        """The law's values minus the measured ones, for each kind of result, in SI units."""
+        points = points or self.points
+        values = self.law.values(points, flow)
+        return {name: values[name] - it for name, it in points.results.items()}
+
+    def differences(self, flow: Mapping[str, float]) -> Numbers:
+        """All differences in units of their sizes, and those from priors."""
+        found = self.of(flow)
+        parts = [found[name][self.known[name]] / self.sizes[name] for name in found]
+        parts.append(np.array([(flow[it] - mean) / sd for it, (mean, sd) in self.priors.items()]))
+        return np.concatenate(parts)
+
+    def groups(self) -> list[NDArray[np.int_]]:
+        """The places of each kind of result in the differences."""
+        ends = np.cumsum([0, *(np.count_nonzero(it) for it in self.known.values())])
+        return [np.arange(a, b) for a, b in pairwise(ends.tolist())]
+
+    @property
+    def freedom(self) -> int:
+        """Number of differences less that of all parameters."""
+        return sum(map(len, self.groups())) + len(self.priors) - len(self.names)
+
+    # optimum
+
+    def starts(self) -> list[list[Numbers]]:
+        """Groups of starts: the scene's values and other strengths, for each of some compliances, with
+        the zero point that belongs to them."""
+        own = np.clip(self.variables([self.given[it] for it in self.names]), self.low, self.high)
+        place = {name: index for index, name in enumerate(self.names)}
+        groups = []
+        for part in COMPLIANCES if "compliance" in place else (0.0,):
+            group = [own.copy()]
+            if "yield_strength" in place:
+                for strength in STRENGTHS * self.law.modulus:
+                    group.append(own.copy())
+                    group[-1][place["yield_strength"]] = np.log(strength)
+            for start in group:
+                if part > 0.0:
+                    start[place["compliance"]] = part
+                if "zero_point" in place:
+                    start[place["zero_point"]] = (
+                        self._zero(start) / self.scales[place["zero_point"]]
+                    )
+            groups.append([np.clip(it, self.low, self.high) for it in group])
+        return groups
+
+    def _zero(self, start: Numbers) -> float:
+        """The zero point [m] with which a first loading has the recorded forces, in the median."""
+        flow, loading = self.flow(start), self.points.part == 0
+        force = self.points.arguments["force"][loading] + flow["preload"]
+        deep = self.law.depths(force, flow) + flow["compliance"] * force
+        return float(np.median(deep - self.points.arguments["depth"][loading]))
+
+    def start(self) -> list[Numbers]:
+        """The best start of each group, by a part of the points."""
+        loading = np.flatnonzero(self.points.part == 0)
+        step = -(-len(loading) // MOST_FOR_START)
+        some = np.ones(self.points.count, dtype=bool)
+        some[loading[::step]] = False
+        few = self.points if self.points.kind == "hardness" else self.points.without(some)
+
+        def squares(start: Numbers) -> float:
+            found = self.of(self.flow(start), few)
+            sum_ = sum(float(np.nansum((it / self.sizes[name]) ** 2)) for name, it in found.items())
+            bad = any(
+                np.any(np.isnan(it) & np.isfinite(few.results[name])) for name, it in found.items()
+            )
+            return np.inf if bad else sum_
+
+        return [min(group, key=squares) for group in self.starts()]
+
+    def solve(self, start: Numbers | None = None) -> Any:
+        """The optimum within the bounds, by scipy: first with derivatives of one side from each start,
+        then of both from the best."""
+        try:
+            rough = [
+                self._least("2-point", 1e-6, it)
+                for it in (self.start() if start is None else [start])
+            ]
+            best = min(rough, key=lambda it: float(it.cost))
+            found = self._least("3-point", TOLERANCE, self._snapped(best.x))
+        except (ValueError, np.linalg.LinAlgError) as error:
+            # derivatives at the end of the law's range
+            raise ValueError(BEYOND) from error
+        found.x = self._snapped(found.x)
+        return found
+
+    def _least(self, jac: Any, tolerance: float, start: Numbers) -> Any:
+        from scipy.optimize import least_squares
+
+        def differences(variables: Numbers) -> Numbers:
+            return self.differences(self.flow(variables))
+
+        return least_squares(
+            differences,
+            start,
+            jac=jac,
+            bounds=(self.low, self.high),
+            method="dogbox",
+            x_scale="jac",
+            xtol=tolerance,
+            ftol=tolerance,
+            gtol=1e-14,
+        )
+
+    def _snapped(self, variables: Numbers) -> Numbers:
+        """The variables, at a bound where rounding keeps them from it."""
+        low = np.where(variables - self.low < AT_BOUND, self.low, variables)
+        found: Numbers = np.where(self.high - low < AT_BOUND, self.high, low)
+        return found
+
+    def weighted(self) -> Any:
+        """The optimum, with each kind of result weighted by the scatter that is left of it.
+
+        One kind without a prior needs no weight. The rounds end as the sizes do not change.
+        """
+        found = self.solve()
+        settled = {*self.accuracy}
+        if len(self.sizes) - len(settled) + len(self.priors) <= 1 and not self.priors:
+            return found
+        free = [name for name in self.sizes if name not in settled]
+        for _ in range(ROUNDS if free else 0):
+            total = sum(map(len, self.groups()))
+            left = self.of(self.flow(found.x))
+            before = dict(self.sizes)
+            for name in free:
+                one = left[name][self.known[name]]
+                part = max(len(one) * (1.0 - len(self.names) / max(total, 1)), 0.5)
+                size = float(np.sqrt(np.sum(one**2) / part))
+                self.sizes[name] = max(size, 1e-9 * self._size(name))
+            if all(abs(self.sizes[it] / before[it] - 1.0) < 1e-4 for it in free):
+                break
+            found = self.solve(found.x)
+        return found
+
+    def near(self, found: Any) -> Linear:
+        """The neighbourhood of an optimum."""
+        # at its bound, and held there: a parameter without effect may have started there
+        gradient = np.asarray(found.jac).T @ np.asarray(found.fun)
+        side = np.where(found.x == self.low, -1, np.where(found.x == self.high, 1, 0))
+        self.bound = np.where(side * gradient < 0.0, side, 0)
+        free = self.bound == 0
+        # points that repeat others to the last digit don't tell how much a measurement scatters
+        enough = self.points.different + len(self.priors) > np.count_nonzero(free)
+        freedom = len(found.fun) - int(np.count_nonzero(free)) if enough else 0
+        jacobian, left = np.asarray(found.jac), np.asarray(found.fun)
+        return intervals.linear(found.x, jacobian, left, free, freedom, self.low, self.high)

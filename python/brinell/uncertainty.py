@@ -1,0 +1,230 @@
+"""Uncertainty forward: how far an impact spreads, if what is known of it is uncertain.
+
+The inputs are drawn by scrambled Sobol points (`scipy.stats.qmc`), independent of each other, and
+each draw is an impact of the FMU, in some 40 us.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ContactError
+from .fits.quantities import number_of
+from .library import Library
+from .prediction import quantity
+from .studies import impacts, scene
+from .variables import Variables
+
+Numbers = NDArray[np.float64]
+Spread = float | str | Sequence[float | str] | Any
+"""A standard deviation, as a number in SI units, "5 %" or "10 MPa"; two ends of a range, all of it
+equally likely; or a distribution of `scipy.stats`."""
+
+RESULTS: Mapping[str, str] = {
+    "restitution": "", "dent": "m", "max_indentation": "m", "energy_lost": "J",
+}  # fmt: skip
+"""What has a band, with its SI unit."""
+LEVEL = 0.95
+"""The part of all draws that is within a band."""
+DRAWS = 1024
+"""Number of draws of a prediction."""
+RUN_DRAWS = 128
+"""Number of draws of each run of a study."""
+
+
+@dataclass(frozen=True)
+class Bands:
+    """Bands of the results of an impact: 95 % of all draws are within."""
+
+    bands: Mapping[str, tuple[float, float]]
+    """By result: "restitution", "dent" [m], "max_indentation" [m], "energy_lost" [J]."""
+    median: Mapping[str, float]
+    shares: Mapping[str, Mapping[str, float]] = field(repr=False)
+    """For each result, the part of its variance that follows from each input alone: the square of
+    their rank correlation."""
+    draws: Mapping[str, Numbers] = field(repr=False)
+    """All draws, inputs and results, in SI units."""
+
+    def __str__(self) -> str:
+        lines = []
+        for name, (low, high) in self.bands.items():
+            unit = RESULTS[name]
+            words = f"{name}: {quantity(self.median[name], unit)}, 95 % within "
+            words += f"{quantity(low, unit)} to {quantity(high, unit)}"
+            most = max(self.shares[name], key=lambda it: self.shares[name][it])
+            lines.append(f"{words}; {most} makes {self.shares[name][most]:.0%} of the variance")
+        return "\n".join(lines)
+
+
+def bands(
+    path: str | Path,
+    uncertainty: Mapping[str, Spread],
+    *,
+    mass: float | None = None,
+    speed: float | None = None,
+    draws: int = DRAWS,
+    seed: int = 0,
+) -> Bands:
+    """The bands of an impact on the first contact of a scene file.
+
+    `uncertainty` maps "speed", "mass" and parameters of the FMU ("target.yield_strength") to their
+    spreads. `draws` is a power of two.
+
+    Raises `UnknownName` for an input that the FMU has not, `ValueError` for a spread out of range,
+    and `ContactError` if a draw is outside the range of the law.
+    """
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        unit, usual = scene.unit(Path(path), Path(folder), mass)
+        return _drawn(Library.of(unit), usual, uncertainty, speed, draws, seed)
+
+
+def _drawn(
+    library: Library,
+    usual: dict[str, float],
+    uncertainty: Mapping[str, Spread],
+    speed: float | None,
+    draws: int,
+    seed: int,
+) -> Bands:
+    usual |= {"speed": speed} if speed is not None else {}
+    if "speed" not in usual:
+        raise ValueError("speed is needed: the scene has none; pass it")
+    centre = centres(library, usual, uncertainty)
+    names = ["speed", "mass", *(it for it in centre if it not in ("speed", "mass"))]
+    rows = spread(names, np.array([[centre[it] for it in names]]), uncertainty, draws, seed)
+    table = impacts.run(library.path, names, rows)
+    for index, error in enumerate(table["error"]):
+        if error:
+            shown = ", ".join(f"{it} = {table[it][index]:.4g}" for it in uncertainty)
+            raise ContactError(f"a draw is no impact ({shown}): {error}")
+    results = {name: np.asarray(table[name]) for name in RESULTS}
+    inputs = {name: np.asarray(table[name]) for name in uncertainty}
+    return Bands(
+        {name: _band(it) for name, it in results.items()},
+        {name: float(np.median(it)) for name, it in results.items()},
+        {name: {of: _share(one, it) for of, one in inputs.items()} for name, it in results.items()},
+        inputs | results,
+    )
+
+
+def centres(
+    library: Library, usual: Mapping[str, float], uncertainty: Mapping[str, Spread]
+) -> dict[str, float]:
+    """The values around which inputs spread: those of the scene."""
+    variables = Variables(library)
+    found = dict(usual)
+    for name in uncertainty:
+        if name in found:
+            continue
+        if name not in variables.parameters:
+            raise variables.unknown("parameter", name, ("speed", "mass", *variables.parameters))
+        found[name] = float(library.variables[name].start)
+    return found
+
+
+def spread(
+    names: Sequence[str],
+    rows: Numbers,
+    uncertainty: Mapping[str, Spread],
+    draws: int,
+    seed: int,
+) -> Numbers:
+    """Each of the `rows` as often as there are draws, with the uncertain columns spread around its
+    values."""
+    from scipy.stats import qmc
+
+    if not uncertainty:
+        raise ValueError("uncertainty is empty; for example, {'target.yield_strength': '8 %'}")
+    if draws < 2 or draws & (draws - 1):
+        raise ValueError(f"draws = {draws}; a power of two is needed, such as 1024")
+    sobol = qmc.Sobol(len(uncertainty), rng=seed)
+    # open ends: a draw at 0 would be infinitely far
+    places = np.clip(sobol.random(draws), 0.5**33, 1.0 - 0.5**33)
+    found = np.repeat(rows, draws, axis=0)
+    for place, (name, one) in zip(places.T, uncertainty.items(), strict=True):
+        column = list(names).index(name)
+        values = [_values(name, one, float(row[column]), place) for row in rows]
+        found[:, column] = np.concatenate(values)
+    return found
+
+
+def _values(name: str, one: Spread, centre: float, places: Numbers) -> Numbers:
+    """The values of an input at these fractions of its distribution."""
+    from scipy.special import ndtri
+
+    if hasattr(one, "ppf"):
+        return np.asarray(one.ppf(places), dtype=float)
+    si = _unit(name)
+    if isinstance(one, str | int | float) and not isinstance(one, bool):
+        if isinstance(one, str) and one.strip().endswith("%"):
+            deviation = abs(centre) * number_of(one.strip()[:-1].strip(), "", name) / 100.0
+        else:
+            deviation = number_of(one, si, name)
+        if not (deviation > 0.0 and np.isfinite(deviation)):
+            raise ValueError(f"{name} = {one!r}: a standard deviation must be positive and finite")
+        found: Numbers = centre + deviation * ndtri(places)
+        return found
+    try:
+        low, high = (number_of(it, si, name) for it in cast("Sequence[Any]", one))
+    except (TypeError, ValueError) as error:
+        raise ValueError(
+            f"{name} = {one!r}: a standard deviation ('5 %', '10 MPa'), two ends of a range, or a "
+            "distribution of scipy.stats is needed"
+        ) from error
+    if not low < high:
+        raise ValueError(f"{name} = {one!r}: the first end must be below the second")
+    return low + places * (high - low)
+
+
+def _unit(name: str) -> str:
+    """The SI unit of an input, by the last word of its name."""
+    last = name.replace(".", "_").rsplit("_", 1)[-1]
+    units = {"speed": "m/s", "mass": "kg", "radius": "m", "strength": "Pa", "modulus": "Pa",
+             "gap": "m", "thickness": "m"}  # fmt: skip
+    return units.get(last, "")
+
+
+def _band(values: Numbers) -> tuple[float, float]:
+    low, high = np.quantile(values, [0.5 - 0.5 * LEVEL, 0.5 + 0.5 * LEVEL])
+    return float(low), float(high)
+
+
+def _share(one: Numbers, other: Numbers) -> float:
+    from scipy.stats import rankdata
+
+    ranks = rankdata(one), rankdata(other)
+    if np.ptp(ranks[0]) == 0.0 or np.ptp(ranks[1]) == 0.0:
+        return 0.0
+    return float(np.corrcoef(*ranks)[0, 1] ** 2)
+
+
+def banded(table: impacts.Table, rows: Numbers, names: Sequence[str], draws: int) -> impacts.Table:
+    """The table of a study whose runs were drawn so often: one row for each run, with the medians
+    and, beside each result, its band in `NAME_low` and `NAME_high`.
+
+    A run of which a draw failed has the reason of the first in `error`, and no results.
+    """
+    found: impacts.Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
+    shape = (len(rows), draws)
+    errors = table["error"].reshape(shape)
+    bad = (errors != "").any(axis=1)
+    for name in impacts.RESULTS:
+        values = np.asarray(table[name], dtype=float).reshape(shape)
+        for column, part in (
+            (name, 0.5),
+            (f"{name}_low", 0.5 - 0.5 * LEVEL),
+            (f"{name}_high", 0.5 + 0.5 * LEVEL),
+        ):
+            found[column] = np.where(bad, np.nan, np.quantile(values, part, axis=1))
+    for name in ("error", "warning"):
+        texts = table[name].reshape(shape)
+        firsts = [next((it for it in row if it), "") for row in texts]
+        found[name] = np.array(firsts, dtype=object)
+    return found

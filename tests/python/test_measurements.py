@@ -1,0 +1,274 @@
+"""Measurements for fits: files of any dialect, recognised columns, units, and what is refused."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+from brinell.fits.measured import measured
+
+DATA = Path(os.environ["BRINELL_TEST_SCENES"]).parent / "data/experiment"
+
+
+def read(tmp_path, text, **more):
+    path = tmp_path / "m.csv"
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    return measured(path, **more)
+
+
+def said(found):
+    return " ".join(found.notes)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "speed,restitution\n2,0.5\n1,0.6\n",
+        "\ufeffspeed,restitution\n2,0.5\n1,0.6\n",
+        "\ufeffspeed,restitution\n2,0.5\n1,0.6\n".encode("utf-16"),
+        "# a drop test\nrestitution , speed [m/s]\r\n0.5, 2\n\n0.6, 1\n",
+        "Speed [mm/s],restitution\n2000,0.5\n1e3,0.6",
+        'speed_m_per_s,"restitution"\n"2",0.5\n1,0.6\n',
+        "Speed (mm/s);COR\n2.000,0;0,5\n1.000,0;0,6\n",
+        "Impact velocity / m/s\tRestitution [%]\n2\t50\n1\t60\n",
+        "v [m/s]  e\n2.0      0.5\n1.0      0.6\n",
+        "sep=;\nspeed;restitution\n2,0;0,5\n1,0;0,6\n;\n",
+        'speed,restitution\n"2,0","0,5"\n"1,0","0,6"\n',
+        "Machine X\nDate;2024\nspeed;restitution\nmm/s;-\n2000;0,50\n1000;0,60\n",
+        "drop height [mm],rebound height [mm]\n203.943243,50.985811\n50.985811,18.354892\n",
+        "speed,rebound speed [mm/s]\n2,1000\n1,600\n",
+    ],
+)
+def test_rebounds_are_the_same_in_every_dialect(tmp_path, text):
+    found = read(tmp_path, text)
+    assert found.kind == "impacts"
+    assert found.arguments["speed"] == pytest.approx([1.0, 2.0], rel=1e-8)
+    assert found.results["restitution"] == pytest.approx([0.6, 0.5], rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("heading", "cell", "size"),
+    [
+        ("force [kN]", "0.3", 300.0),
+        ("Force in kN", "0.3", 300.0),
+        ("Kraft, kN", "0.3", 300.0),
+        ("load (kgf)", "100", 980.665),
+        ("Load [KN]", "0.3", 300.0),
+    ],
+)
+def test_forces_have_their_unit_however_it_is_written(tmp_path, heading, cell, size):
+    found = read(tmp_path, f"depth [µm];{heading}\n12;{cell}\n13;{cell}\n")
+    assert found.kind == "record"
+    assert found.arguments["depth"] == pytest.approx([12e-6, 13e-6], rel=1e-14)
+    assert found.results["force"] == pytest.approx(size)
+
+
+def test_signs_of_a_country_in_its_old_encoding_are_read(tmp_path):
+    found = read(tmp_path, "Eindringtiefe [µm];Prüfkraft [N]\n12,5;1.250,5\n".encode("cp1252"))
+    assert found.arguments["depth"] == pytest.approx([12.5e-6])
+    assert found.results["force"] == pytest.approx([1250.5])
+
+
+@pytest.mark.parametrize(
+    ("numbers", "value"),
+    [("1.234,5", 1234.5), ("1 234,5", 1234.5), ("1'234.5", 1234.5), ("1.234.567", 1234567.0)],
+)
+def test_separators_of_thousands_are_no_decimal_signs(tmp_path, numbers, value):
+    found = read(tmp_path, f"depth [um];force\n1;{numbers}\n2;2{numbers[1:]}\n")
+    assert found.results["force"][0] == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    "rows",
+    ["1;1.082\n2;2.164", "1;1,082\n2;2,164", "5;950\n6;1.082", "1\t1.082\n2\t950"],
+)
+def test_a_number_that_may_be_thousands_is_asked_about(tmp_path, rows):
+    separator = "\t" if "\t" in rows else ";"
+    text = f"depth [um]{separator}force\n{rows}\n"
+    with pytest.raises(ValueError, match="is ambiguous: .* Pass decimal="):
+        read(tmp_path, text)
+    small = read(tmp_path, text, decimal="," if "," in rows else ".")
+    assert small.results["force"].min() == pytest.approx(1.082)
+
+
+def test_two_decimal_signs_in_one_file_are_refused(tmp_path):
+    with pytest.raises(ValueError, match="`0.5` has a decimal point, and `0,6` a decimal comma"):
+        read(tmp_path, "speed;restitution\n1;0.5\n2;0,6\n")
+
+
+def test_what_is_read_and_what_is_not_is_said(tmp_path):
+    found = read(
+        tmp_path,
+        "Report 7\nspeed [mm/s];drop height [m];e;operator;force\n1000;1;0,5;ann;3\n",
+    )
+    words = said(found)
+    for expected in (
+        "Before the heading in line 2, 1 line was passed over",
+        "separated by semicolons, with a decimal comma",
+        "`speed [mm/s]` is speed in mm/s",
+        "`e` is restitution",
+        "The column `operator` is unknown and was not used",
+        "The column `drop height [m]` was not used",
+        "The column `force` was not used",
+    ):
+        assert expected in words
+
+
+def test_excel_parquet_and_frames_are_read_alike(tmp_path):
+    frame = pandas.DataFrame({"depth [um]": [8.0, 12.0], "force [kN]": [0.2, 0.3]})
+    frame.to_parquet(tmp_path / "m.parquet")
+    with pandas.ExcelWriter(tmp_path / "m.xlsx") as book:
+        pandas.DataFrame({"x": [1]}).to_excel(book, sheet_name="notes")
+        above = pandas.DataFrame([["Machine X", None], ["depth", "force"], ["um", "kN"]])
+        table = pandas.concat([above, pandas.DataFrame([[8.0, 0.2], [12.0, 0.3]])])
+        table.to_excel(book, sheet_name="data", header=False, index=False)
+    for source in (
+        frame,
+        {name: frame[name].to_numpy() for name in frame},
+        tmp_path / "m.parquet",
+        tmp_path / "m.xlsx",
+    ):
+        found = measured(source)
+        assert found.arguments["depth"] == pytest.approx([8e-6, 12e-6])
+        assert found.results["force"] == pytest.approx([200.0, 300.0])
+    assert "The sheet data was read; others: notes." in said(found)
+
+
+def test_several_results_of_an_impact_may_have_gaps(tmp_path):
+    found = read(
+        tmp_path,
+        "speed,restitution,dent depth [um],dent diameter [mm],contact time [us],peak force\n"
+        "1,0.5,10,,30,340\n2,,20,0.8,,\n",
+    )
+    assert np.isnan(found.results["restitution"]).tolist() == [False, True]
+    assert found.results["dent_depth"] == pytest.approx([1e-5, 2e-5])
+    assert found.results["contact_time"][0] == pytest.approx(3e-5)
+    assert found.results["largest_force"][0] == 340.0
+    with pytest.raises(ValueError, match=":3: no result is given: restitution or dent_depth"):
+        read(tmp_path, "speed,restitution,dent depth [um]\n1,0.5,1\n2,,\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "readings"),
+    [
+        ("HV10\n200\n210\n", ("200 HV10", "210 HV10")),
+        ("hardness [HBW 10/3000];place\n201,5;1\n", ("201.5 HBW 10/3000",)),
+        ("hardness\n58 HRC\n640 HV10\n", ("58 HRC", "640 HV10")),
+    ],
+)
+def test_readings_of_hardness_have_their_scale(tmp_path, text, readings):
+    found = read(tmp_path, text)
+    assert (found.kind, found.readings) == ("hardness", readings)
+
+
+def test_a_given_name_makes_a_column_known(tmp_path):
+    text = "E2,F7 [N],depth\n1,2,7\n"
+    found = read(tmp_path, text, columns={"E2": "depth [mm]", "F7 [N]": "force [N]", "depth": "x"})
+    assert found.arguments["depth"] == pytest.approx([1e-3])
+    with pytest.raises(ValueError, match="columns names `E3`, which is no heading"):
+        read(tmp_path, text, columns={"E3": "depth"})
+
+
+# records
+
+
+@pytest.mark.parametrize(
+    "points",
+    ["1,2\n2,5\n3,9", "3,9\n2,5\n1,2", "2,5\n1,2\n3,9", "1,2\n2,5\n3,9\n1,2.1\n2,4.8\n3,8.9"],
+)
+def test_a_first_loading_in_any_order_and_of_several_specimens_is_kept(tmp_path, points):
+    found = read(tmp_path, f"depth [um],force\n{points}\n")
+    assert not found.part.any() and found.count == points.count(",")
+
+
+def test_unloadings_of_a_record_are_found_with_their_reloading(tmp_path):
+    found = read(tmp_path, "depth [um],force\n1,2\n2,5\n3,9\n2.5,4\n2.9,8\n4,14\n3.7,7\n")
+    assert found.part.tolist() == [0, 0, 0, 1, 1, 0, 2]
+    assert "The record has 2 unloadings: 3 of 7 points are used as such" in said(found)
+
+
+def test_the_unloadings_of_a_machines_record_are_found():
+    """Eleven partial unloadings and the last one, as the forces of the file show them."""
+    found = measured(DATA / "indentation_record.csv")
+    force, part = found.arguments["force"], found.part
+    assert found.count == 1082 and part.max() == 12
+    for number in range(1, 13):
+        inside = np.flatnonzero(part == number)
+        assert np.all(np.diff(inside) == 1)
+        top = force[: inside[0]].max()
+        assert force[inside].min() < 0.61 * top and force[inside].max() < 1.001 * top
+
+
+def test_points_without_a_force_are_left_out_and_said(tmp_path):
+    found = read(tmp_path, "depth [um],force\n-1,-0.1\n1,2\n2,5\n")
+    assert found.count == 2 and "1 of 3 points have no positive force" in said(found)
+
+
+# mistakes
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", ": the file is empty; expected a heading such as `speed [m/s], restitution`"),
+        ("speed,restitution\n", ": there are no numbers"),
+        ("sped,rest\n1,0.5\n", ":1, column 1: no quantity is called `sped`; did you mean `speed`?"),
+        ("1.0,0.5\n", ":1, column 1: no quantity is called `1.0`"),
+        ("speed [mph],restitution\n1,0.5", ":1, column 1: `mph` is no unit of speed; expected"),
+        ("speed [m/s,restitution\n1,0.5", ":1, column 1: `speed [m/s` has no closing bracket"),
+        ("speed,restitution [mm]\n1,0.5", ":1, column 2: restitution has no unit, not `mm`"),
+        ("depth [um],force [kg]\n1,1", ":1, column 2: `kg` is ambiguous for force: a force in kg is one in kgf"),
+        ("depth [um],force [mn]\n1,1", ":1, column 2: `mn` is ambiguous for force: it may be MN or mN"),
+        ("depth,force\n12.5,300\n", ":1, column 1: `depth` has no unit, and numbers up to 12.5, too large for m"),
+        ("speed,force\n1,1", ":1: speed and force: a record needs a depth, too"),
+        ("speed,mass\n0.5,1", ":1: speed and mass: impacts need a result"),
+        ("restitution,mass\n0.5,1", ":1: restitution and mass: impacts need a speed or a drop height"),
+        ("speed,velocity,e\n1,1,1", ":1: `speed` and `velocity` are both speed"),
+        ("speed,e_t\n1,0.5", ":1: oblique impacts need a column `angle [deg]`"),
+        ("speed,restitution\n1,0.5\n2,half\n", ":3, column 2: restitution = `half` is no number"),
+        ("speed,restitution\n1,0.5\n1_0,0.5\n", ":3, column 1: speed = `1_0` is no number"),
+        ("speed,restitution\n1,0.5\n\n2,1.2\n", ":4, column 2: restitution = 1.2 must be above 0 and at most 1"),
+        ("# one\r\nspeed,restitution\r\n\r\n# two\r\n1,0.5\r\n\r\n2,2\r\n", ":7, column 2: restitution"),
+        ("speed,restitution\n0,0.5\n", ":2, column 1: speed = 0 must be positive and finite"),
+        ("speed,restitution\nNaN,0.5\n", ":2, column 1: speed = NaN must be finite"),
+        ("speed,restitution\ninf,0.5\n", ":2, column 1: speed = inf must be finite"),
+        ("speed,restitution\n1\n", ":2: 1 cells, and the heading has 2, separated by commas"),
+        ("speed,restitution\n1,0,0,5\n", ":2: 4 cells, and the heading has 2, separated by commas; a decimal comma"),
+        ('speed,restitution\n"1,0.5\n', ":2: a quotation mark is not closed"),
+        ("speed,rebound speed\n1,0.5\n1,1.2\n", ":3: the impactor rebounds faster than it came"),
+        ("depth,force\n1e-6,-3\n", ": no force is positive; compression counts positive"),
+        ("depth,force\n,3\n", ":2, column 1: depth = `` is no number"),
+        ("HV10\nhard\n", ":2, column 1: HV10 = `hard` must be positive"),
+        ("hardness\n200\n", ":2, column 1: hardness = `200` has no scale; expected a heading such as `HV10`"),
+        ("depth,force\n" + "1,1\n" * 100_001, ":100002: there are more than 100000 rows"),
+    ],
+)  # fmt: skip
+def test_errors_name_the_line_and_the_column(tmp_path, text, words):
+    with pytest.raises(ValueError) as error:
+        read(tmp_path, text)
+    assert str(error.value).startswith(f"{tmp_path / 'm.csv'}{words}")
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ({"depth": [1e-6], "force": [1.0, 2.0]}, "depth has 1 cells, and force 2"),
+        ({"depth": [], "force": []}, "has 0 rows; allowed is 1 to"),
+        ({"depth": [1e-6, 2e-6], "force": [1.0, "two"]}, "row 1, column 2: force = `two` is no number"),
+        ({"depth": [1e-6]}, "impacts need"),
+    ],
+)  # fmt: skip
+def test_mistakes_in_a_table_name_the_row(table, words):
+    with pytest.raises(ValueError) as error:
+        measured(table)
+    assert words in str(error.value) or "Expected" in str(error.value)
+
+
+def test_what_is_no_measurement_is_told(tmp_path):
+    with pytest.raises(ValueError, match="m.csv: the file is no text"):
+        read(tmp_path, b"\0\1\2")
+    with pytest.raises(FileNotFoundError):
+        measured(tmp_path / "nowhere.csv")
+    with pytest.raises(TypeError, match="a DataFrame or a mapping"):
+        measured(3)

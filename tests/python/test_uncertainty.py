@@ -1,0 +1,104 @@
+"""Uncertainty forward: bands of predictions and studies."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import brinell
+import numpy as np
+import pytest
+from brinell.studies import store
+from scipy import stats
+
+SCENE = Path(os.environ["BRINELL_TEST_SCENES"]) / "mass_known.toml"
+STRENGTH = "target.yield_strength"
+
+
+def test_the_band_of_a_monotone_result_ends_where_its_input_does():
+    """95 % of a strength of 300 MPa +- 8 % are between 253 and 347 MPa."""
+    found = brinell.predict(SCENE, uncertainty={STRENGTH: "8 %"})
+    assert found.restitution == brinell.predict(SCENE).restitution
+    low, high = found.bands.bands["restitution"]
+    for end, sign in ((low, -1.0), (high, 1.0)):
+        strength = 300e6 * (1.0 + sign * 0.08 * 1.959964)
+        at_end = brinell.sweep(SCENE, {STRENGTH: f"{strength!r}:{strength * 1.001!r}:2"})
+        assert end == pytest.approx(np.array(at_end["restitution"])[0], abs=5e-4)
+    assert found.bands.median["restitution"] == pytest.approx(found.restitution, abs=1e-3)
+    assert found.bands.shares["restitution"][STRENGTH] > 0.999
+
+
+@pytest.mark.parametrize(
+    "same",
+    ["24 MPa", 24e6, stats.norm(300e6, 24e6)],
+)
+def test_a_spread_is_the_same_however_it_is_written(same):
+    one, other = (brinell.predict(SCENE, uncertainty={STRENGTH: it}).bands for it in ("8 %", same))
+    assert one.bands["dent"] == pytest.approx(other.bands["dent"], rel=1e-9)
+
+
+def test_a_range_is_spread_evenly_and_draws_are_kept():
+    found = brinell.predict(SCENE, uncertainty={"speed": ("900 mm/s", "1.1 m/s"), "mass": "1 %"})
+    speeds = found.bands.draws["speed"]
+    assert speeds.min() >= 0.9 and speeds.max() <= 1.1 and len(speeds) == 1024
+    assert np.histogram(speeds, 8, (0.9, 1.1))[0].tolist() == [128] * 8
+    shares = found.bands.shares["energy_lost"]
+    assert shares["speed"] > 0.9 > 0.1 > shares["mass"]
+    assert "energy_lost: " in str(found.bands) and "speed makes" in str(found.bands)
+
+
+def test_a_study_has_bands_beside_its_results(tmp_path):
+    path = tmp_path / "x.parquet"
+    more = {
+        "uncertainty": {STRENGTH: "8 %"},
+        "output": [path, tmp_path / "x.svg"],
+        "progress": False,
+    }
+    table = brinell.study(SCENE, {"speed": [0.5, 1.0]}, **more)
+    one = brinell.predict(SCENE, speed=1.0, uncertainty={STRENGTH: "8 %"}).bands
+    assert len(table["speed"]) == 2 and list(table[STRENGTH]) == [300e6] * 2
+    for name in ("restitution", "dent"):
+        found = (table[f"{name}_low"][1], table[f"{name}_high"][1])
+        assert found == pytest.approx(one.bands[name], rel=0.02)
+        assert found[0] < table[name][1] < found[1]
+    assert store.read(path)["dent_low"] == pytest.approx(table["dent_low"])
+    assert (tmp_path / "x.svg").stat().st_size > 5000
+
+
+def test_a_study_spreads_around_each_value_that_varies():
+    table = brinell.study(
+        SCENE, {STRENGTH: [200e6, 800e6]}, speed=1.0, uncertainty={STRENGTH: "5 %"}, progress=False
+    )
+    assert np.all(table["restitution_low"] < table["restitution"])
+    assert table["restitution_high"][0] < table["restitution_low"][1]
+
+
+def test_the_command_line_of_a_study_takes_spreads(tmp_path):
+    path = tmp_path / "x.csv"
+    call = [sys.executable, "-m", "brinell", "study", SCENE, "--vary", "speed=0.5:1:2", "--quiet"]
+    call += ["--uncertain", f"{STRENGTH}=8 %", "-o", path]
+    done = subprocess.run(list(map(str, call)), capture_output=True, encoding="utf-8", check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "restitution_low" in path.read_text().splitlines()[0]
+
+
+@pytest.mark.parametrize(
+    ("spread", "error", "words"),
+    [
+        ({"target.strength": "5 %"}, brinell.UnknownName, "no parameter 'target.strength'"),
+        ({STRENGTH: "5 kg"}, ValueError, "`kg` is no unit of target.yield_strength"),
+        ({STRENGTH: -1.0}, ValueError, "must be positive and finite"),
+        ({STRENGTH: (3e8, 2e8)}, ValueError, "the first end must be below the second"),
+        ({STRENGTH: [1.0, 2.0, 3.0]}, ValueError, "two ends of a range, or a distribution"),
+        ({"speed": 3.0}, brinell.ContactError, "a draw is no impact (speed = -"),
+    ],
+)
+def test_a_spread_that_can_not_be_is_told(spread, error, words):
+    with pytest.raises(error) as told:
+        brinell.predict(SCENE, uncertainty=spread)
+    assert words in str(told.value)
+
+
+def test_several_laws_have_no_bands():
+    with pytest.raises(ValueError, match="leave laws out"):
+        brinell.predict(SCENE, laws=["brinell"], uncertainty={STRENGTH: "5 %"})
