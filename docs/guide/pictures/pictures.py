@@ -86,7 +86,7 @@ def loading_curves(scene):
     curves, end = {}, 0.3
     for to in (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0):
         # the first of the branches of a curve loads to two thirds of its depth
-        for law, columns in brinell.curve(scene, laws=["all"], to=1.5 * to * indentation).items():
+        for law, columns in brinell.curve(scene, laws=["all"], to=1.5 * to * indentation).groupby("law", sort=False):
             first = np.argmax(columns["indentation"] >= 0.999999 * to * indentation) + 1
             x, f = columns["indentation"][:first] / indentation, columns["force"][:first] / force
             curves.setdefault(law, []).append(np.column_stack([x, f])[x >= end])
