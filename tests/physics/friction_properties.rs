@@ -135,7 +135,7 @@ fn the_stored_energy_is_never_negative_however_small_a_tangential_motion_is() {
     let size = |random: &mut Random, decades: f64| 10f64.powf(-5.0 - decades * random.next());
     let (mut largest, mut smallest) = (0.0_f64, f64::INFINITY);
     for seed in 0..3000 {
-        let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
+        let mut run = Run::<16>::new(hertz(MODULUS, RADIUS));
         for _ in 0..8 {
             let rise = size(&mut random, 14.0) * if random.next() < 0.3 { -1.0 } else { 1.0 };
             let rise = if run.indentation + rise > DEEPEST { -rise } else { rise };
@@ -218,7 +218,7 @@ fn a_cycle_at_constant_normal_force_dissipates_as_mindlin_and_deresiewicz_derive
     for part in [0.01_f64, 0.1, 0.5, 0.9, 0.999] {
         // displacement at a tangential force of `part` of the limit
         let amplitude = indentation * (1.0 - (1.0 - part).powf(2.0 / 3.0));
-        let mut run = Run::<12>::new(curve);
+        let mut run = Run::<16>::new(curve);
         run.step((indentation, 0.0), 1);
         run.step((0.0, amplitude), 1);
         assert_close("force", FRICTION.coefficient * run.pull(), part * limit, limit, 1e-13);
@@ -235,11 +235,11 @@ fn a_cycle_at_constant_normal_force_dissipates_as_mindlin_and_deresiewicz_derive
     }
 }
 
-/// The largest error of a list of twelve segments on a path over `steps`, each to an indentation and a displacement
+/// The largest error of a list of sixteen segments on a path over `steps`, each to an indentation and a displacement
 /// [m], relative to the force.
-fn error_of_twelve(steps: u32, place: impl Fn(f64) -> (f64, f64)) -> f64 {
+fn error_of_sixteen(steps: u32, place: impl Fn(f64) -> (f64, f64)) -> f64 {
     let curve = hertz(MODULUS, RADIUS);
-    let (mut full, mut short) = (Run::<512>::new(curve), Run::<12>::new(curve));
+    let (mut full, mut short) = (Run::<512>::new(curve), Run::<16>::new(curve));
     let (mut before, mut worst) = ((0.0, 0.0), 0.0_f64);
     for step in 1..=steps {
         let here = place(f64::from(step));
@@ -253,7 +253,7 @@ fn error_of_twelve(steps: u32, place: impl Fn(f64) -> (f64, f64)) -> f64 {
 }
 
 #[test]
-fn a_list_of_twelve_is_close_to_one_that_is_never_full() {
+fn a_list_of_sixteen_is_close_to_one_that_is_never_full() {
     let quadrature = |step: f64| {
         let phase = 2.0 * PI * step / 200.0;
         (1e-5 * (1.0 + 0.6 * phase.sin()), 3e-6 * phase.cos())
@@ -265,10 +265,10 @@ fn a_list_of_twelve_is_close_to_one_that_is_never_full() {
     };
     let ratchet = |step: f64| (1e-8 * step + 1e-6 * (step / 3.0).sin() + 2e-6, 2e-9 * step + 5e-7 * (step / 3.0).cos());
     let errors = [
-        ("quadrature", error_of_twelve(1000, quadrature)),
-        ("decaying vibration", error_of_twelve(800, decaying)),
-        ("two frequencies", error_of_twelve(2000, two_frequencies)),
-        ("ratchet", error_of_twelve(1000, ratchet)),
+        ("quadrature", error_of_sixteen(1000, quadrature)),
+        ("decaying vibration", error_of_sixteen(800, decaying)),
+        ("two frequencies", error_of_sixteen(2000, two_frequencies)),
+        ("ratchet", error_of_sixteen(1000, ratchet)),
     ];
     for (name, error) in errors {
         println!("{name}: {error:.1e}");
@@ -278,7 +278,7 @@ fn a_list_of_twelve_is_close_to_one_that_is_never_full() {
 
 #[test]
 fn a_long_vibration_does_not_add_segments() {
-    let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
+    let mut run = Run::<16>::new(hertz(MODULUS, RADIUS));
     let mut random = Random(7);
     run.step((1e-5, 0.0), 1);
     let mut first = None;
@@ -325,13 +325,13 @@ fn the_derivative_of_the_force_is_the_limit_of_small_steps() {
 #[test]
 fn restored_springs_continue_with_the_same_bits() {
     for seed in 3000..3030 {
-        let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
+        let mut run = Run::<16>::new(hertz(MODULUS, RADIUS));
         for step in history(seed, 40) {
             let mut words = Vec::new();
             run.stuck.save(&mut |word| words.push(word));
             assert_eq!(words.len(), Stuck::<12>::WORDS);
             let stuck = Stuck::load(&mut words.iter().copied(), &run.curve).expect("words of a contact");
-            let mut other = Run::<12> { stuck, ..run };
+            let mut other = Run::<16> { stuck, ..run };
             run.step(step, 1);
             other.step(step, 1);
             assert_eq!(run.pull().to_bits(), other.pull().to_bits(), "seed {seed}");
@@ -342,7 +342,7 @@ fn restored_springs_continue_with_the_same_bits() {
 
 #[test]
 fn damaged_words_are_rejected() {
-    let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
+    let mut run = Run::<16>::new(hertz(MODULUS, RADIUS));
     run.step((1e-6, 1e-7), 1);
     let mut words = Vec::new();
     run.stuck.save(&mut |word| words.push(word));

@@ -4,6 +4,7 @@
 use crate::both_ways::Both;
 use crate::command::{self, empty_folder, output};
 use crate::courses;
+use crate::debian::{Packages, packages};
 use crate::hosts::{Host, Interface, Loading, cc, compile, folder};
 use crate::kinds::of_each_kind;
 use crate::physics::Random;
@@ -284,4 +285,31 @@ fn c_source_gives_the_same_bits_on_other_processors() {
             }
         }
     }
+}
+
+#[test]
+fn c_source_gives_the_same_bits_by_the_rules_of_microsofts_compiler() {
+    for kind in ["state", "moved"] {
+        let Some(fmu) = Fmu::of_kind(kind) else { return };
+        match systems::linked_by_microsofts_rules(&format!("linked-{kind}"), &fmu.source()) {
+            Err(why) => skipped("C source by the rules of Microsoft's compiler", &why),
+            Ok(host) => fmu.assert_same(&host, kind),
+        }
+    }
+}
+
+/// tcc has neither optimization nor vector instructions: square roots are computed in integers.
+#[test]
+fn c_source_gives_the_same_bits_by_tcc() {
+    let Some(fmu) = Fmu::of_kind("moved") else { return };
+    let Packages { folder, .. } = match packages("tcc", "bookworm", &["tcc", "libtcc-dev"], false) {
+        Ok(packages) => packages,
+        Err(why) => return skipped("C source by tcc", &why),
+    };
+    let parts = format!("-B{}", folder.join("usr/lib/x86_64-linux-gnu/tcc").display());
+    let library = fmu.compiled(&folder.join("usr/bin/tcc").to_string_lossy(), &[&parts]);
+    let both = Both::between(&fmu.native(), &library, "moved");
+    let mut random = Random(5);
+    let messages: usize = (0..10).map(|_| both.compare(100, &mut random)).sum();
+    assert!(messages > 0);
 }

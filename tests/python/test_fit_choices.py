@@ -230,7 +230,7 @@ def test_the_friction_of_a_measured_oblique_impact_is_found(tmp_path):
         for line in (DATA / "oblique_elastic.csv").read_text().splitlines()
         if line.startswith("mfix,e_t,")
     ]
-    points = [(float(it[2]), float(it[3])) for it in rows][5::3]
+    points = [(float(it[2]), float(it[3])) for it in rows][2:]
     path = tmp_path / "oxide.toml"
     path.write_text(
         'name = "oxide"\nlaw = { loading = "hertz" }\nfriction = { coefficient = 0.15 }\n'

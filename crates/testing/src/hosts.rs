@@ -131,6 +131,13 @@ pub fn folder() -> PathBuf {
     root().join("tests/platforms")
 }
 
+/// The folder of compiled hosts.
+pub fn folder_of_hosts() -> PathBuf {
+    let place = temporary().join("hosts");
+    fs::create_dir_all(&place).expect("the target folder can be written to");
+    place
+}
+
 /// Compiles `program`, a file of tests/platforms, as `name`.
 ///
 /// # Errors
@@ -142,9 +149,7 @@ pub fn compile(
     compiler: &[PathBuf],
     options: &[&str],
 ) -> Result<PathBuf, String> {
-    let place = temporary().join("hosts");
-    fs::create_dir_all(&place).expect("the target folder can be written to");
-    let result = place.join(name);
+    let result = folder_of_hosts().join(name);
     // another test may be running the same program: it is replaced atomically
     let draft = result.with_extension(format!("{:?}", std::thread::current().id()));
     let mut command = Command::new(&compiler[0]);

@@ -2,8 +2,8 @@
 //! compiler for their programs.
 
 use super::debian::{Packages, packages};
-use super::hosts::{Host, Loading, compile, folder};
-use super::python::{environment_of, python, target_folder};
+use super::hosts::{Host, Loading, compile, folder, folder_of_hosts};
+use super::python::{environment_of, python, site_packages_file, target_folder};
 use std::fs::File;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -120,6 +120,38 @@ pub fn linked(name: &str, source: &Path, (target, processor): (&str, &str), opti
     let unset = ["-E", "LD_LIBRARY_PATH="].map(PathBuf::from);
     let command = [emulator].into_iter().chain(unset).chain([program]).collect();
     Ok(Host { command, variables: vec![("LD_LIBRARY_PATH", libraries)] })
+}
+
+/// The C `source` of an FMU as an object by the rules of Microsoft's compiler, which clang imitates, with these options.
+///
+/// # Errors
+/// The reason why there is none: that it is not available, or what the compiler says.
+pub fn by_microsofts_rules(name: &str, source: &Path, options: &[&str]) -> Result<PathBuf, String> {
+    let object = folder_of_hosts().join(format!("{name}.obj"));
+    let compiler = compiler("x86_64-windows-msvc")?;
+    let mut command = Command::new(&compiler[0]);
+    command.args(&compiler[1..]).args(["-nostdlibinc", "-fms-compatibility-version=19.30", "-fms-extensions"]);
+    command.arg("-isystem").arg(folder().join("msvc")).arg("-I").arg(site_packages_file("fmpy/c-code"));
+    command.args(["-DFMI2_OVERRIDE_FUNCTION_PREFIX", "-O1", "-Wall", "-Wextra", "-Werror"]).args(options);
+    let output = command.arg("-c").arg(source).arg("-o").arg(&object).output().map_err(|error| error.to_string())?;
+    match output.status.success() {
+        true => Ok(object),
+        false => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
+    }
+}
+
+/// The host in tests/platforms with the C `source` of an FMU by the rules of Microsoft's compiler, in wine.
+///
+/// # Errors
+/// The reason why it is not available.
+pub fn linked_by_microsofts_rules(name: &str, source: &Path) -> Result<Host, String> {
+    let (wine, _) = wine()?;
+    let object = by_microsofts_rules(name, source, &[])?;
+    let mark = folder().join("msvc/float_used.c");
+    let parts = [&*object.to_string_lossy(), &*mark.to_string_lossy()];
+    let compiler = compiler("x86_64-windows-gnu")?;
+    let program = compile(&format!("{name}-msvc.exe"), "host.c", Loading::Linked, &compiler, &parts)?;
+    Ok(Host { command: vec![wine, program], variables: Vec::new() })
 }
 
 /// QEMU's user mode for arm64, with the C library of arm64.

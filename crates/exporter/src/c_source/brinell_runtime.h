@@ -25,7 +25,7 @@
 #pragma STDC FP_CONTRACT OFF
 #endif
 /* what the module may leave unused */
-#if defined(__GNUC__)
+#if defined(__GNUC__) || defined(__clang__)
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #pragma GCC diagnostic ignored "-Wunused-variable"

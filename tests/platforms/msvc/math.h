@@ -1,0 +1,1 @@
+#define HUGE_VAL ((double)1e300 * 1e300)
