@@ -198,8 +198,10 @@ fn a_material_has_other_names_and_warns_where_it_is_no_metal() {
     for material in listed {
         let name = material["name"].as_str().unwrap();
         let by_name = predicted(name);
-        let warning = material["warning"].as_str();
-        assert_eq!(by_name.err.is_empty(), warning.is_none(), "{name}: {}", by_name.err);
+        // steel and aluminium without a condition have no strength, and the scene gives none
+        let is_asked = ["steel", "aluminium"].contains(&name);
+        let is_silent = material["warning"].is_null() && !is_asked;
+        assert_eq!(by_name.err.is_empty(), is_silent, "{name}: {}", by_name.err);
         for alias in
             texts(&material["aliases"]).iter().filter(|alias| all.iter().filter(|other| other == alias).count() == 1)
         {
