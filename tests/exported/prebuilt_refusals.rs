@@ -23,7 +23,7 @@ fn refusal(text: &str, store: &Path) -> String {
 
 #[test]
 fn a_scene_that_needs_a_compiler_is_rejected_with_the_key_that_needs_it() {
-    let many: String = (0..120)
+    let many: String = (0..1000)
         .map(|index| format!("[[contact]]\nname = \"c{index}\"\ntarget = {{ yield_strength = {index}.5e6 }}\n"))
         .collect();
     let cases = [
