@@ -44,7 +44,7 @@ fn a_prebuilt_library_gives_the_same_bits_and_messages_as_a_compiled_one() {
 /// `BRINELL_SCENES` sets their number.
 #[test]
 fn any_scene_has_the_same_bits_and_messages_in_both_ways() {
-    let count = std::env::var("BRINELL_SCENES").map_or(16, |count| count.parse().expect("a number of scenes"));
+    let count = std::env::var("BRINELL_SCENES").map_or(12, |count| count.parse().expect("a number of scenes"));
     let (mut random, mut done) = (Random(2026), 0);
     let mut kinds = BTreeMap::new();
     while done < count {
@@ -112,7 +112,9 @@ fn a_prebuilt_library_takes_hardly_more_instructions_than_a_compiled_one() {
     let program =
         compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}"));
     let mut beyond = Vec::new();
-    for (kind, text) in of_each_kind().into_iter().filter(|(kind, _)| !kind.contains("friction")) {
+    // the last scene of each kind
+    let scenes: BTreeMap<_, _> = of_each_kind().into_iter().filter(|(kind, _)| !kind.contains("friction")).collect();
+    for (kind, text) in scenes {
         let fmus = [None, Some(store())].map(|store| export(&text, store));
         for (functions, most) in MOST {
             let [compiled, prebuilt] = fmus.each_ref().map(|fmu| instructions(fmu, &program, functions));
