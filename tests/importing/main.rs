@@ -11,5 +11,6 @@ mod every_importer;
 mod examples;
 mod fmpy;
 mod friction_importers;
+mod numbers_in_engines;
 mod python_module;
 mod second_importer;

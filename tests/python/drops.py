@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import numpy as np
+from pytest import approx
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -16,6 +17,14 @@ def promised_at(way, speed):
     at = int(np.argmin(np.abs(way.promised["speed"] - speed)))
     assert abs(way.promised["speed"][at] / speed - 1) < 1e-9
     return {name: column[at] for name, column in way.promised.items()}
+
+
+def compare(way, speed, rebounds, tolerance):
+    """That rebounds at the phases have mean, least and largest value as a way promises."""
+    promise = promised_at(way, speed)
+    assert np.mean(rebounds) == approx(promise["restitution"], abs=tolerance)
+    assert np.min(rebounds) == approx(promise["least_restitution"], abs=2 * tolerance)
+    assert np.max(rebounds) == approx(promise["most_restitution"], abs=2 * tolerance)
 
 
 def step_function(x, width):
@@ -102,6 +111,12 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
         case ("chrono" | "lammps", "hertz"):
             stiffness = 4 / 3 * reduced(get("youngs_modulus")) * np.sqrt(radius)
             return hertz(stiffness, get("typed_restitution"), mass), False
+        case ("liggghts", "hooke"):
+            # from a modulus and the velocity 1 m/s
+            product = np.sqrt(radius) * reduced(get("hooke_modulus"))
+            stiffness = 16 / 15 * product * (15 * mass / (16 * product)) ** 0.2
+            ratio = beta(get("pulling_restitution"))
+            return lambda x, w: stiffness * x + 2 * ratio * np.sqrt(mass * stiffness) * w, True
         case ("liggghts", _):
             stiffness = 4 / 3 * reduced(get("youngs_modulus")) * np.sqrt(radius)
             return hertz(stiffness, get("pulling_restitution"), mass), True
@@ -257,11 +272,79 @@ def mover(tool, name, numbers, radius, mass, speed, step):
             return x + step * w, w, force
 
         return move
+    if name == "thornton-ning":
+        return summing_mover(numbers, radius, mass, step)
+    if name == "mdr":
+        return plastic_mover(numbers, radius, mass, step)
     force_of, pulls = law_of_tool(tool, name, numbers, radius, mass, speed)
 
     def move(x, w, _):
         force = force_of(x, w) if x > 0 else 0.0
         force = force if pulls else max(force, 0.0)
+        w -= step * force / mass
+        return x + step * w, w, force
+
+    return move
+
+
+def plastic_mover(numbers, radius, mass, step, poisson=0.3):
+    """One step of an elastoplastic sphere of Zunker and Kamrin (2024) on a rigid flat."""
+    young, strength = numbers["youngs_modulus"], numbers["yield_strength"]
+    plane, shear = young / (1 - poisson**2), young / (2 * (1 + poisson))
+    yielded = []
+
+    def indenter(depth, height, width):
+        t = min(max(depth / height, 0.0), 1.0)
+        return (
+            plane
+            * height
+            * width
+            / 4
+            * (np.arccos(1 - 2 * t) - (1 - 2 * t) * np.sqrt(4 * t - 4 * t * t))
+        )
+
+    def law(x, deepest):
+        mean = strength * (1 + 1.75 * np.exp(-4.4 * deepest / radius))
+        hertz = 4 * plane * np.sqrt(max(x, 0.0) / radius) / (3 * np.pi)
+        if not yielded and x >= deepest and hertz > mean:
+            yielded.append(x)
+        if not yielded:
+            return indenter(x, 4 * radius, 2 * radius)
+        first = yielded[0]
+        a = np.sqrt(2 * deepest * radius - deepest**2 + first**2 - first * radius)
+        height, width = 4 * mean / plane * a, 2 * a
+        elastic = height / 2
+        z = radius - (deepest - elastic)
+        h = np.hypot(a, z)
+        largest = np.pi * a**2 * mean
+        moved = 2 * a**2 * (poisson - 1) - (2 * poisson - 1) * z * (h - z)
+        moved *= largest / (2 * np.pi * a**2 * shear * h)
+        return indenter((x - deepest + elastic + moved) / (1 + moved / elastic), height, width)
+
+    def move(x, w, deepest):
+        force = law(x, max(deepest, x)) if x > 0 else 0.0
+        w -= step * force / mass
+        return x + step * w, w, force
+
+    return move
+
+
+def summing_mover(numbers, radius, mass, step):
+    """One step of Thornton's and Ning's sphere without adhesion in LIGGGHTS, which sums up increments of the force."""
+    modulus = reduced(numbers["youngs_modulus"])
+    at_yield = numbers["yield_ratio"] * radius
+    last, yielded = [0.0, 0.0], []
+
+    def move(x, w, deepest):
+        force = 0.0
+        if x > 0:
+            contact = np.sqrt(radius * x)
+            if x >= deepest and contact >= at_yield:
+                yielded.append(x)
+            if x >= deepest and yielded:
+                contact = at_yield
+            force = max(last[1] + 2 * modulus * contact * (x - last[0]), 0.0)
+            last[:] = x, force
         w -= step * force / mass
         return x + step * w, w, force
 
