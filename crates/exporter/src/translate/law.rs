@@ -1,6 +1,8 @@
 //! The force laws of other tools, as they publish them, between a body of the effective mass and a fixed one.
 
+use super::plastic::{Plastic, Thornton};
 use libm::{pow, sqrt};
+use std::f64::consts::PI;
 
 /// The law of a tool with its numbers, in SI units. The overlap is `x`, the closing speed `w`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +30,10 @@ pub enum Law {
     ///
     /// Reference: S. Luding, *Granular Matter* 10 (2008) 235-246.
     Luding { loading: f64, unloading: f64, limit: f64 },
+    /// An elastoplastic sphere on a rigid flat, without adhesion.
+    Plastic(Plastic),
+    /// Hertz, then linear; unloading as Hertz, summed up in steps.
+    Thornton(Thornton),
 }
 
 impl Law {
@@ -63,6 +69,8 @@ impl Law {
                 };
                 if deepest < limit { way_back.min(loading * x) } else { way_back }
             }
+            Law::Plastic(plastic) => plastic.force(x, deepest.max(x)),
+            Law::Thornton(thornton) => thornton.force(x, deepest.max(x)),
         }
     }
 
@@ -85,6 +93,18 @@ impl Law {
             | Law::Impact { stiffness, exponent, .. }
             | Law::ElastoGap { stiffness, exponent, .. } => (stiffness, exponent),
             Law::Luding { loading, .. } => (loading, 1.0),
+            Law::Plastic(Plastic { modulus, radius, .. }) => (4.0 / 3.0 * modulus * sqrt(radius), 1.5),
+            Law::Thornton(Thornton { stiffness, .. }) => (stiffness, 1.5),
+        }
+    }
+
+    /// The law of a contact in steps that is at the overlap `x` \[m\], `deepest` at most so far: tools that remember more than
+    /// this do so step by step.
+    pub fn noticing(self, x: f64, deepest: f64) -> Law {
+        match self {
+            Law::Plastic(plastic) => Law::Plastic(plastic.noticing(x)),
+            Law::Thornton(thornton) => Law::Thornton(thornton.noticing(x, deepest)),
+            law => law,
         }
     }
 }
@@ -111,6 +131,9 @@ pub enum Form {
     Impact,
     ElastoGap,
     Luding,
+    /// An elastoplastic sphere.
+    Plastic,
+    Thornton,
 }
 
 /// What a form may have to choose, beside its two numbers.
@@ -124,7 +147,8 @@ pub struct Shape {
 impl Form {
     /// The shape of a form that has none to choose.
     pub fn shape(self) -> Shape {
-        Shape { exponent: if matches!(self, Form::Hertz | Form::PullingHertz) { 1.5 } else { 1.0 }, ramp: 1.0 }
+        let hertzian = matches!(self, Form::Hertz | Form::PullingHertz | Form::Plastic | Form::Thornton);
+        Shape { exponent: if hertzian { 1.5 } else { 1.0 }, ramp: 1.0 }
     }
 
     /// Whether exponent and ramp are numbers that the user types.
@@ -134,9 +158,9 @@ impl Form {
 
     /// The law in which a mass at the speed of `impact` would come to rest at the overlap `scale` \[m\] by its spring alone, with a
     /// number without unit for its `losses`. All that happens in the impact, over the scales of length, speed and mass, depends on
-    /// shape and losses only.
+    /// shape and losses only, but for a plastic sphere, which has its radius.
     pub fn law(self, scale: f64, shape: Shape, losses: f64, impact: &Scales) -> Law {
-        let Scales { mass, speed, fastest } = *impact;
+        let Scales { mass, speed, fastest, radius } = *impact;
         let exponent = shape.exponent;
         let stiffness = 0.5 * (exponent + 1.0) * mass * speed * speed / pow(scale, exponent + 1.0);
         let damping = 2.0 * losses * mass * speed / scale;
@@ -159,6 +183,14 @@ impl Form {
                 let (limit, growth) = (scale * fastest / speed, losses * fastest / speed);
                 Law::Luding { loading: stiffness, unloading: stiffness * (1.0 + growth), limit }
             }
+            Form::Plastic => {
+                // Hertz's mean pressure at the scale, over that of the yielding sphere
+                let modulus = 0.75 * stiffness / sqrt(radius);
+                let pressure = 4.0 * modulus * sqrt(scale / radius) / (3.0 * PI);
+                Law::Plastic(Plastic::new(modulus, pressure / (2.75 * losses), radius))
+            }
+            // yield begins at this part of the scale
+            Form::Thornton => Law::Thornton(Thornton::new(stiffness, scale / (losses * losses))),
         }
     }
 }
@@ -172,4 +204,6 @@ pub struct Scales {
     pub speed: f64,
     /// Largest speed \[m/s\] of the range.
     pub fastest: f64,
+    /// Effective radius \[m\].
+    pub radius: f64,
 }

@@ -6,7 +6,7 @@
 //!
 //! | module | what it has |
 //! |---|---|
-//! | [`law`] | the force laws of tools |
+//! | [`law`], `plastic` | the force laws of tools |
 //! | [`motion`] | an impact by them, exactly and in steps |
 //! | [`fit`] | the numbers that meet an impact |
 //! | [`tools`], [`numbers`] | the tools as data, and how they want their numbers |
@@ -16,6 +16,7 @@ pub mod fit;
 pub mod law;
 pub mod motion;
 mod numbers;
+mod plastic;
 mod sentences;
 #[cfg(test)]
 mod tests;
@@ -246,7 +247,7 @@ impl Case {
             form,
             stepping: way.stepping,
             at_touch: way.at_touch,
-            scales: Scales { mass: self.mass, speed: self.speed, fastest },
+            scales: Scales { mass: self.mass, speed: self.speed, fastest, radius: self.pair.radius },
             goal,
             speeds: &self.speeds,
             wanted: &self.wanted,

@@ -167,8 +167,10 @@ fn stepped(law: &Law, stepping: Stepping, mass: f64, step: f64, (x, w, deepest):
 pub fn in_steps(law: &Law, stepping: Stepping, mass: f64, speed: f64, step: f64, phase: f64) -> Outcome {
     let (mut x, mut w) = (-phase * step * speed, speed);
     let (mut depth, mut largest_force, mut count) = (0.0_f64, 0.0_f64, 0_u32);
+    let mut law = *law;
     for _ in 0..MOST_STEPS {
-        let (next, after, force) = stepped(law, stepping, mass, step, (x, w, depth));
+        law = law.noticing(x, depth);
+        let (next, after, force) = stepped(&law, stepping, mass, step, (x, w, depth));
         (x, w) = (next, after);
         if force != 0.0 {
             count += 1;

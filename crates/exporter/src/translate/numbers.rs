@@ -1,6 +1,7 @@
 //! The numbers that a tool wants to be typed, from its law.
 
 use super::law::Law;
+use super::plastic::{Plastic, Thornton};
 use brinell_contact::Pair;
 use libm::{exp, pow, sqrt};
 use std::f64::consts::PI;
@@ -21,7 +22,7 @@ pub struct Context<'a> {
 }
 
 /// Poisson's ratio of the materials that are no material's.
-const POISSON: f64 = 0.3;
+pub const POISSON: f64 = 0.3;
 
 impl Context<'_> {
     /// The number `key` of tools.toml \[SI\]; `None` if there is none of this name for such a law.
@@ -62,6 +63,15 @@ impl Context<'_> {
                 "damping" => Some(damping),
                 _ => None,
             },
+            Law::Plastic(Plastic { modulus, strength, .. }) => match key {
+                "youngs_modulus" => Some(modulus * (1.0 - POISSON * POISSON)),
+                "yield_strength" => strength.is_finite().then_some(strength),
+                _ => None,
+            },
+            Law::Thornton(Thornton { stiffness, limit, .. }) => match key {
+                "yield_ratio" => limit.is_finite().then(|| sqrt(limit / self.pair.radius)),
+                _ => self.of_hertz(key, stiffness, 0.0),
+            },
             Law::Luding { loading, unloading, limit } => match key {
                 "loading_stiffness" => Some(loading),
                 "unloading_stiffness" => Some(unloading),
@@ -88,6 +98,12 @@ impl Context<'_> {
             "erp" => self.step.map(|step| step * stiffness / (step * stiffness + damping)),
             "cfm" => self.step.map(|step| 1.0 / (step * stiffness + damping)),
             "width" => Some(self.depth / 20.0),
+            // from 16/15 E* sqrt(R) (15 m V^2/(16 E* sqrt(R)))^0.2 with V = 1 m/s
+            "hooke_modulus" => {
+                let product = pow(stiffness / (pow(16.0 / 15.0, 0.8) * pow(self.mass, 0.2)), 1.25);
+                Some(2.0 * (1.0 - POISSON * POISSON) * product / sqrt(self.pair.radius))
+            }
+            "pulling_restitution" => (ratio < 1.0).then(|| exp(-PI * ratio / sqrt(1.0 - ratio * ratio))),
             _ => None,
         }
     }
