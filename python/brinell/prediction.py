@@ -53,7 +53,7 @@ class Prediction:
     warnings: tuple[str, ...] = ()
     """What is doubtful: first numbers of the scene and of the call, then the validity of the law for
     this impact."""
-    bands: Bands | None = None
+    bands: Bands | None = field(default=None, repr=False)
     """The bands of the results, if an uncertainty was given."""
     notes: tuple[str, ...] = field(default=(), compare=False)
     """Remarks on the surface and on the accuracy of the laws that were asked for."""

@@ -100,7 +100,10 @@ impl Question<'_> {
         // the size of a plastic sphere changes the course a little
         for _ in 0..if is_plastic { 4 } else { 1 } {
             if is_plastic && scale > DEEPEST * radius {
-                return Err("a ball that sinks in so deep grows in it, which is not computed".into());
+                return Err(
+                    "at this step the ball would sink in too deep for what is computed; a shorter one has numbers"
+                        .into(),
+                );
             }
             let ended = exact(&self.form.law(scale, shape, losses, &self.scales), mass, speed);
             let ended = ended.ok_or("its contact does not end")?;
