@@ -2,7 +2,9 @@
 //!
 //! `cargo test --release --test importing fmpy` runs one of them.
 
-use brinell_testing::{command, debian, driver, fmi_crate, importer_table, loaded, pytest, python, skips, unit};
+use brinell_testing::{
+    command, debian, driver, fmi_crate, importer_table, loaded, prebuilt, pytest, python, skips, unit,
+};
 
 mod abi;
 mod c_interface;

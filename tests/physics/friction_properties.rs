@@ -329,7 +329,7 @@ fn restored_springs_continue_with_the_same_bits() {
         for step in history(seed, 40) {
             let mut words = Vec::new();
             run.stuck.save(&mut |word| words.push(word));
-            assert_eq!(words.len(), Stuck::<12>::WORDS);
+            assert_eq!(words.len(), Stuck::<16>::WORDS);
             let stuck = Stuck::load(&mut words.iter().copied(), &run.curve).expect("words of a contact");
             let mut other = Run::<16> { stuck, ..run };
             run.step(step, 1);
@@ -346,10 +346,10 @@ fn damaged_words_are_rejected() {
     run.step((1e-6, 1e-7), 1);
     let mut words = Vec::new();
     run.stuck.save(&mut |word| words.push(word));
-    let load = |words: &[u64]| Stuck::<12>::load(&mut words.iter().copied(), &run.curve);
+    let load = |words: &[u64]| Stuck::<16>::load(&mut words.iter().copied(), &run.curve);
     assert!(load(&words).is_some());
     assert!(load(&words[1..]).is_none(), "a word is missing");
-    for (place, word) in [(0, f64::NAN.to_bits()), (2, 13), (4, f64::INFINITY.to_bits())] {
+    for (place, word) in [(0, f64::NAN.to_bits()), (2, 17), (4, f64::INFINITY.to_bits())] {
         let mut damaged = words.clone();
         damaged[place] = word;
         assert!(load(&damaged).is_none(), "word {place}");
