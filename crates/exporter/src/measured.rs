@@ -631,7 +631,9 @@ mod tests {
             let found = of_material(material, &Metal { youngs_modulus, poissons_ratio, class, exponent: None });
             let given = [material.yield_strength.is_some(), material.tension.is_some(), material.hardness.is_some()];
             let ways = given.into_iter().filter(|given| *given).count();
-            assert!(ways == 1 || (ways == 0 && material.warning.is_some()), "{}", material.name);
+            // a brittle one says so, and two have a strength only by their condition
+            let may_have_none = material.warning.is_some() || ["steel", "aluminium"].contains(&&*material.name);
+            assert!(ways == 1 || (ways == 0 && may_have_none), "{}", material.name);
             assert_eq!(found.is_some(), material.yield_strength.is_none() && ways == 1, "{}", material.name);
             let strength = found.map(|found| found.at(0.02)).or(material.yield_strength).unwrap_or(1e9);
             assert!((5e6..3.5e9).contains(&strength), "{}: {strength}", material.name);
