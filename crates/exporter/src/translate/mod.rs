@@ -9,7 +9,7 @@
 //! | [`law`], `plastic` | the force laws of tools |
 //! | [`motion`] | an impact by them, exactly and in steps |
 //! | [`fit`] | the numbers that meet an impact |
-//! | [`tools`], [`numbers`] | the tools as data, and how they want their numbers |
+//! | [`tools`], `numbers` | the tools as data, and how they want their numbers |
 //! | [`text`] | the answer in words |
 
 pub mod fit;
