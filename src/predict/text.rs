@@ -200,11 +200,20 @@ impl Answer<'_> {
             law["warnings"] = json!(self.warnings(choice, prediction));
             law
         };
+        let rate = |rate: &Option<Rate>| match rate {
+            Some(Rate::JohnsonCook { c, reference_rate }) => {
+                json!({ "model": "johnson-cook", "c": c, "reference_rate": reference_rate })
+            }
+            Some(Rate::CowperSymonds { d, q }) => json!({ "model": "cowper-symonds", "d": d, "q": q }),
+            None => Value::Null,
+        };
+        let rates = &self.scene.rates;
         let Impact { mass, speed } = self.impact;
         json!({
             "mass": mass, "speed": speed, "drop_height": self.fall, "laws": self.laws().map(law).collect::<Vec<_>>(),
             "notes": notes::of(self.scene, &self.impact, self.choices, &self.predictions),
-            "strength": self.strength(), "rods": Waves::of(self.scene, self.impact.speed, &[]),
+            "strength": self.strength(), "rates": { "target": rate(&rates.target), "impactor": rate(&rates.impactor) },
+            "rods": Waves::of(self.scene, self.impact.speed, &[]),
         })
     }
 }

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ..contact import Contact
 from ..errors import ContactError, ProgramError
 from ..library import Library
-from ..program import export, predict, run, tables
+from ..program import export, of_scene, options_of, predict, run, tables
 from ..studies.impacts import impact
 from ..studies.scene import OUTPUTS, of_impacts, toml
 from ..sweeps import sweep
@@ -39,10 +39,6 @@ LARGEST_RADIUS_RATIO = 0.3
 UNYIELDING = 1e18
 """Strength [Pa] of a body that is not fitted: the largest of an FMU. The fitted body stays the
 softer one."""
-RATE_OF_TESTS = 1e-3
-"""Strain rate [1/s] of hardness and tensile tests, as the program takes it."""
-C_OF_STEEL = 0.014
-"""The constant that the program takes for steel without a rate: AISI 4340, Johnson and Cook 1983."""
 OBLIQUE = {"tangential_restitution", "rebound_angle"}
 
 
@@ -70,8 +66,10 @@ class Law:
         if "mass" in points.arguments:
             mass = float(points.arguments["mass"][0])
         # the program knows the mass of a solid ball, and tells what is wrong with a scene
-        found = predict(path, mass=mass, speed=speed)
-        self._mass = found.mass
+        options = options_of({"mass": mass, "speed": speed}, None)
+        said = json.loads(of_scene("predict", path, *options)[0])
+        self._mass: float = said["mass"]
+        self._said_rates: dict[str, dict[str, Any] | None] = said["rates"]
         self.scene = tables(path)
         data = {**self.scene}
         if loading is not None:
@@ -91,7 +89,7 @@ class Law:
         self._open()
         if self._forget_readings():
             self._open()
-        self.law: str = loading or found.law
+        self.law: str = loading or said["laws"][0]["law"]
         self.body = self._softer(path, fitted)
         own: dict[str, Any] = self._data[self.body]
         self.is_power_law = "power_law" in own and "yield_strength" not in own
@@ -132,7 +130,9 @@ class Law:
         for body in ("impactor", "target"):
             strength = self._starts.get(f"{body}.yield_strength")
             if strength is not None and not {"yield_strength", "power_law"} & {*self._data[body]}:
-                self.rates |= _rates_of_readings(self._data[body], body, self._path)
+                # a strength that was read from a slow test has a rate, also if the scene gives none
+                if rate := self._said_rates[body]:
+                    self.rates[body] = rate
                 kept = without_readings(self._data[body]) | {"yield_strength": strength}
                 if self._of_impacts and body in self.rates:
                     kept["rate"] = self.rates[body]
@@ -414,22 +414,6 @@ def without_readings(body: Mapping[str, Any]) -> dict[str, Any]:
     """A body without hardness, tensile strength and tensile test."""
     readings = {"hardness", "tensile_strength", "tensile_test", "hardening_exponent"}
     return {key: it for key, it in body.items() if key not in readings}
-
-
-def _rates_of_readings(body: Mapping[str, Any], name: str, path: str | Path) -> dict[str, Any]:
-    """The strain rate of a body whose strength was read from a test: it starts at that of the test,
-    and steel has one, even if the scene gives none."""
-    if not {"hardness", "tensile_strength"} & {*body}:
-        return {}
-    rate = body.get("rate")
-    if rate is None:
-        strength = _strength(path)
-        if strength is None or strength["factor"] == 1.0:
-            return {}
-        rate = {"model": "johnson-cook", "c": C_OF_STEEL}
-    if rate["model"] == "johnson-cook":
-        rate = {"reference_rate": RATE_OF_TESTS, **rate}
-    return {name: rate}
 
 
 def _slow(data: Mapping[str, Any]) -> dict[str, Any]:
