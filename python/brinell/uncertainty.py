@@ -35,8 +35,6 @@ LEVEL = 0.95
 """The part of all draws that is within a band."""
 DRAWS = 1024
 """Number of draws of a prediction."""
-RUN_DRAWS = 128
-"""Number of draws of each run of a study."""
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ use brinell_exporter::numbers::{Prefixed, cell, prefixed, quantity};
 use brinell_exporter::predict::{PredictError, beyond, energy_lost, methods, notes, one, onsets, quantities};
 use brinell_exporter::regime;
 use brinell_exporter::rods::Waves;
-use brinell_exporter::scene::{InImpact, Scene};
+use brinell_exporter::scene::{InImpact, Rate, Scene};
 use brinell_exporter::validity::{self, Beyond};
 use serde_json::{Value, json};
 

@@ -293,6 +293,26 @@ def test_a_scene_with_a_hardness_keeps_the_rate_that_comes_with_it(scene, tmp_pa
         close(brinell.predict(fitted, speed=speed).restitution, value, 0.025)
 
 
+@pytest.mark.parametrize(
+    "reading",
+    [
+        'tensile_test = { proof_stress = "240 MPa", tensile_strength = "480 MPa" }',
+        'material = "steel AISI 1045, hot rolled"',
+        "tensile_strength = 655e6",
+    ],
+)
+def test_a_strength_that_was_read_in_any_way_keeps_its_rate(scene, reading):
+    start = scene(0.0)
+    elastic = "youngs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 0.0"
+    moduli = "" if "material" in reading else "youngs_modulus = 206e9\npoissons_ratio = 0.3\n"
+    start.write_text(start.read_text().replace(elastic, moduli + reading))
+    speeds = (0.5, 1.0, 2.0)
+    values = [brinell.predict(start, speed=it).restitution for it in speeds]
+    found = brinell.fit(start, {"speed": speeds, "restitution": values})
+    text = str(found.scene())
+    assert '"c" = 0.014' in text and '"reference_rate" = 0.001' in text, text
+
+
 # choices
 
 

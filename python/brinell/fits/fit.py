@@ -9,7 +9,7 @@ from typing import Literal
 from .law import Law, strengths_of
 from .measured import Measured, Table, measured
 from .outcome import fitted
-from .parameters import INSTRUMENT, PARAMETERS, parameter
+from .parameters import PARAMETERS, parameter
 from .problem import Problem
 from .quantities import number_of, one_of
 from .reading import Decimal
@@ -181,6 +181,3 @@ def _accuracy(accuracy: Mapping[str, Value] | None, points: Measured) -> dict[st
         if not found[name] > 0.0:
             raise ValueError(f"accuracy: {name} = {value!r} must be positive")
     return found
-
-
-__all__ = ["INSTRUMENT", "Fit", "fit"]

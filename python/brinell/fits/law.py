@@ -58,7 +58,7 @@ class Law:
         fitted: set[str],
         loading: str | None = None,
     ) -> None:
-        self.points, self._path = points, path
+        self.points = points
         self.rates: dict[str, dict[str, Any]] = {}
         """The strain rates of bodies whose strength was read from a test, with all their numbers."""
         self._of_impacts = points.kind == "impacts"

@@ -32,8 +32,6 @@ UNLOADED = 0.9
 from scatter."""
 TURNED = 0.01
 """Fall of the force, as a part of the largest force, that ends a loading."""
-ARGUMENTS = ("speed", "drop_height", "mass", "angle")
-"""What an impact has besides its results."""
 RESULTS = (
     "restitution", "dent_depth", "dent_diameter", "contact_time", "largest_force",
     "tangential_restitution", "rebound_angle",

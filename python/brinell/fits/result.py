@@ -131,7 +131,9 @@ class Fit:
         first = data.get("contact", [{}])[0]
         # a contact may have a body of its own
         of_contact = first.get(self.body, {})
-        if {"yield_strength", "hardness", "tensile_strength", "material"} & {*of_contact}:
+        if {"yield_strength", "hardness", "tensile_strength", "tensile_test", "material"} & {
+            *of_contact
+        }:
             own = {**first, self.body: self._body(of_contact)}
             data["contact"] = [own, *data["contact"][1:]]
         else:
