@@ -27,7 +27,7 @@ const NEAR: f64 = 5e-3;
 /// The exponents from which one is chosen, and the ramps in scales of the overlap.
 const EXPONENTS: (f64, f64) = (1.0, 2.5);
 const RAMPS: (f64, f64) = (0.02, 10.0);
-/// The largest scale of the overlap of a plastic sphere, in radii: in deeper ones the tool lets the radius grow.
+/// The largest scale of the overlap of a plastic sphere, in radii: in deeper ones LAMMPS differs from this law.
 const DEEPEST: f64 = 0.05;
 /// More steps than a softened contact is given.
 const SOFTEST: f64 = 1000.0;
@@ -100,10 +100,9 @@ impl Question<'_> {
         // the size of a plastic sphere changes the course a little
         for _ in 0..if is_plastic { 4 } else { 1 } {
             if is_plastic && scale > DEEPEST * radius {
-                return Err(
-                    "at this step the ball would sink in too deep for what is computed; a shorter one has numbers"
-                        .into(),
-                );
+                return Err(format!(
+                    "its law is not computed for overlaps beyond {DEEPEST} radii, and this one is deeper"
+                ));
             }
             let ended = exact(&self.form.law(scale, shape, losses, &self.scales), mass, speed);
             let ended = ended.ok_or("its contact does not end")?;
