@@ -3,14 +3,11 @@
 use crate::files::{self, FileError};
 use crate::messages::WrongCall;
 use brinell_exporter::layout::{json_line, shown};
-use brinell_exporter::scene::check_name;
+use brinell_exporter::scene::{check_name, new_scene};
 use serde_json::json;
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-
-/// The scene, with `NAME` in place of its name.
-const TEMPLATE: &str = include_str!("new_scene.toml");
 
 /// The arguments of `brinell new`.
 #[derive(clap::Args)]
@@ -28,7 +25,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let Arguments { name, output } = arguments;
     check_name(name).map_err(WrongCall)?;
     let path = output.clone().unwrap_or_else(|| format!("{name}.toml").into());
-    let text = TEMPLATE.replace("NAME", name);
+    let text = new_scene(name);
     write_new(&path, &text)?;
     if as_json {
         print!("{}", json_line(&json!({ "scene": path.to_string_lossy() })));

@@ -1,6 +1,7 @@
 //! The location of the prebuilt FMU libraries.
 
 use brinell_exporter::platform::{Platform, Target};
+use brinell_exporter::prebuilt::archive::LIST;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
@@ -13,9 +14,6 @@ const INSTALLED: &str = "share/brinell/prebuilt";
 /// Number of folders above the program that are searched. A wheel puts programs into `bin` or `Scripts`; on Windows, the
 /// programs of a single user are in `Python311\Scripts`. `share` is beside `bin`, `Scripts` or `Python311`.
 const LEVELS: usize = 3;
-
-/// Ending of the list of libraries of a target.
-pub const LIST: &str = "json";
 
 /// A folder with prebuilt libraries.
 #[derive(Debug, PartialEq)]

@@ -4,7 +4,7 @@ mod folder;
 mod store;
 
 pub use folder::{PrebuiltFolder, find};
-pub use store::{StoreError, Written, write};
+pub use store::{StoreError, write};
 
 use crate::sources;
 use brinell_exporter::package::join;

@@ -2,29 +2,26 @@
 
 mod inverse;
 mod oblique_text;
-mod sweep;
-mod text;
 
 use self::oblique_text::ObliqueAnswer;
 use crate::files::{self, deliver, ending};
 use crate::messages::WrongCall;
+use crate::parallel;
 use crate::scene_file;
 use brinell_contact::impact::Impact;
 use brinell_exporter::laws::{self, Choice};
 use brinell_exporter::layout::{json_line, shown};
 use brinell_exporter::model::check_energy;
-use brinell_exporter::predict::axis::{Axis, varied};
+use brinell_exporter::predict::answer::Answer;
+use brinell_exporter::predict::axis::Axis;
 use brinell_exporter::predict::oblique::{self, Setting};
-use brinell_exporter::predict::{
-    PredictError, beyond, constants, one, positive, quantities, speed_of_energy, speed_of_height, time_history,
-};
+use brinell_exporter::predict::sweep::Sweep;
+use brinell_exporter::predict::{PredictError, positive, speed_of_energy, speed_of_height, time_history};
 use brinell_exporter::scene::{Scene, plausible};
 use brinell_exporter::units;
 use serde_json::json;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use sweep::Sweep;
-use text::Answer;
 
 /// The arguments of `brinell predict`.
 #[derive(clap::Args)]
@@ -196,25 +193,8 @@ impl Question<'_> {
     /// Impacts over ranges of quantities, oblique ones with a `setting`: as a table, CSV or JSON.
     fn sweep(&self, setting: Option<Setting>, axes: &[Axis], output: Option<&Path>) -> Result<(), Box<dyn Error>> {
         let Question { scene, impact, .. } = *self;
-        let normal = |choice: &Choice, values: &[(&Axis, f64)]| {
-            let (choice, impact) = varied(scene, choice, impact, values)?;
-            let prediction = one(&choice, &impact)?;
-            let regime = ("regime", f64::from(prediction.regime as i32), "");
-            let quantities = quantities(&prediction).into_iter().chain([regime]).collect();
-            let named: Vec<_> = values.iter().map(|(axis, value)| (axis.name, *value)).collect();
-            Ok((quantities, beyond(scene, &choice.model.pair(), impact.speed, &prediction, &named)))
-        };
-        let oblique = |setting| {
-            move |choice: &Choice, values: &[(&Axis, f64)]| {
-                let outcome = oblique::one(scene, choice, (impact, setting), values)?;
-                Ok((outcome.quantities().to_vec(), outcome.beyond))
-            }
-        };
-        let choices = self.depending_on(axes);
-        let sweep = match setting {
-            None => Sweep::of(axes, &choices, sweep::VALUES, normal),
-            Some(setting) => Sweep::of(axes, &choices, oblique::VALUES, oblique(setting)),
-        };
+        let each = |values: &[_], work: &(dyn Fn(&_) -> _ + Sync)| parallel::each(values, work);
+        let sweep = Sweep::of_impacts((scene, self.choices), (impact, setting), axes, &each);
         let sweep = sweep.map_err(failed)?;
         sweep.limits.warnings().iter().for_each(|warning| crate::messages::warn(warning));
         let Impact { mass, speed } = impact;
@@ -228,21 +208,5 @@ impl Question<'_> {
             None => sweep.text(setting.map_or(&SHOWN, |_| &oblique::SHOWN)),
         };
         Ok(deliver(&text, output)?)
-    }
-
-    /// Of several laws, those that depend on the strength and on the constants that vary.
-    fn depending_on(&self, axes: &[Axis]) -> Vec<Choice> {
-        let mut choices = self.choices.to_vec();
-        // where none depends on it, that is refused
-        let varies = axes.iter().any(|axis| axis.name == "target.yield_strength");
-        if varies && choices.iter().any(Choice::yields) {
-            choices.retain(Choice::yields);
-        }
-        let constants = || axes.iter().filter(|axis| constants::is_one(axis.name));
-        let has_all = |choice: &Choice| constants().all(|axis| constants::has(choice, axis.name));
-        if choices.iter().any(has_all) {
-            choices.retain(has_all);
-        }
-        choices
     }
 }

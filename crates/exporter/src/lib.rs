@@ -9,6 +9,7 @@
 //! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
 //! | [`tension`], [`measured`] | the flow stress that a tensile test, a hardness or a tensile strength says |
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
+//! | [`curve`] | force, pressure and energies along loading and unloading |
 //! | [`translate`] | numbers for the contact models of other tools, with their error |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
 //! | [`constants`], [`model_description`], [`documentation`] | these files |
@@ -44,6 +45,7 @@ pub mod bodies;
 pub mod c_source;
 pub mod columns;
 pub mod constants;
+pub mod curve;
 pub mod documentation;
 pub mod energy;
 mod friction_text;

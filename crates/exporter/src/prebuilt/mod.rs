@@ -3,6 +3,7 @@
 //! A prebuilt library contains all laws, and has a block of memory for the data of a scene (`brinell_fmu::scene::prebuilt`). Such
 //! libraries are compiled once, one for each kind; an export copies the one of its scene and writes the data to the copy.
 
+pub mod archive;
 mod fill;
 mod fit;
 mod kinds;

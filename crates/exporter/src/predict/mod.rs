@@ -1,9 +1,11 @@
 //! Predictions of impacts by energy balance, or by integrating the motion.
 
+pub mod answer;
 pub mod axis;
 pub mod constants;
 pub mod notes;
 pub mod oblique;
+pub mod sweep;
 pub mod time_history;
 
 use crate::laws::{self, Choice};

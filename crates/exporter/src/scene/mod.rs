@@ -47,6 +47,11 @@ pub fn check_name(name: &str) -> Result<(), String> {
     names::check_name(&Spanned::new(0..0, name.into())).map(drop).map_err(|Mistake(_, message)| message)
 }
 
+/// A commented scene to start from, with this `name`.
+pub fn new_scene(name: &str) -> String {
+    include_str!("new_scene.toml").replace("NAME", name)
+}
+
 /// The names of the files in the `text` of a scene, relative to it: [`Beside`] takes their bytes. None, if it is no TOML.
 pub fn files_named(text: &str) -> Vec<String> {
     file::files_named(text)

@@ -1,15 +1,15 @@
 //! A prediction as text for people and as JSON for programs.
 
+use super::{PredictError, beyond, energy_lost, methods, notes, one, onsets, quantities};
+use crate::laws::Choice;
+use crate::layout::{paragraph, table};
+use crate::numbers::{Prefixed, cell, prefixed, quantity};
+use crate::regime;
+use crate::rods::Waves;
+use crate::scene::{InImpact, Rate, Scene};
+use crate::validity::{self, Beyond};
 use brinell_contact::Regime;
 use brinell_contact::impact::{Impact, Prediction};
-use brinell_exporter::laws::Choice;
-use brinell_exporter::layout::{paragraph, table};
-use brinell_exporter::numbers::{Prefixed, cell, prefixed, quantity};
-use brinell_exporter::predict::{PredictError, beyond, energy_lost, methods, notes, one, onsets, quantities};
-use brinell_exporter::regime;
-use brinell_exporter::rods::Waves;
-use brinell_exporter::scene::{InImpact, Rate, Scene};
-use brinell_exporter::validity::{self, Beyond};
 use serde_json::{Value, json};
 
 /// Predictions of one impact with several laws.

@@ -1,15 +1,17 @@
 //! `brinell predict --sweep`: impacts over ranges of one or several quantities, as a table.
 
-use crate::parallel;
-use brinell_exporter::columns::{Column, Columns};
-use brinell_exporter::laws::Choice;
-use brinell_exporter::layout;
-use brinell_exporter::predict::axis::Axis;
-use brinell_exporter::predict::{PredictError, Quantity};
-use brinell_exporter::validity::{Beyond, SweepLimits};
+use super::axis::{Axis, varied};
+use super::oblique::{self, Setting};
+use super::{PredictError, Quantity, beyond, constants, one, quantities};
+use crate::columns::{Column, Columns};
+use crate::laws::Choice;
+use crate::layout;
+use crate::scene::Scene;
+use crate::validity::{Beyond, SweepLimits};
+use brinell_contact::impact::Impact;
 
 /// Number of values of a quantity without a number of its own: alone (with normal impacts), with another one, with several.
-pub const VALUES: usize = 201;
+const VALUES: usize = 201;
 const VALUES_OF_TWO: usize = 41;
 const VALUES_OF_MORE: usize = 11;
 
@@ -32,18 +34,56 @@ pub struct Sweep {
     pub limits: SweepLimits,
 }
 
+/// What an impact says, and the limits of validity that it exceeds.
+pub type Said = Result<(Vec<Quantity>, Vec<Beyond>), PredictError>;
+
+/// Predicts for all values of a list, in any order, on as many processors as the caller has.
+pub type Each<'a> = &'a dyn Fn(&[Vec<f64>], &(dyn Fn(&Vec<f64>) -> Said + Sync)) -> Result<Vec<Answered>, PredictError>;
+
+/// What one impact says.
+pub type Answered = (Vec<Quantity>, Vec<Beyond>);
+
 impl Sweep {
-    /// What `predict` says of the laws of `choices` for all values of `axes`: the quantities of each impact, and the limits of
-    /// validity that it exceeds. A quantity that varies alone has `usual` values, if the user gives no number.
+    /// What the laws of `choices` say of `impact` on `scene` for all values of `axes`; of an oblique one with a `setting`. Of several
+    /// laws, those that depend on what varies.
     ///
     /// # Errors
     /// Axes that determine each other, too many impacts, or [`PredictError`] for the first values that are impossible or beyond
     /// the range of a law.
-    pub fn of(
+    pub fn of_impacts(
+        (scene, choices): (&Scene, &[Choice]),
+        (impact, setting): (Impact, Option<Setting>),
+        axes: &[Axis],
+        each: Each,
+    ) -> Result<Sweep, PredictError> {
+        let normal = |choice: &Choice, values: &[(&Axis, f64)]| {
+            let (choice, impact) = varied(scene, choice, impact, values)?;
+            let prediction = one(&choice, &impact)?;
+            let regime = ("regime", f64::from(prediction.regime as i32), "");
+            let quantities = quantities(&prediction).into_iter().chain([regime]).collect();
+            let named: Vec<_> = values.iter().map(|(axis, value)| (axis.name, *value)).collect();
+            Ok((quantities, beyond(scene, &choice.model.pair(), impact.speed, &prediction, &named)))
+        };
+        let oblique = |setting| {
+            move |choice: &Choice, values: &[(&Axis, f64)]| {
+                let outcome = oblique::one(scene, choice, (impact, setting), values)?;
+                Ok((outcome.quantities().to_vec(), outcome.beyond))
+            }
+        };
+        let choices = depending_on(choices, axes);
+        match setting {
+            None => Sweep::of(axes, &choices, (VALUES, each), normal),
+            Some(setting) => Sweep::of(axes, &choices, (oblique::VALUES, each), oblique(setting)),
+        }
+    }
+
+    /// What `predict` says of the laws of `choices` for all values of `axes`. A quantity that varies alone has `usual` values, if the
+    /// user gives no number.
+    fn of(
         axes: &[Axis],
         choices: &[Choice],
-        usual: usize,
-        predict: impl Fn(&Choice, &[(&Axis, f64)]) -> Result<(Vec<Quantity>, Vec<Beyond>), PredictError> + Sync,
+        (usual, each): (usize, Each),
+        predict: impl Fn(&Choice, &[(&Axis, f64)]) -> Said + Sync,
     ) -> Result<Sweep, PredictError> {
         check(axes)?;
         let usual = [usual, VALUES_OF_TWO].get(axes.len() - 1).copied().unwrap_or(VALUES_OF_MORE);
@@ -59,7 +99,7 @@ impl Sweep {
         let mut limits = SweepLimits { names, impacts: Vec::new() };
         let mut laws = Vec::new();
         for choice in choices {
-            let impacts = parallel::each(&points, |at| {
+            let impacts = each(&points, &|at| {
                 let varied: Vec<_> = axes.iter().zip(at.iter().copied()).collect();
                 predict(choice, &varied)
             })?;
@@ -94,6 +134,22 @@ impl Sweep {
             _ => text,
         }
     }
+}
+
+/// Of several laws, those that depend on the strength and on the constants that vary.
+fn depending_on(choices: &[Choice], axes: &[Axis]) -> Vec<Choice> {
+    let mut choices = choices.to_vec();
+    // where none depends on it, that is refused
+    let varies = axes.iter().any(|axis| axis.name == "target.yield_strength");
+    if varies && choices.iter().any(Choice::yields) {
+        choices.retain(Choice::yields);
+    }
+    let constants = || axes.iter().filter(|axis| constants::is_one(axis.name));
+    let has_all = |choice: &Choice| constants().all(|axis| constants::has(choice, axis.name));
+    if choices.iter().any(has_all) {
+        choices.retain(has_all);
+    }
+    choices
 }
 
 /// The combination of `values` with this index.
