@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes a compiler for all platforms in a folder of its own, without root privileges.
 
-    python3 packaging/toolchain.py FOLDER [--std] [--mirror URL]
+    python3 packaging/toolchain.py FOLDER [--std] [--targets [TARGET ...]] [--mirror URL]
 
 For who makes releases on a machine whose Rust has no other targets. Debian has a compiler that builds browsers
 (rustc-web), with the sources of Rust's libraries, and LLVM's linker. Their packages are unpacked, not installed; `core`
@@ -89,11 +89,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--std", action="store_true", help="also what cargo needs to build whole programs")
+    parser.add_argument("--targets", nargs="*", default=TARGETS, help="those that get a core; cargo with --std needs none")
     parser.add_argument("--mirror", default=MIRROR, help="a mirror of Debian's security updates")
     given = parser.parse_args()
     folder, done = given.folder.resolve(), given.folder.resolve() / "packages.json"
     known = json.loads(done.read_text()) if done.is_file() else {}
-    if (folder / "usr/bin/wasm2c").is_file() and known.get("std", False) >= given.std and known:
+    has_all = set(known.get("targets", TARGETS)) >= set(given.targets)
+    if (folder / "usr/bin/wasm2c").is_file() and known.get("std", False) >= given.std and known and has_all:
         print(f"{folder} is complete")
         return
     processor = {"x86_64": "amd64", "aarch64": "arm64"}.get(platform.machine())
@@ -111,14 +113,18 @@ def main() -> None:
         unpack(data, folder, pattern)
     fetch_wasm2c(folder, given.mirror, processor)
     write_scripts(folder / "usr")
-    for target in TARGETS:
+    # with --std, this machine has the core of the whole library
+    host = {f"{platform.machine()}-unknown-linux-gnu"} if given.std else set()
+    for target in sorted(set(given.targets) - host):
         print(f"core for {target}", flush=True)
         compile_core(folder / "usr", target)
     if not given.std:
         shutil.rmtree(folder / "usr/src")
     listed = [{key: package[key] for key in ("Package", "Version", "SHA256")} for package, _ in packages]
-    done.write_text(json.dumps({"std": given.std, "mirror": given.mirror, "packages": listed}, indent=1) + "\n")
-    print(f"BRINELL_TOOLCHAIN={folder} brinell export SCENE --platforms all uses it")
+    made = {"std": given.std, "targets": given.targets, "mirror": given.mirror, "packages": listed}
+    done.write_text(json.dumps(made, indent=1) + "\n")
+    if given.targets:
+        print(f"BRINELL_TOOLCHAIN={folder} brinell export SCENE --platforms all uses it")
 
 
 def fetch(url: str) -> bytes:

@@ -1,8 +1,9 @@
 //! The impact of a check: what a user's importer finds that moves the mass with fine steps.
 
 use crate::importer::ImportError;
-use crate::master::{Body, Contact, LATE_MASS, LEAP_FROG, LEAP_FROG_FOLLOWED, MASS_KNOWN, Needs, Way};
+use crate::master::Contact;
 use brinell_contact::impact::Impact;
+use brinell_exporter::master::{Body, Coupled, LATE_MASS, LEAP_FROG, LEAP_FROG_FOLLOWED, MASS_KNOWN, Needs, Way};
 use brinell_exporter::scene::Scene;
 
 /// Results of an explicit co-simulation.
@@ -51,7 +52,7 @@ pub fn simulate(
     let mut before = [(0.0, 0.0); 2];
     for _ in 0..MOST_STEPS {
         let start = body.settled_speed(step);
-        (way.advance)(contact, &mut body, step)?;
+        way.advance(contact, &mut body, step)?;
         let (force, speed, time) = (body.force, body.settled_speed(step), contact.elapsed() - begin);
         if !force.is_finite() {
             return Err(ImportError::Force { force, time });

@@ -3,7 +3,7 @@
 use super::Row;
 use super::impact::MOST_STEPS;
 use crate::importer::ImportError;
-use crate::master::{self, bounce};
+use crate::master;
 use brinell_contact::Contact;
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
@@ -11,6 +11,7 @@ use brinell_contact::tangential::impact::Ball;
 use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::constants::{MEMORY, parameters, start_value};
+use brinell_exporter::master::{Coupled, bounce};
 use brinell_exporter::scene::Scene;
 use brinell_fmu::scene::with_friction;
 

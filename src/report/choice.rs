@@ -2,7 +2,7 @@
 
 use super::precision::{Line, Point};
 use super::stability::Limit;
-use crate::master::Master;
+use brinell_exporter::master::Master;
 use brinell_exporter::numbers::{quantity, significant};
 use serde::Serialize;
 

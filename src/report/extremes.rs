@@ -3,12 +3,13 @@
 use super::Progress;
 use super::units::first_contact;
 use crate::importer::ImportError;
-use crate::master::{Contact, LEAP_FROG, Needs};
+use crate::master::Contact;
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use brinell_contact::{Loading, Model, Surface};
+use brinell_exporter::master::{Coupled, LEAP_FROG, Needs};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::scene::{Body, Scene};
 use brinell_exporter::validity::{self, Beyond};

@@ -13,7 +13,7 @@ mod units;
 
 use crate::files::{self, FileError, write_whole};
 use crate::importer::ImportError;
-use crate::master::{Contact, Needs, WAYS};
+use crate::master::Contact;
 use crate::messages::tell;
 use crate::package::ExportError;
 use crate::scene_file;
@@ -21,6 +21,7 @@ use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use brinell_exporter::accuracy::accuracy;
 use brinell_exporter::layout::{json_line, paragraph, shown};
+use brinell_exporter::master::{Needs, WAYS};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::{digits, quantity, significant};
 use brinell_exporter::plot::{Picture, View};

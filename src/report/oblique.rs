@@ -3,8 +3,9 @@
 use super::precision::doubled;
 use super::{Figure, Progress, ReportError};
 use crate::importer::ImportError;
-use crate::master::{Contact, bounce, gaps};
+use crate::master::Contact;
 use brinell_exporter::laws::choose;
+use brinell_exporter::master::{bounce, gaps};
 use brinell_exporter::numbers::{quantity, significant};
 use brinell_exporter::plot::{Picture, Series, View};
 use brinell_exporter::predict::oblique::{self, FRICTION, Outcome, Setting};

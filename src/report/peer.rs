@@ -3,7 +3,8 @@
 use super::precision::{self, Line};
 use super::{ReportError, Runs};
 use crate::importer::{Archive, Unit};
-use crate::master::{Contact, Needs, WAYS, Way};
+use crate::master::Contact;
+use brinell_exporter::master::{Needs, WAYS, Way};
 use brinell_exporter::scene::Scene;
 use std::path::{Path, PathBuf};
 

@@ -2,7 +2,8 @@
 
 use super::{Figure, Runs};
 use crate::importer::ImportError;
-use crate::master::{Contact, Way, gaps};
+use crate::master::Contact;
+use brinell_exporter::master::{Way, gaps};
 use brinell_exporter::plot::{Picture, Series, View};
 use serde::Serialize;
 use std::time::Instant;

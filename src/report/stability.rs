@@ -3,8 +3,9 @@
 
 use super::{Figure, Runs};
 use crate::importer::ImportError;
-use crate::master::{Body, Contact, Needs, Way, gaps};
+use crate::master::Contact;
 use brinell_contact::impact::Impact;
+use brinell_exporter::master::{Body, Coupled, Needs, Way, gaps};
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::plot::{Picture, Series, View};
 use serde::Serialize;
@@ -113,7 +114,7 @@ fn stays(runs: &Runs, contact: &mut Contact, way: &Way, relative: f64) -> Result
     body.speed += disturbance;
     let steps = STEPS.max(2.0 * TIME / (relative * relative).ln_1p()) as u64;
     for _ in 0..steps {
-        (way.advance)(contact, &mut body, step)?;
+        way.advance(contact, &mut body, step)?;
         // with a delayed force, the speed of the body differs from that of the motion
         let speed = if way.needs == Needs::LateMass { contact.output("closing_speed")? } else { body.speed };
         if speed.is_nan() || speed.abs() > GROWTH * disturbance {

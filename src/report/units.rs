@@ -3,9 +3,9 @@
 use super::{Progress, ReportError};
 use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};
-use crate::master::Needs;
 use crate::{package, parallel};
 use brinell_contact::rate::Factors;
+use brinell_exporter::master::Needs;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform;
 use brinell_exporter::scene::{Coupling, Group, Parameter, Scene};

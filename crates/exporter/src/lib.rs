@@ -10,6 +10,7 @@
 //! | [`tension`], [`measured`] | the flow stress that a tensile test, a hardness or a tensile strength says |
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
 //! | [`curve`] | force, pressure and energies along loading and unloading |
+//! | [`master`] | the ways to couple a contact with bodies |
 //! | [`translate`] | numbers for the contact models of other tools, with their error |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
 //! | [`constants`], [`model_description`], [`documentation`] | these files |
@@ -57,6 +58,7 @@ pub mod law_check;
 pub mod law_text;
 pub mod laws;
 pub mod layout;
+pub mod master;
 pub mod measured;
 pub mod mistake;
 pub mod model;

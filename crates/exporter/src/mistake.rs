@@ -13,7 +13,14 @@ pub enum SceneError {
     #[error("{}: {source}", shown(path))]
     Unreadable { path: PathBuf, source: std::io::Error },
     #[error("{}:{line}:{column}: {message}", shown(path))]
-    Wrong { path: PathBuf, line: usize, column: usize, message: String },
+    Wrong {
+        path: PathBuf,
+        line: usize,
+        column: usize,
+        /// The bytes of the text that are meant.
+        span: Range<usize>,
+        message: String,
+    },
 }
 
 /// The text of a file with these `bytes`, which must be UTF-8.
@@ -42,7 +49,7 @@ impl Mistake {
         let before = &text[..span.start];
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
-        SceneError::Wrong { path: path.into(), line, column, message }
+        SceneError::Wrong { path: path.into(), line, column, span, message }
     }
 }
 

@@ -196,6 +196,11 @@ fn kind(unit: &str) -> Option<&'static Kind> {
     Unit::parse(unit).and_then(Unit::kind)
 }
 
+/// The SI units of quantities, each with the units that people write.
+pub fn usual() -> impl Iterator<Item = (&'static str, &'static [&'static str])> {
+    KINDS.iter().map(|kind| (kind.unit, kind.usual))
+}
+
 /// The number in `text`, and the unit after it, if there is one.
 fn split(text: &str) -> Option<(String, &str)> {
     let text = text.trim().trim_matches(['"', '\'']).trim();

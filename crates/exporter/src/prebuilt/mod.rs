@@ -48,6 +48,11 @@ impl PrebuiltUnit {
         Ok(PrebuiltUnit { guid, library, made_from, data, face })
     }
 
+    /// Its data for the library with this `identity`.
+    pub fn block(&self, identity: u64) -> Block {
+        Block::filled(identity, self.data)
+    }
+
     /// Writes the data of the scene to a copy of its library.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! A contact of an FMU in the hands of a master.
 
 use crate::importer::{Archive, Description, ImportError, Instance, Unit};
+use brinell_exporter::master::Coupled;
 
 /// A tangential direction: value references of its rate and of its force, and the component of the motion along it.
 type Direction = (u32, u32, f64);
@@ -98,27 +99,6 @@ impl<'a> Contact<'a> {
         self.time - self.start_time
     }
 
-    /// Sets the closing speed [m/s].
-    pub fn set_rate(&mut self, rate: f64) -> Result<(), ImportError> {
-        self.calls += 1;
-        self.fastest = self.fastest.max(rate);
-        self.instance.set_real(self.rate, rate)
-    }
-
-    /// Sets the derivatives of the closing speed for the next step: [m/s^2], [m/s^3].
-    pub fn set_derivatives(&mut self, derivatives: &[f64]) -> Result<(), ImportError> {
-        self.calls += 1;
-        self.instance.set_input_derivatives(self.rate, derivatives)
-    }
-
-    /// Makes a step [s].
-    pub fn step(&mut self, step: f64) -> Result<(), ImportError> {
-        self.calls += 1;
-        self.instance.do_step(self.time, step)?;
-        self.time += step;
-        Ok(())
-    }
-
     /// Makes a step [s] at a closing and a tangential speed [m/s]; the two forces at its end [N].
     pub fn step_obliquely(&mut self, (closing, slip): (f64, f64), step: f64) -> Result<(f64, f64), ImportError> {
         self.set_rate(closing)?;
@@ -133,32 +113,50 @@ impl<'a> Contact<'a> {
         Ok((self.force()?, pull))
     }
 
-    /// The force at the end of the step [N].
-    pub fn force(&mut self) -> Result<f64, ImportError> {
+    /// Another output of the contact, which isn't counted.
+    pub fn output(&mut self, name: &str) -> Result<f64, ImportError> {
+        self.instance.real(self.description.real(&format!("{}{name}", self.prefix))?)
+    }
+}
+
+impl Coupled for Contact<'_> {
+    type Error = ImportError;
+
+    fn set_rate(&mut self, rate: f64) -> Result<(), Self::Error> {
+        self.calls += 1;
+        self.fastest = self.fastest.max(rate);
+        self.instance.set_real(self.rate, rate)
+    }
+
+    fn set_derivatives(&mut self, derivatives: &[f64]) -> Result<(), Self::Error> {
+        self.calls += 1;
+        self.instance.set_input_derivatives(self.rate, derivatives)
+    }
+
+    fn step(&mut self, step: f64) -> Result<(), Self::Error> {
+        self.calls += 1;
+        self.instance.do_step(self.time, step)?;
+        self.time += step;
+        Ok(())
+    }
+
+    fn force(&mut self) -> Result<f64, Self::Error> {
         self.calls += 1;
         self.instance.real(self.force)
     }
 
-    /// The time derivative of the force at the end of the step [N/s].
-    pub fn force_slope(&mut self) -> Result<f64, ImportError> {
+    fn force_slope(&mut self) -> Result<f64, Self::Error> {
         self.calls += 1;
         self.instance.output_derivative(self.force)
     }
 
-    /// The mean force over the step [N].
-    pub fn mean_force(&mut self) -> Result<f64, ImportError> {
+    fn mean_force(&mut self) -> Result<f64, Self::Error> {
         self.calls += 1;
         self.instance.real(self.mean_force.ok_or_else(|| ImportError::Variable("mean_force".into()))?)
     }
 
-    /// The force that the FMU predicts for the end of the next step [N].
-    pub fn predicted_force(&mut self) -> Result<f64, ImportError> {
+    fn predicted_force(&mut self) -> Result<f64, Self::Error> {
         self.calls += 1;
         self.instance.real(self.predicted_force.ok_or_else(|| ImportError::Variable("predicted_force".into()))?)
-    }
-
-    /// Another output of the contact, which isn't counted.
-    pub fn output(&mut self, name: &str) -> Result<f64, ImportError> {
-        self.instance.real(self.description.real(&format!("{}{name}", self.prefix))?)
     }
 }

@@ -1,43 +1,74 @@
-//! The master of a report and of a check: it moves the bodies against one contact of an FMU, as a user's importer would. The
-//! ways to couple a contact with a mass; and a ball on a contact with friction.
+//! Masters: they move the bodies against one contact of an FMU, as a user's importer would. The ways to couple a contact with a mass;
+//! and a ball on a contact with friction.
 
-mod contact;
-
-pub use contact::Contact;
-
-use crate::importer::ImportError;
 use brinell_contact::tangential::impact::Ball;
 
 /// Number of iterations between a force that follows the rate and the speed that it causes.
 const ITERATIONS: u32 = 3;
 
+/// One contact of an FMU, as a master uses it.
+pub trait Coupled {
+    /// Why a call fails.
+    type Error;
+
+    /// Sets the closing speed \[m/s\].
+    fn set_rate(&mut self, rate: f64) -> Result<(), Self::Error>;
+
+    /// Sets the derivatives of the closing speed for the next step: \[m/s^2\], \[m/s^3\].
+    fn set_derivatives(&mut self, derivatives: &[f64]) -> Result<(), Self::Error>;
+
+    /// Makes a step \[s\].
+    fn step(&mut self, step: f64) -> Result<(), Self::Error>;
+
+    /// The force at the end of the step \[N\].
+    fn force(&mut self) -> Result<f64, Self::Error>;
+
+    /// The time derivative of the force at the end of the step \[N/s\].
+    fn force_slope(&mut self) -> Result<f64, Self::Error>;
+
+    /// The mean force over the step \[N\].
+    fn mean_force(&mut self) -> Result<f64, Self::Error>;
+
+    /// The force that the FMU predicts for the end of the next step \[N\].
+    fn predicted_force(&mut self) -> Result<f64, Self::Error>;
+}
+
 /// The result of an impact for the importer.
 pub struct Rebound {
-    /// Rebound speed away from the surface [m/s]; NaN if the impact was not over after an excessive number of steps.
+    /// Rebound speed away from the surface \[m/s\]; NaN if the impact was not over after an excessive number of steps.
     pub speed: f64,
-    /// At the ends of steps [N].
+    /// At the ends of steps \[N\].
     pub max_force: f64,
 }
 
 /// The mass that the importer moves.
 #[derive(Clone, Copy)]
 pub struct Body {
-    /// [kg]
+    /// \[kg\]
     pub mass: f64,
-    /// A constant force towards the surface [N].
+    /// A constant force towards the surface \[N\].
     pub load: f64,
-    /// Towards the surface [m/s].
+    /// Towards the surface \[m/s\].
     pub speed: f64,
-    /// Contact force at the end of the last step [N].
+    /// Contact force at the end of the last step \[N\].
     pub force: f64,
-    /// Its time derivative [N/s], for the way that needs it.
+    /// Its time derivative \[N/s\], for the way that needs it.
     slope: f64,
-    /// The force for the next step [N], for the way that applies it one step late.
+    /// The force for the next step \[N\], for the way that applies it one step late.
     pub owed: f64,
 }
 
-/// Makes one step [s] of contact and mass.
-pub type Advance = fn(&mut Contact, &mut Body, f64) -> Result<(), ImportError>;
+/// How a step of contact and mass is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum How {
+    Late,
+    Predicted,
+    LeapFrog,
+    LeapFrogFollowed,
+    Derivatives,
+    MassKnown,
+    LateMass,
+}
 
 /// The features of the FMU that a way to couple needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -87,7 +118,7 @@ pub struct Way {
     pub name: &'static str,
     /// Description in words.
     pub what: &'static str,
-    pub advance: Advance,
+    how: How,
     pub needs: Needs,
     pub master: Master,
     /// The largest stable step for a linear spring, as `h sqrt(K/m)`: 0 for a way that is never stable, infinity for
@@ -99,20 +130,20 @@ pub struct Way {
 pub const LEAP_FROG: Way = Way {
     name: "leap-frog",
     what: "step the contact, then the bodies with its new force",
-    advance: leap_frog,
+    how: How::LeapFrog,
     needs: Needs::Force,
     master: Master::Serial,
     stable: 2.0,
 };
 
 /// The same for a force that follows the rate: it is that of the speed in the middle of the change that it causes.
-pub const LEAP_FROG_FOLLOWED: Way = Way { name: "leap-frog, iterated", advance: leap_frog_followed, ..LEAP_FROG };
+pub const LEAP_FROG_FOLLOWED: Way = Way { name: "leap-frog, iterated", how: How::LeapFrogFollowed, ..LEAP_FROG };
 
 /// The FMU moves the mass: exact.
 pub const MASS_KNOWN: Way = Way {
     name: "mass known",
     what: "the FMU moves the mass within the step; apply mean_force",
-    advance: mass_known,
+    how: How::MassKnown,
     needs: Needs::Mass,
     master: Master::Serial,
     stable: f64::INFINITY,
@@ -122,7 +153,7 @@ pub const MASS_KNOWN: Way = Way {
 pub const LATE_MASS: Way = Way {
     name: "mass known, parallel",
     what: "the FMU moves the mass; apply the mean_force of the previous step",
-    advance: late_mass,
+    how: How::LateMass,
     needs: Needs::LateMass,
     master: Master::Parallel,
     stable: f64::INFINITY,
@@ -134,7 +165,7 @@ pub static WAYS: [Way; 6] = [
     Way {
         name: "late force",
         what: "apply the force of the previous step",
-        advance: late,
+        how: How::Late,
         needs: Needs::Force,
         master: Master::Parallel,
         stable: 0.0,
@@ -143,7 +174,7 @@ pub static WAYS: [Way; 6] = [
     Way {
         name: "predicted_force",
         what: "apply predicted_force, read before the step",
-        advance: predicted,
+        how: How::Predicted,
         needs: Needs::PredictedForce,
         master: Master::Parallel,
         stable: 2.0,
@@ -159,7 +190,7 @@ pub static WAYS: [Way; 6] = [
     Way {
         name: "input derivatives",
         what: "set acceleration and jerk with the rate, apply mean_force",
-        advance: derivatives,
+        how: How::Derivatives,
         needs: Needs::MeanForce,
         master: Master::Serial,
         stable: 1.269_862_885_454_414,
@@ -171,49 +202,68 @@ pub static WAYS: [Way; 6] = [
 /// Number of steps after which an impact is given up. The longest impact of a report has sixteen million.
 const LONGEST: u64 = 20_000_000;
 
-/// Gaps [m] for which bodies that close at `speed` [m/s] touch at this number of evenly spaced places within a `step`
-/// [s]. It is the second step, since a prediction needs a step before.
+/// Gaps \[m\] for which bodies that close at `speed` \[m/s\] touch at this number of evenly spaced places within a `step`
+/// \[s\]. It is the second step, since a prediction needs a step before.
 pub fn gaps(speed: f64, step: f64, places: u32) -> impl Iterator<Item = f64> {
     (0..places).map(move |place| (1.0 + (f64::from(place) + 0.5) / f64::from(places)) * speed * step)
 }
 
 impl Body {
-    /// A body that flies at `speed` [m/s].
+    /// A body that flies at `speed` \[m/s\].
     pub fn flying(mass: f64, speed: f64) -> Body {
         Body { mass, load: 0.0, speed, force: 0.0, slope: 0.0, owed: 0.0 }
     }
 
-    /// A body at rest, pressed into the surface to a contact force of this load [N].
+    /// A body at rest, pressed into the surface to a contact force of this load \[N\].
     pub fn pressed(mass: f64, load: f64) -> Body {
         Body { mass, load, speed: 0.0, force: load, slope: 0.0, owed: 0.0 }
     }
 
-    /// Acceleration towards the surface [m/s^2] for the contact `force` [N].
+    /// Acceleration towards the surface \[m/s^2\] for the contact `force` \[N\].
     fn acceleration(&self, force: f64) -> f64 {
         (self.load - force) / self.mass
     }
 
-    /// Its speed once it has got all that the contact gave it in the last `step` [s], in m/s.
+    /// Its speed once it has got all that the contact gave it in the last `step` \[s\], in m/s.
     pub fn settled_speed(&self, step: f64) -> f64 {
         self.speed - step * self.owed / self.mass
     }
 
-    /// Applies `force` [N] over `step` [s].
+    /// Applies `force` \[N\] over `step` \[s\].
     fn feel(&mut self, force: f64, step: f64) {
         self.speed += step * self.acceleration(force);
     }
 }
 
 impl Way {
-    /// An impact of `mass` [kg] at `speed` [m/s] with steps of `step` [s], until the bodies separate.
-    pub fn impact(&self, contact: &mut Contact, mass: f64, speed: f64, step: f64) -> Result<Rebound, ImportError> {
+    /// Makes one step \[s\] of contact and mass.
+    ///
+    /// # Errors
+    /// The first call that fails.
+    pub fn advance<C: Coupled>(&self, contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
+        match self.how {
+            How::Late => late(contact, body, step),
+            How::Predicted => predicted(contact, body, step),
+            How::LeapFrog => leap_frog(contact, body, step),
+            How::LeapFrogFollowed => leap_frog_followed(contact, body, step),
+            How::Derivatives => derivatives(contact, body, step),
+            How::MassKnown => mass_known(contact, body, step),
+            How::LateMass => late_mass(contact, body, step),
+        }
+    }
+
+    /// An impact of `mass` \[kg\] at `speed` \[m/s\] with steps of `step` [s], until the bodies separate.
+    ///
+    /// # Errors
+    /// The first call that fails.
+    pub fn impact<C: Coupled>(&self, contact: &mut C, mass: f64, speed: f64, step: f64) -> Result<Rebound, C::Error> {
         let mut body = Body::flying(mass, speed);
         let mut max_force = 0.0;
         for _ in 0..LONGEST {
             if body.force <= 0.0 && body.owed == 0.0 && body.speed <= 0.0 {
                 return Ok(Rebound { speed: -body.speed, max_force });
             }
-            (self.advance)(contact, &mut body, step)?;
+            self.advance(contact, &mut body, step)?;
             max_force = f64::max(max_force, body.force);
         }
         Ok(Rebound { speed: f64::NAN, max_force })
@@ -221,7 +271,7 @@ impl Way {
 }
 
 /// All FMUs step at once: the bodies get the force at the beginning of the step. First order.
-fn late(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+fn late<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     contact.set_rate(body.speed)?;
     contact.step(step)?;
     body.feel(body.force, step);
@@ -230,7 +280,7 @@ fn late(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportE
 }
 
 /// All FMUs step at once, with the force that the contact predicts for the end of the step. Second order.
-fn predicted(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+fn predicted<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     contact.set_rate(body.speed)?;
     let expected = contact.predicted_force()?;
     contact.step(step)?;
@@ -240,7 +290,7 @@ fn predicted(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), Im
 }
 
 /// First the contact, then the bodies with its new force. Second order.
-fn leap_frog(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+fn leap_frog<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     contact.set_rate(body.speed)?;
     contact.step(step)?;
     body.force = contact.force()?;
@@ -249,7 +299,7 @@ fn leap_frog(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), Im
 }
 
 /// The same with a force that depends on the speed after it.
-fn leap_frog_followed(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+fn leap_frog_followed<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     contact.set_rate(body.speed)?;
     contact.step(step)?;
     body.force = contact.force()?;
@@ -262,7 +312,7 @@ fn leap_frog_followed(contact: &mut Contact, body: &mut Body, step: f64) -> Resu
 }
 
 /// Acceleration and jerk as input derivatives; the mean force over the step as output. Third order.
-fn derivatives(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+fn derivatives<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     contact.set_rate(body.speed)?;
     contact.set_derivatives(&[body.acceleration(body.force), -body.slope / body.mass])?;
     contact.step(step)?;
@@ -272,7 +322,7 @@ fn derivatives(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), 
 }
 
 /// The FMU moves the mass itself within the step: exact to rounding.
-fn mass_known(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+fn mass_known<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     step_with_mass(contact, body, step)?;
     body.feel(contact.mean_force()?, step);
     body.force = contact.force()?;
@@ -280,7 +330,7 @@ fn mass_known(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), I
 }
 
 /// The same, with the mean force of each step applied over the next one.
-fn late_mass(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+fn late_mass<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     step_with_mass(contact, body, step)?;
     body.feel(body.owed, step);
     (body.owed, body.force) = (contact.mean_force()?, contact.force()?);
@@ -288,7 +338,7 @@ fn late_mass(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), Im
 }
 
 /// A step of an FMU that moves the mass; a load is an acceleration for it.
-fn step_with_mass(contact: &mut Contact, body: &Body, step: f64) -> Result<(), ImportError> {
+fn step_with_mass<C: Coupled>(contact: &mut C, body: &Body, step: f64) -> Result<(), C::Error> {
     contact.set_rate(body.speed)?;
     if body.load != 0.0 {
         contact.set_derivatives(&[body.load / body.mass])?;
@@ -296,8 +346,8 @@ fn step_with_mass(contact: &mut Contact, body: &Body, step: f64) -> Result<(), I
     contact.step(step)
 }
 
-/// Moves `ball` until it leaves a contact with friction, in at most `most` steps of `step` [s]; `None` if it doesn't. `contact`
-/// makes a step at the two rates [m/s], and gives the normal and the tangential force [N].
+/// Moves `ball` until it leaves a contact with friction, in at most `most` steps of `step` \[s\]; `None` if it doesn't. `contact`
+/// makes a step at the two rates \[m/s\], and gives the normal and the tangential force \[N\].
 pub fn bounce<E>(
     mut ball: Ball,
     step: f64,

@@ -1,0 +1,137 @@
+//! Predictions, curves and numbers for other tools: the answers of the commands.
+
+use crate::Refused;
+use crate::text::scene;
+use brinell_contact::impact::Impact;
+use brinell_exporter::columns::Columns;
+use brinell_exporter::laws::{self, Choice};
+use brinell_exporter::model::check_energy;
+use brinell_exporter::predict::answer::Answer;
+use brinell_exporter::predict::axis::Axis;
+use brinell_exporter::predict::sweep::Sweep;
+use brinell_exporter::predict::{positive, time_history};
+use brinell_exporter::scene::Scene;
+use brinell_exporter::translate::{Request, speeds, text, translate};
+use brinell_exporter::{curve, translate};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+/// An impact on a scene.
+#[derive(Deserialize)]
+pub struct Asked {
+    text: String,
+    mass: Option<f64>,
+    speed: Option<f64>,
+    #[serde(default)]
+    laws: Vec<String>,
+    /// The varied quantities of a sweep.
+    #[serde(default)]
+    sweep: Vec<String>,
+    /// `curve` or `history`, for files.
+    #[serde(default)]
+    of: String,
+}
+
+/// The scene with the strengths of an impact, its laws, and the impact.
+struct Question {
+    scene: Scene,
+    choices: Vec<Choice>,
+    impact: Impact,
+}
+
+impl Question {
+    fn of(asked: &Asked) -> Result<Question, Refused> {
+        let (scene, _) = scene(&asked.text)?;
+        let own = scene.impact_of(0);
+        let impact = Impact {
+            mass: positive("mass", asked.mass.unwrap_or(own.mass))?,
+            speed: positive("speed", asked.speed.unwrap_or(own.speed))?,
+        };
+        check_energy(&impact)?;
+        let scene = scene.with_strengths_for(Some(&impact)).ok_or("the impact is too hard for the law of the scene")?;
+        let choices = laws::choose(&scene, &asked.laws)?;
+        Ok(Question { scene, choices, impact })
+    }
+}
+
+/// What `brinell predict --json` says, and its words.
+pub fn predict(asked: &Asked) -> Result<Value, Refused> {
+    let Question { scene, choices, impact } = Question::of(asked)?;
+    let answer = Answer::of(&scene, &choices, impact, None)?;
+    let mut said = answer.json();
+    said["text"] = json!(answer.text());
+    said["contacts"] = json!(scene.contact_count());
+    Ok(said)
+}
+
+/// The columns of `brinell curve`.
+fn curves(asked: &Asked) -> Result<Columns, Refused> {
+    let (scene, _) = scene(&asked.text)?;
+    let choices = laws::choose(&scene, &asked.laws)?;
+    let largest = scene.predictions[0].max_indentation;
+    curve::columns(&choices, largest, &scene.impact_of(0)).map_err(|_| "the impact is too deep for a law".into())
+}
+
+/// What `brinell curve --json` says.
+pub fn curve(asked: &Asked) -> Result<Value, Refused> {
+    Ok(curves(asked)?.json())
+}
+
+/// The time history of the impact.
+fn moments(asked: &Asked) -> Result<Columns, Refused> {
+    let Question { choices, impact, .. } = Question::of(asked)?;
+    Ok(time_history::columns(&choices, &impact)?)
+}
+
+/// The same as JSON.
+pub fn history(asked: &Asked) -> Result<Value, Refused> {
+    Ok(moments(asked)?.json())
+}
+
+/// What `brinell predict --sweep --json` says.
+pub fn sweep(asked: &Asked) -> Result<Value, Refused> {
+    let Question { scene, choices, impact } = Question::of(asked)?;
+    let axes = asked.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>()?;
+    let each = |values: &[Vec<f64>], work: &(dyn Fn(&Vec<f64>) -> _ + Sync)| values.iter().map(work).collect();
+    let sweep = Sweep::of_impacts((&scene, &choices), (impact, None), &axes, &each)?;
+    let mut said = sweep.columns.json();
+    (said["mass"], said["speed"]) = (json!(impact.mass), json!(impact.speed));
+    Ok(said)
+}
+
+/// A curve or a time history as CSV.
+pub fn csv(asked: &Asked) -> Result<Value, Refused> {
+    let columns = if asked.of == "history" { moments(asked)? } else { curves(asked)? };
+    Ok(json!({ "csv": columns.csv() }))
+}
+
+/// The curve as SVG.
+pub fn picture(asked: &Asked) -> Result<Value, Refused> {
+    let (scene, _) = scene(&asked.text)?;
+    let choices = laws::choose(&scene, &asked.laws)?;
+    let largest = scene.predictions[0].max_indentation;
+    let picture = curve::picture(&choices, largest, &scene.impact_of(0));
+    let picture = picture.map_err(|_| "the impact is too deep for a law")?;
+    Ok(json!({ "svg": picture.svg(860, 480) }))
+}
+
+/// A question for the numbers of another tool.
+#[derive(Deserialize)]
+pub struct Translating {
+    text: String,
+    tool: String,
+    step: Option<f64>,
+    speeds: Option<String>,
+    #[serde(default)]
+    units: String,
+}
+
+/// What `brinell translate` says, as JSON and in words.
+pub fn translation(asked: &Translating) -> Result<Value, Refused> {
+    let (scene, _) = scene(&asked.text)?;
+    let speeds = asked.speeds.as_deref().map(speeds).transpose()?;
+    let request = Request { tool: &asked.tool, speeds, step: asked.step, millimetres: asked.units == "mm-t-s" };
+    let translation = translate(&scene, &request)?;
+    let data: Value = serde_json::from_str(&translate::json(&translation))?;
+    Ok(json!({ "translation": data, "text": text::of(&translation) }))
+}

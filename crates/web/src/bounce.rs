@@ -1,0 +1,414 @@
+//! Bodies that fall on the contacts of a scene, in the hands of a master that may be the wrong one.
+//!
+//! The FMU is that of the scene with the lines that the way to couple needs. Contacts of their own have a body each. Contacts that share
+//! bodies move with the inverse masses of the scene; what stands on the ground is accelerated by gravity.
+
+use crate::Refused;
+use crate::text::{self, Edit};
+use crate::unit::{self, Unit};
+use brinell_exporter::master::{Body, Coupled, Needs, WAYS, Way};
+use brinell_exporter::numbers::quantity;
+use brinell_exporter::plan::Plan;
+use brinell_exporter::prebuilt::{Library, PrebuiltUnit};
+use brinell_exporter::scene::{InverseMasses, Scene, place};
+use brinell_fmu::instance::{Fault, Warning};
+use brinell_fmu::scene::Real;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+/// Largest number of steps.
+const MOST: f64 = 2e6;
+
+/// Number of moments in an answer.
+const MOMENTS: usize = 1200;
+
+/// Largest number of rebounds in an answer.
+const REBOUNDS: usize = 40;
+
+/// The wrong ways: what the FMU assumes, and what its master does.
+const WRONG: [(&str, &str, usize, usize); 2] = [
+    (
+        "serial FMU, parallel master",
+        "the FMU expects that its force acts in the same step; the master is one step late",
+        4,
+        5,
+    ),
+    (
+        "parallel FMU, serial master",
+        "the FMU expects that its force acts one step late; the master applies it at once",
+        5,
+        4,
+    ),
+];
+
+/// The way whose FMU has the lines, the way of the master, and the words.
+struct Choice {
+    name: &'static str,
+    what: &'static str,
+    unit: &'static Way,
+    master: &'static Way,
+    is_right: bool,
+}
+
+fn choices() -> impl Iterator<Item = Choice> {
+    let right =
+        WAYS.iter().map(|way| Choice { name: way.name, what: way.what, unit: way, master: way, is_right: true });
+    let wrong = WRONG.iter().map(|(name, what, unit, master)| Choice {
+        name,
+        what,
+        unit: &WAYS[*unit],
+        master: &WAYS[*master],
+        is_right: false,
+    });
+    right.chain(wrong)
+}
+
+/// The ways to couple.
+pub fn ways() -> Value {
+    let way = |choice: Choice| {
+        json!({
+            "name": choice.name, "what": choice.what, "master": choice.master.master.name(), "right": choice.is_right,
+            "knows_mass": choice.unit.needs.knows_mass(),
+        })
+    };
+    choices().map(way).collect()
+}
+
+/// Bodies that fall.
+#[derive(Deserialize)]
+pub struct Asked {
+    text: String,
+    way: String,
+    /// \[s\]
+    step: f64,
+    time: f64,
+    /// Height of fall \[m\].
+    height: f64,
+    #[serde(default = "gravity")]
+    gravity: f64,
+}
+
+fn gravity() -> f64 {
+    9.806_65
+}
+
+/// A contact of the instance.
+struct At<'a> {
+    unit: &'a mut dyn Unit,
+    contact: usize,
+    time: f64,
+    /// Whether the acceleration is an input.
+    has_input: bool,
+}
+
+impl Coupled for At<'_> {
+    type Error = Fault;
+
+    fn set_rate(&mut self, rate: f64) -> Result<(), Fault> {
+        self.unit.set(Real::IndentationRate, self.contact, rate)
+    }
+
+    fn set_derivatives(&mut self, derivatives: &[f64]) -> Result<(), Fault> {
+        if self.has_input {
+            let first = derivatives.first().copied().unwrap_or(0.0);
+            return self.unit.set(Real::ExternalAcceleration, self.contact, first);
+        }
+        let mut orders = (1..).zip(derivatives);
+        orders.try_for_each(|(order, value)| self.unit.set_derivative(self.contact, order, *value))
+    }
+
+    fn step(&mut self, step: f64) -> Result<(), Fault> {
+        self.unit.step(self.time, step)
+    }
+
+    fn force(&mut self) -> Result<f64, Fault> {
+        Ok(self.unit.get(Real::Force, self.contact))
+    }
+
+    fn force_slope(&mut self) -> Result<f64, Fault> {
+        self.unit.slope(self.contact)
+    }
+
+    fn mean_force(&mut self) -> Result<f64, Fault> {
+        Ok(self.unit.get(Real::MeanForce, self.contact))
+    }
+
+    fn predicted_force(&mut self) -> Result<f64, Fault> {
+        Ok(self.unit.get(Real::PredictedForce, self.contact))
+    }
+}
+
+/// What the page draws.
+#[derive(Default, Serialize)]
+struct Seen {
+    time: Vec<f64>,
+    /// Gap of each contact \[m\]; negative where the bodies press.
+    gaps: Vec<Vec<f64>>,
+    /// Largest force since the last moment \[N\], of all contacts.
+    force: Vec<f64>,
+    rebounds: Vec<Rebound>,
+    messages: Vec<String>,
+}
+
+/// A contact that came to an end.
+#[derive(Serialize)]
+struct Rebound {
+    contact: usize,
+    /// End of the contact \[s\].
+    time: f64,
+    /// Speeds before and after \[m/s\].
+    speed_in: f64,
+    speed_out: f64,
+    restitution: f64,
+    /// Number of steps in which there was a force.
+    steps: u32,
+    /// \[N\]
+    largest_force: f64,
+}
+
+/// The scene with the lines that `way` needs, and the drop height as a gap.
+fn edited(asked: &Asked, scene: &Scene, way: &Way) -> Result<String, Refused> {
+    let edit = |path: &[&str], value: Value| Edit::of(path, value);
+    let mut edits = vec![edit(&["fmu", "standalone"], Value::Null)];
+    if scene.inverse_masses.is_none() {
+        edits.push(edit(&["coupling"], Value::Null));
+        match way.needs {
+            Needs::Mass | Needs::LateMass => {
+                edits.push(edit(&["coupling", "effective_mass"], json!(scene.impact_of(0).mass)));
+                if way.needs == Needs::LateMass {
+                    edits.push(edit(&["coupling", "master"], json!("parallel")));
+                }
+            }
+            Needs::PredictedForce => edits.push(edit(&["fmu", "outputs"], json!(["predicted_force"]))),
+            Needs::MeanForce => edits.push(edit(&["fmu", "outputs"], json!(["mean_force"]))),
+            Needs::Force | Needs::Friction => {}
+        }
+    }
+    if scene.contacts.len() == 1 && scene.contacts[0].name.is_none() {
+        edits.push(edit(&["fmu", "initial_gap"], json!(asked.height)));
+    }
+    text::edited(&asked.text, &edits)
+}
+
+/// Lets the bodies fall.
+pub fn bounce(asked: &Asked) -> Result<Value, Refused> {
+    let Asked { step, time, height, gravity, .. } = *asked;
+    for (name, value) in [("step", step), ("time", time), ("height", height)] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(format!("{name} = {value} must be positive and finite").into());
+        }
+    }
+    if time / step > MOST {
+        return Err(format!("{:.0} steps are too many for a page: allowed are {MOST:.0}", time / step).into());
+    }
+    let choice = choices().find(|choice| choice.name == asked.way);
+    let choice = choice.ok_or_else(|| format!("there is no way to couple `{}`", asked.way))?;
+    let (given, _) = text::scene(&asked.text)?;
+    let (scene, _) = text::scene(&edited(asked, &given, choice.unit)?)?;
+    let contacts = scene.contact_count();
+    let shared = Shared::of(&scene, gravity)?;
+    let count = if shared.is_some() { 1 } else { contacts };
+    let mut units = unit::instances(&PrebuiltUnit::of(&Plan::of(&scene), "")?, count)?;
+    units.iter_mut().try_for_each(|unit| unit.start()).map_err(|fault| refusal(&fault))?;
+    let groups = scene.contacts.iter().enumerate().flat_map(|(index, group)| std::iter::repeat_n(index, group.size()));
+    let body = |group: usize| {
+        let mass = scene.impact_of(group).mass;
+        let mut body = Body::flying(mass, 0.0);
+        body.load = mass * gravity;
+        body
+    };
+    let run = Run {
+        units,
+        bodies: groups.map(body).collect(),
+        shared,
+        has_input: scene.has_input("external_acceleration"),
+        going: vec![None; contacts],
+        seen: Seen { gaps: vec![Vec::new(); contacts], ..Seen::default() },
+    };
+    let seen = run.follow(choice.master, (step, time));
+    Ok(json!({ "scene": scene.text, "library": Library::of(&scene).name, "seen": seen }))
+}
+
+/// Bodies that contacts share: the inverse masses, the accelerations of their rates by gravity, and whether the forces act a step late.
+struct Shared {
+    entries: Vec<f64>,
+    accelerations: Vec<f64>,
+    rows: usize,
+    is_late: bool,
+}
+
+impl Shared {
+    /// Those of the scene, if its contacts share bodies. Gravity accelerates what stands on the ground.
+    fn of(scene: &Scene, gravity: f64) -> Result<Option<Shared>, Refused> {
+        let entries = match &scene.inverse_masses {
+            None => return Ok(None),
+            Some(InverseMasses::Inputs) => {
+                return Err("the inverse masses are inputs, which the page does not know".into());
+            }
+            Some(InverseMasses::Constant(entries)) => entries.clone(),
+        };
+        let table: toml::Table = scene.text.parse()?;
+        let contacts = table.get("contact").and_then(toml::Value::as_array);
+        let stands = |contact: &toml::Value| {
+            let between = contact.get("between").and_then(toml::Value::as_array);
+            between.is_some_and(|names| names.iter().any(|name| name.as_str() == Some("ground")))
+        };
+        let acceleration = |contact: &toml::Value| if stands(contact) { gravity } else { 0.0 };
+        let accelerations = contacts.into_iter().flatten().map(acceleration).collect();
+        let is_late = scene.coupling.is_some_and(|coupling| coupling.parallel);
+        Ok(Some(Shared { entries, accelerations, rows: scene.rows(), is_late }))
+    }
+
+    /// A step of all contacts, and what it does to their rates.
+    fn step(
+        &self,
+        unit: &mut dyn Unit,
+        bodies: &mut [Body],
+        has_input: bool,
+        (time, step): (f64, f64),
+    ) -> Result<(), Fault> {
+        for (contact, (body, acceleration)) in bodies.iter().zip(&self.accelerations).enumerate() {
+            unit.set(Real::IndentationRate, contact, body.speed)?;
+            let mut at = At { unit: &mut *unit, contact, time, has_input };
+            at.set_derivatives(&[*acceleration])?;
+        }
+        unit.step(time, step)?;
+        let means: Vec<f64> = (0..bodies.len()).map(|contact| unit.get(Real::MeanForce, contact)).collect();
+        let forces: Vec<f64> = match self.is_late {
+            true => {
+                bodies.iter_mut().zip(&means).map(|(body, mean)| std::mem::replace(&mut body.owed, *mean)).collect()
+            }
+            false => means,
+        };
+        for (row, body) in bodies.iter_mut().enumerate() {
+            let entry = |column: usize| self.entries[place(self.rows, row, column)];
+            let by_forces: f64 = forces.iter().enumerate().map(|(column, force)| entry(column) * force).sum();
+            body.speed += step * (self.accelerations[row] - by_forces);
+            body.force = unit.get(Real::Force, row);
+        }
+        Ok(())
+    }
+}
+
+/// A contact that goes on.
+#[derive(Clone, Copy)]
+struct Going {
+    speed_in: f64,
+    steps: u32,
+    largest_force: f64,
+}
+
+/// The bodies, one for each contact, and what was seen.
+struct Run<'a> {
+    /// One instance for all contacts that share bodies, otherwise one for each contact.
+    units: Vec<&'a mut dyn Unit>,
+    bodies: Vec<Body>,
+    shared: Option<Shared>,
+    /// Whether accelerations are an input.
+    has_input: bool,
+    going: Vec<Option<Going>>,
+    seen: Seen,
+}
+
+impl Run<'_> {
+    fn follow(mut self, way: &Way, (step, end): (f64, f64)) -> Seen {
+        let steps = (end / step).ceil() as usize;
+        let every = steps.div_ceil(MOMENTS).max(1);
+        let mut largest: f64 = 0.0;
+        for done in 0..steps {
+            let time = done as f64 * step;
+            let before: Vec<f64> = self.bodies.iter().map(|body| body.settled_speed(step)).collect();
+            if let Err(fault) = self.step(way, time, step) {
+                self.seen.messages.push(format!("at {}: {}", quantity(time, "s"), refusal(&fault)));
+                break;
+            }
+            let warnings = self.units.iter_mut().filter_map(|unit| unit.warning());
+            self.seen.messages.extend(warnings.map(|it| format!("at {}: {}", quantity(time, "s"), words(&it))));
+            self.note(&before, time + step, step);
+            largest = self.bodies.iter().fold(largest, |largest, body| largest.max(body.force));
+            if done % every == 0 || done + 1 == steps {
+                self.seen.time.push(time + step);
+                self.seen.force.push(std::mem::take(&mut largest));
+                for (contact, gaps) in self.seen.gaps.iter_mut().enumerate() {
+                    let unit = &self.units[contact.min(self.units.len() - 1)];
+                    gaps.push(-unit.get(Real::Indentation, contact));
+                }
+            }
+        }
+        self.seen
+    }
+
+    /// A step of all contacts and their bodies.
+    fn step(&mut self, way: &Way, time: f64, step: f64) -> Result<(), Fault> {
+        if let Some(shared) = &self.shared {
+            return shared.step(self.units[0], &mut self.bodies, self.has_input, (time, step));
+        }
+        for (contact, (body, unit)) in self.bodies.iter_mut().zip(&mut self.units).enumerate() {
+            let mut at = At { unit: &mut **unit, contact, time, has_input: self.has_input };
+            way.advance(&mut at, body, step)?;
+        }
+        Ok(())
+    }
+
+    /// Notes contacts that begin and end. The bodies had the speeds `before`.
+    fn note(&mut self, before: &[f64], time: f64, step: f64) {
+        for (contact, (body, before)) in self.bodies.iter().zip(before).enumerate() {
+            let going = &mut self.going[contact];
+            // one that is shorter than a step shows in its momentum only
+            let passed = body.force <= 0.0 && going.is_none() && *before > 0.0 && body.settled_speed(step) < 0.0;
+            if body.force > 0.0 || passed {
+                let Going { speed_in, steps, largest_force } =
+                    going.unwrap_or(Going { speed_in: *before, steps: 0, largest_force: 0.0 });
+                *going = Some(Going { speed_in, steps: steps + 1, largest_force: largest_force.max(body.force) });
+            }
+            if let (Some(Going { speed_in, steps, largest_force }), true) = (*going, body.force <= 0.0) {
+                *going = None;
+                let speed_out = -body.settled_speed(step);
+                if self.seen.rebounds.len() < REBOUNDS {
+                    let restitution = speed_out / speed_in;
+                    let rebound = Rebound { contact, time, speed_in, speed_out, restitution, steps, largest_force };
+                    self.seen.rebounds.push(rebound);
+                }
+            }
+        }
+    }
+}
+
+/// Why the FMU refuses a step, in words.
+fn refusal(fault: &Fault) -> String {
+    match fault {
+        Fault::TooDeep { indentation, .. } => {
+            format!("the FMU refuses a step: at {} the law can't be evaluated", quantity(*indentation, "m"))
+        }
+        Fault::NoInputDerivatives => "the FMU takes no input derivatives: its law depends on the rate".into(),
+        other => format!("the FMU refuses a step: {other:?}"),
+    }
+}
+
+/// A warning in words.
+fn words(warning: &Warning) -> String {
+    match warning {
+        Warning::Miswired { rate, expected, parallel, .. } => {
+            let [is, should] = if *parallel { ["at once", "one step late"] } else { ["one step late", "at once"] };
+            format!(
+                "the FMU warns: it was made for a master that applies its force {should}, and this one applies it {is}; the rate is                  {}, expected was {}",
+                quantity(*rate, "m/s"),
+                quantity(*expected, "m/s")
+            )
+        }
+        Warning::Deep { indentation, allowed, .. } => format!(
+            "the FMU warns: the contact is wider than its law allows ({}, allowed {})",
+            quantity(*indentation, "m"),
+            quantity(*allowed, "m")
+        ),
+        Warning::Unstable { step, .. } => {
+            format!("the FMU warns: steps of {} are too long for this way to couple", quantity(*step, "s"))
+        }
+        Warning::Fast { rate, allowed, .. } => format!(
+            "the FMU warns: {} is fast, and elastic waves count above {}",
+            quantity(*rate, "m/s"),
+            quantity(*allowed, "m/s")
+        ),
+        Warning::Guarded => "the passivity guard acts".into(),
+    }
+}

@@ -1,0 +1,212 @@
+//! The scene as text and as values.
+
+use crate::Refused;
+use brinell_exporter::mistake::SceneError;
+use brinell_exporter::scene::{self, Beside, Scene};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike};
+
+/// The name of the scene in messages.
+const PATH: &str = "scene.toml";
+
+/// A question about the scene with this text.
+#[derive(Deserialize)]
+pub struct Asked {
+    pub text: String,
+}
+
+/// The scene with this `text`, and doubts about its numbers. No file lies beside it.
+///
+/// # Errors
+/// [`Refused`] with the place of the mistake.
+pub fn scene(text: &str) -> Result<(Scene, Vec<SceneError>), Refused> {
+    Scene::parse_beside(text, Path::new(PATH), &Beside::default())
+        .map_err(|error| Refused { message: error.to_string(), mistakes: placed(text, &error) })
+}
+
+/// A mistake with its place: line and column from 1, and the part of the text \[UTF-16 units\].
+fn placed(text: &str, error: &SceneError) -> Vec<Value> {
+    let SceneError::Wrong { line, column, span, message, .. } = error else { return Vec::new() };
+    let units = |end: usize| text.get(..end).unwrap_or(text).encode_utf16().count();
+    vec![
+        json!({ "line": line, "column": column, "from": units(span.start), "to": units(span.end), "message": message }),
+    ]
+}
+
+/// The values of the scene, its mistakes, and doubts about its numbers.
+pub fn check(asked: &Asked) -> Value {
+    let text = &asked.text;
+    let values = text.parse::<toml::Table>().ok().map(|table| json_of(&toml::Value::Table(table)));
+    let (mistakes, doubts) = match scene(text) {
+        Ok((_, doubts)) => (Vec::new(), doubts.iter().flat_map(|doubt| placed(text, doubt)).collect()),
+        Err(refused) => (refused.mistakes, Vec::new()),
+    };
+    json!({ "values": values, "mistakes": mistakes, "doubts": doubts, "files": scene::files_named(text) })
+}
+
+/// A value of TOML as JSON. Dates and numbers that JSON doesn't know are texts.
+fn json_of(value: &toml::Value) -> Value {
+    match value {
+        toml::Value::String(text) => json!(text),
+        toml::Value::Integer(number) => json!(number),
+        toml::Value::Float(number) if number.is_finite() => json!(number),
+        toml::Value::Boolean(flag) => json!(flag),
+        toml::Value::Array(values) => values.iter().map(json_of).collect(),
+        toml::Value::Table(table) => table.iter().map(|(key, value)| (key.clone(), json_of(value))).collect(),
+        other => json!(other.to_string()),
+    }
+}
+
+/// A commented scene.
+#[derive(Deserialize)]
+pub struct New {
+    name: String,
+}
+
+/// A scene to start from.
+pub fn new(asked: &New) -> Result<Value, Refused> {
+    scene::check_name(&asked.name)?;
+    Ok(json!({ "text": scene::new_scene(&asked.name) }))
+}
+
+/// Changes to the text of a scene.
+#[derive(Deserialize)]
+pub struct Edits {
+    text: String,
+    edits: Vec<Edit>,
+}
+
+/// A key that gets a value, or is removed.
+#[derive(Deserialize)]
+pub struct Edit {
+    path: Vec<Step>,
+    value: Value,
+}
+
+/// A step towards a key: into a table, or to an element of an array of tables.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Step {
+    Element(usize),
+    Key(String),
+}
+
+/// The text with all edits made.
+pub fn edit(asked: &Edits) -> Result<Value, Refused> {
+    Ok(json!({ "text": edited(&asked.text, &asked.edits)? }))
+}
+
+/// `text` with `edits`. Comments and the order of keys stay.
+pub fn edited(text: &str, edits: &[Edit]) -> Result<String, Refused> {
+    let mut document: DocumentMut = text.parse().map_err(|error| format!("the text is no TOML: {error}"))?;
+    for Edit { path, value } in edits {
+        change(document.as_table_mut(), path, value)?;
+    }
+    Ok(document.to_string())
+}
+
+impl Edit {
+    /// The key at this path gets `value`.
+    pub fn of(path: &[&str], value: Value) -> Edit {
+        Edit { path: path.iter().map(|key| Step::Key((*key).into())).collect(), value }
+    }
+}
+
+/// Makes one edit below `table`.
+fn change(table: &mut dyn TableLike, path: &[Step], value: &Value) -> Result<(), String> {
+    let [Step::Key(key), rest @ ..] = path else { return Err("a path must lead to keys".into()) };
+    match rest {
+        [] => set(table, key, value),
+        [Step::Element(index), rest @ ..] => {
+            if table.get(key).is_none() {
+                table.insert(key, Item::ArrayOfTables(ArrayOfTables::new()));
+            }
+            let items = table.get_mut(key).and_then(Item::as_array_of_tables_mut);
+            let items = items.ok_or_else(|| format!("`{key}` is no array of tables"))?;
+            if rest.is_empty() && value.is_null() {
+                if *index < items.len() {
+                    items.remove(*index);
+                }
+                if items.is_empty() {
+                    table.remove(key);
+                }
+                return Ok(());
+            }
+            if *index == items.len() {
+                items.push(Table::new());
+            }
+            let item = items.get_mut(*index).ok_or_else(|| format!("`{key}` has no element {index}"))?;
+            if rest.is_empty() { fill(item, value) } else { change(item, rest, value) }
+        }
+        [Step::Key(_), ..] => {
+            if table.get(key).is_none() {
+                if value.is_null() {
+                    return Ok(());
+                }
+                table.insert(key, Item::Table(Table::new()));
+            }
+            let below = table.get_mut(key).and_then(Item::as_table_like_mut);
+            change(below.ok_or_else(|| format!("`{key}` is no table"))?, rest, value)
+        }
+    }
+}
+
+/// Sets a key, or removes it. What stands before and behind the value stays.
+fn set(table: &mut dyn TableLike, key: &str, value: &Value) -> Result<(), String> {
+    if value.is_null() {
+        table.remove(key);
+        return Ok(());
+    }
+    if let Value::Object(entries) = value
+        && table.get(key).is_none()
+        && !table.is_dotted()
+        && !entries.is_empty()
+    {
+        table.insert(key, Item::Table(Table::new()));
+    }
+    if let (Value::Object(_), Some(below)) = (value, table.get_mut(key).and_then(Item::as_table_like_mut)) {
+        return fill(below, value);
+    }
+    let mut new = toml_of(value)?;
+    match table.get_mut(key).and_then(Item::as_value_mut) {
+        Some(old) => {
+            *new.decor_mut() = old.decor().clone();
+            *old = new;
+        }
+        None => drop(table.insert(key, Item::Value(new))),
+    }
+    Ok(())
+}
+
+/// Sets the keys of an object in a table.
+fn fill(table: &mut dyn TableLike, value: &Value) -> Result<(), String> {
+    let Value::Object(entries) = value else { return Err("a table takes an object".into()) };
+    entries.iter().try_for_each(|(key, value)| set(table, key, value))
+}
+
+/// A value of JSON as TOML.
+fn toml_of(value: &Value) -> Result<toml_edit::Value, String> {
+    let inline = |entries: &Map<String, Value>| {
+        let mut table = InlineTable::new();
+        for (key, value) in entries {
+            table.insert(key, toml_of(value)?);
+        }
+        Ok::<_, String>(table)
+    };
+    Ok(match value {
+        Value::Bool(flag) => (*flag).into(),
+        Value::Number(number) => match number.as_i64() {
+            Some(number) => number.into(),
+            None => number.as_f64().ok_or("a number that is none")?.into(),
+        },
+        Value::String(text) => text.as_str().into(),
+        Value::Array(values) => {
+            let values = values.iter().map(toml_of).collect::<Result<Vec<_>, _>>()?;
+            toml_edit::Value::Array(values.into_iter().collect())
+        }
+        Value::Object(entries) => inline(entries)?.into(),
+        Value::Null => return Err("a value within a value can't be removed".into()),
+    })
+}
