@@ -14,6 +14,7 @@ usr/lib/rustlib/HOST/bin/rust-lld  LLVM's linker for all systems, a script; the 
 usr/bin/wasm2c                    makes C of modules for WebAssembly, for C source as a platform
 usr/lib/rustlib/TARGET/lib        core and compiler_builtins of each target
 usr/src/rustc-VERSION/library     with --std: the sources of Rust's libraries, for cargo's -Zbuild-std
+usr/lib/rustlib/wasm32-wasip1/    with --std: the C library of modules for a page
 """
 
 from __future__ import annotations
@@ -40,6 +41,9 @@ WABT_SHA256 = {
     "amd64": "f258a5cd377afac3361fc1dcb6fb10e813a88ab32c1895eba63fd7422801e9f1",
     "arm64": "a2aa1c8b6e413fc34b8070df9256df6d10d82c65f600a01b676fac2851aeee95",
 }
+# The C library of modules with the whole standard library: those of the page in a browser.
+WASI = "debian/pool/main/w/wasi-libc/wasi-libc_0.0~git20220510.9886d3d-2_all.deb"
+WASI_SHA256 = "513e25eeca77f7e31adf928b684714dd656cc6bc70c2970abfe3b4117e3b736f"
 TARGETS = [
     "x86_64-unknown-linux-gnu",
     "aarch64-unknown-linux-gnu",
@@ -95,7 +99,7 @@ def main() -> None:
     folder, done = given.folder.resolve(), given.folder.resolve() / "packages.json"
     known = json.loads(done.read_text()) if done.is_file() else {}
     has_all = set(known.get("targets", TARGETS)) >= set(given.targets)
-    if (folder / "usr/bin/wasm2c").is_file() and known.get("std", False) >= given.std and known and has_all:
+    if known and known.get("std", False) >= given.std and has_all:
         print(f"{folder} is complete")
         return
     processor = {"x86_64": "amd64", "aarch64": "arm64"}.get(platform.machine())
@@ -111,7 +115,12 @@ def main() -> None:
         if hashlib.sha256(data).hexdigest() != package["SHA256"]:
             raise SystemExit(f"{package['Filename']} has another hash than the index says")
         unpack(data, folder, pattern)
-    fetch_wasm2c(folder, given.mirror, processor)
+    fetch_pinned(WABT.format(processor=processor), WABT_SHA256[processor], given.mirror, folder, r"usr/bin/wasm2c$")
+    if given.std:
+        fetch_pinned(WASI, WASI_SHA256, given.mirror, folder, r"usr/lib/wasm32-wasi/(crt1-.*\.o|libc\.a)$")
+        inside = folder / "usr/lib/rustlib/wasm32-wasip1/lib/self-contained"
+        inside.parent.mkdir(parents=True, exist_ok=True)
+        (folder / "usr/lib/wasm32-wasi").rename(inside)
     write_scripts(folder / "usr")
     # with --std, this machine has the core of the whole library
     host = {f"{platform.machine()}-unknown-linux-gnu"} if given.std else set()
@@ -162,14 +171,13 @@ def chosen(index: str, std: bool) -> list[tuple[dict[str, str], str]]:
     return [(known[name], pattern) for name, pattern in parts]
 
 
-def fetch_wasm2c(folder: Path, mirror: str, processor: str) -> None:
-    """wasm2c of its pinned package."""
-    name = WABT.format(processor=processor)
+def fetch_pinned(name: str, digest: str, mirror: str, folder: Path, pattern: str) -> None:
+    """The files that match `pattern` of a package beside the mirror of security updates, which never changes."""
     print(name.rpartition("/")[2], flush=True)
     data = fetch(f"{mirror.rpartition('/')[0]}/{name}")
-    if hashlib.sha256(data).hexdigest() != WABT_SHA256[processor]:
+    if hashlib.sha256(data).hexdigest() != digest:
         raise SystemExit(f"{name} has another hash than it had")
-    unpack(data, folder, r"usr/bin/wasm2c$")
+    unpack(data, folder, pattern)
 
 
 def unpack(package: bytes, folder: Path, pattern: str) -> None:

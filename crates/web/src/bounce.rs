@@ -15,8 +15,9 @@ use brinell_fmu::instance::{Fault, Warning};
 use brinell_fmu::scene::Real;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use std::mem::{Discriminant, discriminant};
 
-/// Largest number of steps.
+/// Largest number of steps, each with all contacts of all instances.
 const MOST: f64 = 2e6;
 
 /// Number of moments in an answer.
@@ -166,28 +167,50 @@ struct Rebound {
     largest_force: f64,
 }
 
-/// The scene with the lines that `way` needs, and the drop height as a gap.
+/// The scene with the lines that `way` needs, and the height of fall as a gap. Nothing moves along the surface, so friction is left out
+/// where the FMU would have to know more of the bodies for it.
 fn edited(asked: &Asked, scene: &Scene, way: &Way) -> Result<String, Refused> {
-    let edit = |path: &[&str], value: Value| Edit::of(path, value);
-    let mut edits = vec![edit(&["fmu", "standalone"], Value::Null)];
+    let mut edits = vec![Edit::of(&["fmu", "standalone"], Value::Null)];
+    let tables = scene.contacts.len();
+    let is_listed = scene.contacts[0].name.is_some();
     if scene.inverse_masses.is_none() {
-        edits.push(edit(&["coupling"], Value::Null));
-        match way.needs {
-            Needs::Mass | Needs::LateMass => {
-                edits.push(edit(&["coupling", "effective_mass"], json!(scene.impact_of(0).mass)));
-                if way.needs == Needs::LateMass {
-                    edits.push(edit(&["coupling", "master"], json!("parallel")));
-                }
-            }
-            Needs::PredictedForce => edits.push(edit(&["fmu", "outputs"], json!(["predicted_force"]))),
-            Needs::MeanForce => edits.push(edit(&["fmu", "outputs"], json!(["mean_force"]))),
-            Needs::Force | Needs::Friction => {}
+        edits.extend([Edit::of(&["coupling"], Value::Null), Edit::of(&["friction"], Value::Null)]);
+        if is_listed {
+            edits.extend((0..tables).map(|index| Edit::of_contact(index, "friction", Value::Null)));
+        }
+        let outputs: &[&str] = match way.needs {
+            Needs::PredictedForce => &["predicted_force"],
+            Needs::MeanForce | Needs::Mass | Needs::LateMass => &["mean_force"],
+            Needs::Force | Needs::Friction => &[],
+        };
+        edits.extend([Edit::of(&["fmu", "outputs"], json!(outputs)), Edit::of(&["fmu", "parameters"], Value::Null)]);
+        if way.needs.knows_mass() {
+            edits.push(Edit::of(&["coupling", "effective_mass"], json!(scene.impact_of(0).mass)));
+        }
+        if way.needs == Needs::LateMass {
+            edits.push(Edit::of(&["coupling", "master"], json!("parallel")));
         }
     }
-    if scene.contacts.len() == 1 && scene.contacts[0].name.is_none() {
-        edits.push(edit(&["fmu", "initial_gap"], json!(asked.height)));
+    let falls = |index: &usize| scene.inverse_masses.is_none() || stand(scene).get(*index).is_some_and(|it| *it);
+    let gap = json!(asked.height);
+    match is_listed {
+        false => edits.push(Edit::of(&["fmu", "initial_gap"], gap)),
+        true => {
+            edits.extend((0..tables).filter(falls).map(|index| Edit::of_contact(index, "initial_gap", gap.clone())))
+        }
     }
     text::edited(&asked.text, &edits)
+}
+
+/// Of each contact that shares bodies, whether one of them is the ground.
+fn stand(scene: &Scene) -> Vec<bool> {
+    let table: toml::Table = scene.text.parse().unwrap_or_default();
+    let contacts = table.get("contact").and_then(toml::Value::as_array);
+    let stands = |contact: &toml::Value| {
+        let between = contact.get("between").and_then(toml::Value::as_array);
+        between.is_some_and(|names| names.iter().any(|name| name.as_str() == Some("ground")))
+    };
+    contacts.into_iter().flatten().map(stands).collect()
 }
 
 /// Lets the bodies fall.
@@ -198,14 +221,21 @@ pub fn bounce(asked: &Asked) -> Result<Value, Refused> {
             return Err(format!("{name} = {value} must be positive and finite").into());
         }
     }
-    if time / step > MOST {
-        return Err(format!("{:.0} steps are too many for a page: allowed are {MOST:.0}", time / step).into());
-    }
     let choice = choices().find(|choice| choice.name == asked.way);
     let choice = choice.ok_or_else(|| format!("there is no way to couple `{}`", asked.way))?;
     let (given, _) = text::scene(&asked.text)?;
     let (scene, _) = text::scene(&edited(asked, &given, choice.unit)?)?;
     let contacts = scene.contact_count();
+    // each body has an instance of its own, with all contacts
+    let updates = time / step * (contacts * contacts) as f64;
+    if updates > MOST {
+        let most = MOST / (contacts * contacts) as f64;
+        return Err(format!(
+            "{:.0} steps of {contacts} contacts are too many for a page: allowed are {most:.0}",
+            time / step
+        )
+        .into());
+    }
     let shared = Shared::of(&scene, gravity)?;
     let count = if shared.is_some() { 1 } else { contacts };
     let mut units = unit::instances(&PrebuiltUnit::of(&Plan::of(&scene), "")?, count)?;
@@ -223,6 +253,7 @@ pub fn bounce(asked: &Asked) -> Result<Value, Refused> {
         shared,
         has_input: scene.has_input("external_acceleration"),
         going: vec![None; contacts],
+        warned: Vec::new(),
         seen: Seen { gaps: vec![Vec::new(); contacts], ..Seen::default() },
     };
     let seen = run.follow(choice.master, (step, time));
@@ -247,14 +278,7 @@ impl Shared {
             }
             Some(InverseMasses::Constant(entries)) => entries.clone(),
         };
-        let table: toml::Table = scene.text.parse()?;
-        let contacts = table.get("contact").and_then(toml::Value::as_array);
-        let stands = |contact: &toml::Value| {
-            let between = contact.get("between").and_then(toml::Value::as_array);
-            between.is_some_and(|names| names.iter().any(|name| name.as_str() == Some("ground")))
-        };
-        let acceleration = |contact: &toml::Value| if stands(contact) { gravity } else { 0.0 };
-        let accelerations = contacts.into_iter().flatten().map(acceleration).collect();
+        let accelerations = stand(scene).into_iter().map(|stands| if stands { gravity } else { 0.0 }).collect();
         let is_late = scene.coupling.is_some_and(|coupling| coupling.parallel);
         Ok(Some(Shared { entries, accelerations, rows: scene.rows(), is_late }))
     }
@@ -307,6 +331,7 @@ struct Run<'a> {
     /// Whether accelerations are an input.
     has_input: bool,
     going: Vec<Option<Going>>,
+    warned: Vec<Discriminant<Warning>>,
     seen: Seen,
 }
 
@@ -317,25 +342,43 @@ impl Run<'_> {
         let mut largest: f64 = 0.0;
         for done in 0..steps {
             let time = done as f64 * step;
-            let before: Vec<f64> = self.bodies.iter().map(|body| body.settled_speed(step)).collect();
+            let before: Vec<f64> = (0..self.bodies.len()).map(|contact| self.speed(contact, step)).collect();
             if let Err(fault) = self.step(way, time, step) {
                 self.seen.messages.push(format!("at {}: {}", quantity(time, "s"), refusal(&fault)));
                 break;
             }
-            let warnings = self.units.iter_mut().filter_map(|unit| unit.warning());
-            self.seen.messages.extend(warnings.map(|it| format!("at {}: {}", quantity(time, "s"), words(&it))));
+            for warning in self.units.iter_mut().filter_map(|unit| unit.warning()) {
+                // an FMU warns once of each
+                if !self.warned.contains(&discriminant(&warning)) {
+                    self.warned.push(discriminant(&warning));
+                    self.seen.messages.push(format!("at {}: {}", quantity(time, "s"), words(&warning)));
+                }
+            }
             self.note(&before, time + step, step);
             largest = self.bodies.iter().fold(largest, |largest, body| largest.max(body.force));
             if done % every == 0 || done + 1 == steps {
                 self.seen.time.push(time + step);
                 self.seen.force.push(std::mem::take(&mut largest));
-                for (contact, gaps) in self.seen.gaps.iter_mut().enumerate() {
-                    let unit = &self.units[contact.min(self.units.len() - 1)];
-                    gaps.push(-unit.get(Real::Indentation, contact));
+                for contact in 0..self.bodies.len() {
+                    let gap = self.gap(contact);
+                    self.seen.gaps[contact].push(gap);
                 }
             }
         }
         self.seen
+    }
+
+    /// The gap of a contact \[m\].
+    fn gap(&self, contact: usize) -> f64 {
+        -self.units[contact.min(self.units.len() - 1)].get(Real::Indentation, contact)
+    }
+
+    /// The speed with which a body will close its gap, or opened it \[m/s\]: gravity is not a loss.
+    fn speed(&self, contact: usize, step: f64) -> f64 {
+        let body = &self.bodies[contact];
+        let acceleration = self.shared.as_ref().map_or(body.load / body.mass, |shared| shared.accelerations[contact]);
+        let speed = body.settled_speed(step);
+        (speed * speed + 2.0 * acceleration * self.gap(contact).max(0.0)).sqrt().copysign(speed)
     }
 
     /// A step of all contacts and their bodies.
@@ -352,10 +395,11 @@ impl Run<'_> {
 
     /// Notes contacts that begin and end. The bodies had the speeds `before`.
     fn note(&mut self, before: &[f64], time: f64, step: f64) {
-        for (contact, (body, before)) in self.bodies.iter().zip(before).enumerate() {
-            let going = &mut self.going[contact];
+        for (contact, before) in before.iter().enumerate() {
+            let speed = self.speed(contact, step);
+            let (body, going) = (&self.bodies[contact], &mut self.going[contact]);
             // one that is shorter than a step shows in its momentum only
-            let passed = body.force <= 0.0 && going.is_none() && *before > 0.0 && body.settled_speed(step) < 0.0;
+            let passed = body.force <= 0.0 && going.is_none() && *before > 0.0 && speed < 0.0;
             if body.force > 0.0 || passed {
                 let Going { speed_in, steps, largest_force } =
                     going.unwrap_or(Going { speed_in: *before, steps: 0, largest_force: 0.0 });
@@ -363,7 +407,7 @@ impl Run<'_> {
             }
             if let (Some(Going { speed_in, steps, largest_force }), true) = (*going, body.force <= 0.0) {
                 *going = None;
-                let speed_out = -body.settled_speed(step);
+                let speed_out = -speed;
                 if self.seen.rebounds.len() < REBOUNDS {
                     let restitution = speed_out / speed_in;
                     let rebound = Rebound { contact, time, speed_in, speed_out, restitution, steps, largest_force };
@@ -391,7 +435,8 @@ fn words(warning: &Warning) -> String {
         Warning::Miswired { rate, expected, parallel, .. } => {
             let [is, should] = if *parallel { ["at once", "one step late"] } else { ["one step late", "at once"] };
             format!(
-                "the FMU warns: it was made for a master that applies its force {should}, and this one applies it {is}; the rate is                  {}, expected was {}",
+                "the FMU warns: it was made for a master that applies its force {should}, and this one applies it {is} \
+                 (rate {}, expected {})",
                 quantity(*rate, "m/s"),
                 quantity(*expected, "m/s")
             )

@@ -6,7 +6,7 @@ use brinell_exporter::scene::{self, Beside, Scene};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::path::Path;
-use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike};
+use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, RawString, Table, TableLike};
 
 /// The name of the scene in messages.
 const PATH: &str = "scene.toml";
@@ -112,6 +112,11 @@ impl Edit {
     pub fn of(path: &[&str], value: Value) -> Edit {
         Edit { path: path.iter().map(|key| Step::Key((*key).into())).collect(), value }
     }
+
+    /// The `key` of a table `[[contact]]` gets `value`.
+    pub fn of_contact(index: usize, key: &str, value: Value) -> Edit {
+        Edit { path: vec![Step::Key("contact".into()), Step::Element(index), Step::Key(key.into())], value }
+    }
 }
 
 /// Makes one edit below `table`.
@@ -175,7 +180,20 @@ fn set(table: &mut dyn TableLike, key: &str, value: &Value) -> Result<(), String
             *new.decor_mut() = old.decor().clone();
             *old = new;
         }
-        None => drop(table.insert(key, Item::Value(new))),
+        None => {
+            // the space before the brace of an inline table stays there
+            let last =
+                table.iter_mut().last().and_then(|(_, item)| item.as_value_mut().map(toml_edit::Value::decor_mut));
+            if let Some(last) = last
+                && let Some(space) = last.suffix().and_then(RawString::as_str).filter(|text| text.trim().is_empty())
+            {
+                let space = space.to_string();
+                last.set_suffix("");
+                new.decor_mut().set_suffix(space);
+                new.decor_mut().set_prefix(" ");
+            }
+            table.insert(key, Item::Value(new));
+        }
     }
     Ok(())
 }

