@@ -3,7 +3,7 @@
 
     python3 packaging/release.py                                    # for this machine
     python3 packaging/release.py --program target/release/brinell   # without compiling anything
-    python3 packaging/release.py all --prebuilt FOLDER --toolchain FOLDER --mingw FOLDER
+    python3 packaging/release.py all --prebuilt FOLDER --page FILE --toolchain FOLDER --mingw FOLDER
 """
 
 from __future__ import annotations
@@ -52,6 +52,10 @@ def main() -> None:
         share |= archives.read_folder(given.prebuilt, "share/brinell/prebuilt")
     else:
         print("NO PREBUILT LIBRARIES: the program will need rustc to export", file=sys.stderr)
+    if given.page is not None:
+        share["share/brinell/brinell.html"] = given.page.read_bytes()
+    else:
+        print("NO PAGE: `brinell app` will have nothing to open", file=sys.stderr)
     written = []
     for name in given.platforms:
         if given.program is not None:
@@ -71,6 +75,7 @@ def _arguments() -> argparse.Namespace:
     add("platforms", nargs="*", metavar="PLATFORM", help=f"{', '.join(PLATFORMS)}, or all")
     add("--program", type=Path, help="a program that is built already, for this machine")
     add("--prebuilt", type=Path, help="the folder that `brinell prebuild` has written")
+    add("--page", type=Path, help="the page that page.py has written")
     add("--toolchain", type=Path, help="the folder that rustc-web is unpacked in")
     add("--mingw", type=Path, help="the folder that Debian's mingw-w64 is unpacked in")
     folder = ROOT / "target" / "packaging"

@@ -42,8 +42,8 @@ WABT_SHA256 = {
     "arm64": "a2aa1c8b6e413fc34b8070df9256df6d10d82c65f600a01b676fac2851aeee95",
 }
 # The C library of modules with the whole standard library: those of the page in a browser.
-WASI = "debian/pool/main/w/wasi-libc/wasi-libc_0.0~git20220510.9886d3d-2_all.deb"
-WASI_SHA256 = "513e25eeca77f7e31adf928b684714dd656cc6bc70c2970abfe3b4117e3b736f"
+WASI = "debian/pool/main/w/wasi-libc/wasi-libc_0.0~git20241209.574b88d-2_all.deb"
+WASI_SHA256 = "b7716260051d289248b7667f81fa2792c125d888ff51da3fa09c6272cc0bd11d"
 TARGETS = [
     "x86_64-unknown-linux-gnu",
     "aarch64-unknown-linux-gnu",

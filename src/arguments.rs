@@ -2,7 +2,7 @@
 
 use crate::package::LibraryWay;
 use crate::prebuilt;
-use crate::{check, curve, hardness, law_list, new, predict, report, translate};
+use crate::{app, check, curve, hardness, law_list, new, predict, report, translate};
 use brinell_exporter::platform::{self, Platform};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
@@ -31,6 +31,8 @@ that fails its check); 2 the command line is wrong (an unknown option or law, a 
 
 #[derive(Subcommand)]
 pub enum Command {
+    /// Open Brinell in the browser: scene, predictions and FMU on one page, without the network
+    App(app::Arguments),
     /// Write a commented scene file to begin with
     New(new::Arguments),
     /// Build the FMU of a scene

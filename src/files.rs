@@ -221,6 +221,25 @@ pub fn user_folder(
     Ok(base.join("brinell"))
 }
 
+/// Path of what is installed with the program, relative to its installation folder.
+const INSTALLED: &str = "share/brinell";
+
+/// Number of folders above the program that are searched. A wheel puts programs into `bin` or `Scripts`; on Windows, the
+/// programs of a single user are in `Python311\Scripts`. `share` is beside `bin`, `Scripts` or `Python311`.
+const LEVELS: usize = 3;
+
+/// The file or folder `name` that was installed with this program; `None` if there is none.
+pub fn installed(name: &str) -> Option<PathBuf> {
+    // a symbolic link to the program, such as that of pipx, has no `share` beside it
+    installed_with(&std::env::current_exe().and_then(fs::canonicalize).ok()?, name)
+}
+
+/// The same for the program at `program`.
+fn installed_with(program: &Path, name: &str) -> Option<PathBuf> {
+    let above = program.ancestors().skip(1).take(LEVELS);
+    above.map(|folder| folder.join(INSTALLED).join(name)).find(|path| path.exists())
+}
+
 /// The folder that contains `path`.
 pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
@@ -264,4 +283,23 @@ pub fn ending(output: Option<&Path>, allowed: &[&'static str]) -> Result<&'stati
         let or = if others.is_empty() { "" } else { " or " };
         format!("{}: the name must end in {others}{or}.{last}", shown(path))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{INSTALLED, installed_with};
+    use std::fs;
+
+    #[test]
+    fn what_is_installed_is_beside_the_program_or_beside_one_of_two_folders_above() {
+        let root = tempfile::tempdir().unwrap();
+        let there = root.path().join(INSTALLED).join("prebuilt");
+        fs::create_dir_all(&there).unwrap();
+        for program in ["brinell", "bin/brinell", "Python311/Scripts/brinell.exe"] {
+            let found = installed_with(&root.path().join(program), "prebuilt");
+            assert_eq!(found.as_ref(), Some(&there), "{program}");
+        }
+        let other = installed_with(&root.path().join("usr/lib/other/brinell"), "prebuilt");
+        assert_eq!(other, None, "nothing of another installation");
+    }
 }

@@ -12,6 +12,7 @@
 #![deny(unsafe_code)]
 
 mod about;
+mod app;
 mod arguments;
 mod check;
 mod curve;
@@ -135,6 +136,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             export::run(scene, (way, &platforms.chosen(way)?), output.as_deref(), json)?;
         }
         Some(Command::Prebuild(arguments)) => prebuild::run(arguments, json)?,
+        Some(Command::App(arguments)) => app::run(arguments, json)?,
         Some(Command::New(arguments)) => new::run(arguments, json)?,
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::run(arguments, json)?,

@@ -1,19 +1,16 @@
 //! The location of the prebuilt FMU libraries.
 
+use crate::files::installed;
 use brinell_exporter::platform::{Platform, Target};
 use brinell_exporter::prebuilt::archive::LIST;
-use std::path::{Path, PathBuf};
-use std::{env, fs};
+use std::env;
+use std::path::PathBuf;
 
 /// Environment variable that overrides the installed folder.
 const VARIABLE: &str = "BRINELL_PREBUILT";
 
-/// Path relative to the installation folder of the program.
-const INSTALLED: &str = "share/brinell/prebuilt";
-
-/// Number of folders above the program that are searched. A wheel puts programs into `bin` or `Scripts`; on Windows, the
-/// programs of a single user are in `Python311\Scripts`. `share` is beside `bin`, `Scripts` or `Python311`.
-const LEVELS: usize = 3;
+/// Its name among what is [installed](crate::files::installed).
+const INSTALLED: &str = "prebuilt";
 
 /// A folder with prebuilt libraries.
 #[derive(Debug, PartialEq)]
@@ -28,14 +25,8 @@ pub fn find() -> Option<PrebuiltFolder> {
         let path = PathBuf::from(named);
         return path.is_dir().then_some(PrebuiltFolder { path });
     }
-    // a symbolic link to the program, such as that of pipx, has no `share` beside it
-    installed(&env::current_exe().and_then(fs::canonicalize).ok()?)
-}
-
-/// The folder that was installed with the program at `program`.
-fn installed(program: &Path) -> Option<PrebuiltFolder> {
-    let above = program.ancestors().skip(1).take(LEVELS);
-    above.map(|folder| folder.join(INSTALLED)).find(|path| path.is_dir()).map(|path| PrebuiltFolder { path })
+    let path = installed(INSTALLED).filter(|path| path.is_dir())?;
+    Some(PrebuiltFolder { path })
 }
 
 impl PrebuiltFolder {
@@ -54,20 +45,8 @@ impl PrebuiltFolder {
 
 #[cfg(test)]
 mod tests {
-    use super::{INSTALLED, PrebuiltFolder, installed};
+    use super::PrebuiltFolder;
     use std::fs;
-
-    #[test]
-    fn the_folder_is_beside_the_program_or_beside_one_of_two_folders_above() {
-        let root = tempfile::tempdir().unwrap();
-        let there = root.path().join(INSTALLED);
-        fs::create_dir_all(there.join("linux64")).unwrap();
-        for program in ["brinell", "bin/brinell", "Python311/Scripts/brinell.exe"] {
-            let found = installed(&root.path().join(program)).unwrap_or_else(|| panic!("nothing for {program}"));
-            assert_eq!(found, PrebuiltFolder { path: there.clone() });
-        }
-        assert_eq!(installed(&root.path().join("usr/lib/other/brinell")), None, "nothing of another installation");
-    }
 
     #[test]
     fn a_platform_takes_a_list_for_each_of_its_targets() {

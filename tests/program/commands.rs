@@ -439,3 +439,20 @@ fn a_scene_with_units_is_the_scene_in_si_to_the_last_bit() {
     let constants = |name: &str| run(folder.path(), ["constants", name]).with_status(0).out;
     assert_eq!(constants("with.toml"), constants("plain.toml"));
 }
+
+#[test]
+fn the_page_is_the_one_that_is_named_or_it_is_said_where_one_comes_from() {
+    let folder = empty_folder();
+    let page = folder.path().join("my page.html");
+    fs::write(&page, "<!doctype html>").unwrap();
+    let app = |named: &str| {
+        let mut command = command::brinell(folder.path());
+        command::output(command.args(["app", "--path"]).env("BRINELL_PAGE", named))
+    };
+    let path = page.display().to_string();
+    assert_eq!(app(&path).with_status(0).out.trim(), path);
+    let missing = app("not here.html").with_status(1);
+    assert!(missing.err.contains("BRINELL_PAGE = not here.html is no file"), "{}", missing.err);
+    let none = app("").with_status(1);
+    assert!(none.err.contains("packaging/page.py"), "{}", none.err);
+}

@@ -408,7 +408,8 @@ impl Run<'_> {
             if let (Some(Going { speed_in, steps, largest_force }), true) = (*going, body.force <= 0.0) {
                 *going = None;
                 let speed_out = -speed;
-                if self.seen.rebounds.len() < REBOUNDS {
+                // bodies at rest that part don't rebound
+                if self.seen.rebounds.len() < REBOUNDS && speed_in > 0.0 {
                     let restitution = speed_out / speed_in;
                     let rebound = Rebound { contact, time, speed_in, speed_out, restitution, steps, largest_force };
                     self.seen.rebounds.push(rebound);
