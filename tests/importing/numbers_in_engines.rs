@@ -1,4 +1,4 @@
-//! The numbers of `brinell translate` in engines that are no Python packages: Yade from Debian, Jolt for Node.js. They run with
+//! The numbers of `brinell translate` in engines that are no Python packages: Yade from Debian, Jolt and PhysX for Node.js. They run with
 //! `BRINELL_ENGINES=all`.
 
 use crate::debian;
@@ -8,9 +8,6 @@ use crate::skips;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
-
-/// The release of Jolt for JavaScript.
-const JOLT: &str = "jolt-physics@1.1.0";
 
 #[test]
 fn numbers_for_yade_do_what_is_promised_in_it() {
@@ -29,32 +26,39 @@ fn numbers_for_yade_do_what_is_promised_in_it() {
     pytest_with(interpreter(&["scipy"]).env("BRINELL_TEST_DEBIAN", packages.folder), &["test_translate_yade.py"]);
 }
 
-#[test]
-fn numbers_for_jolt_do_what_is_promised_in_it() {
-    let what = "numbers for jolt";
+/// Runs the tests in `file` with this release of a package for Node.js.
+fn with_npm(what: &str, size: &str, package: &str, file: &str) {
     if !all() {
-        return skips::skipped(what, "45 MB of npm; BRINELL_ENGINES=all adds them");
+        return skips::skipped(what, &format!("{size} of npm; BRINELL_ENGINES=all adds them"));
     }
-    match jolt() {
-        Ok(folder) => {
-            pytest_with(interpreter(&["scipy"]).env("BRINELL_TEST_NPM", folder), &["test_translate_jolt.py"]);
-        }
+    match npm(package) {
+        Ok(folder) => pytest_with(interpreter(&["scipy"]).env("BRINELL_TEST_NPM", folder), &[file]),
         Err(why) => skips::skipped(what, &why),
     }
 }
 
-/// The folder in which Node.js finds Jolt.
+#[test]
+fn numbers_for_jolt_do_what_is_promised_in_it() {
+    with_npm("numbers for jolt", "45 MB", "jolt-physics@1.1.0", "test_translate_jolt.py");
+}
+
+#[test]
+fn numbers_for_physx_do_what_is_promised_in_it() {
+    with_npm("numbers for physx", "10 MB", "physx-js-webidl@2.7.3", "test_translate_physx.py");
+}
+
+/// The folder in which Node.js finds the package.
 ///
 /// # Errors
 /// The reason why it is not available.
-fn jolt() -> Result<PathBuf, String> {
-    let folder = python::target_folder().join("npm");
+fn npm(package: &str) -> Result<PathBuf, String> {
+    let folder = python::target_folder().join("npm").join(package);
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut npm = Command::new("npm");
-    npm.args(["install", "--no-audit", "--no-fund", "--ignore-scripts", "--prefix"]).arg(&folder).arg(JOLT);
+    npm.args(["install", "--no-audit", "--no-fund", "--ignore-scripts", "--prefix"]).arg(&folder).arg(package);
     let output = npm.output().map_err(|error| format!("npm can't be started: {error}"))?;
     match output.status.success() {
         true => Ok(folder),
-        false => Err(format!("npm can't install {JOLT}: {}", String::from_utf8_lossy(&output.stderr))),
+        false => Err(format!("npm can't install {package}: {}", String::from_utf8_lossy(&output.stderr))),
     }
 }

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from pytest import approx
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 SCENE = Path(os.environ["BRINELL_TEST_SCENES"]) / "mass_known.toml"
@@ -77,6 +77,15 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
             return lambda x, w: get("stiffness") * x + get("damping") * w, False
         case ("mercurydpm", "linear"):
             return lambda x, w: get("stiffness") * x + get("damping") * w, True
+        case ("exudyn", "damping"):
+            return lambda x, w: get("stiffness") * x + get("damping") * w, True
+        case ("exudyn", "hunt-crossley"):
+            factor = 1.5 * (1 - get("hunt_crossley_restitution")) / speed
+            return lambda x, w: get("stiffness") * x ** get("exponent") * (1 + factor * w), False
+        case ("chrono", "flores"):
+            stiffness = 4 / 3 * reduced(get("youngs_modulus")) * np.sqrt(radius)
+            e = get("flores_restitution")
+            return lambda x, w: stiffness * x**1.5 * (1 + 8 * (1 - e) / (5 * e * speed) * w), False
         case ("exudyn", _):
             e = get("impact_model_restitution")
             chi = 1.5 * (1 - e) * (11 - e) / (1 + 9 * e) if e > 1 / 3 else (1 - e * e) / e
@@ -131,6 +140,40 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
 
             return force, False
     raise AssertionError((tool, name))
+
+
+def unloaded_steeper(numbers, mass, speed):
+    """An impact by Exudyn's plasticity ratio, from energies: loading k x^n, unloading k/(1 - p) (x^n - p xm^n)."""
+    k, n, p = (numbers[name] for name in ("stiffness", "exponent", "plasticity_ratio"))
+    depth = (0.5 * (n + 1) * mass * speed**2 / k) ** (1 / (n + 1))
+
+    def energy(x):
+        """What the way back from the depth to x has set free."""
+        free = (depth ** (n + 1) - x ** (n + 1)) / (n + 1) - p * depth**n * (depth - x)
+        return k / (1 - p) * free
+
+    def time(energy, end):
+        # x = depth (1 - s^2): the speed is in proportion to s at the turning point
+        def one(s):
+            return 2 * depth * s / np.sqrt(2 / mass * energy(depth * (1 - s * s)))
+
+        return quad(one, 0, np.sqrt(1 - end), epsabs=0, epsrel=1e-10)[0]
+
+    end = p ** (1 / n)
+    loading = time(lambda x: k / (n + 1) * (depth ** (n + 1) - x ** (n + 1)), 0.0)
+    return {
+        "restitution": np.sqrt(2 / mass * energy(end * depth)) / speed,
+        "contact_time": loading + time(energy, end),
+        "depth": depth,
+        "largest_force": k * depth**n,
+    }
+
+
+def outcome_of(tool, name, numbers, radius, mass, speed):
+    """An impact by the law of a tool, without errors of a step."""
+    if (tool, name) == ("exudyn", "plastic"):
+        return unloaded_steeper(numbers, mass, speed)
+    return touched(*law_of_tool(tool, name, numbers, radius, mass, speed), mass, speed)
 
 
 def touched(force, pulls, mass, speed):
@@ -222,6 +265,18 @@ def mover(tool, name, numbers, radius, mass, speed, step):
             return x + step * w, w, force
 
         return move
+    if tool == "physx" or name == "sap":
+        c = k * numbers["relaxation_time"] if name == "sap" else c
+
+        def move(x, w, _):
+            # the force of the step's end; PhysX begins in the step that would end in overlap
+            touches = x > 0 or (tool == "physx" and x + step * w > 0)
+            hard = step * k + c
+            force = max((k * x + hard * w) / (1 + step * hard / mass), 0.0) if touches else 0.0
+            w -= step * force / mass
+            return x + step * w, w, force
+
+        return move
     if tool == "bullet":
         erp, cfm = step * k / (step * k + c), 1 / (step * k + c)
 
@@ -253,6 +308,8 @@ def mover(tool, name, numbers, radius, mass, speed, step):
             return x + step * end, end, law(end)
 
         return move
+    if (tool, name) == ("yade", "luding"):
+        return late_mover(numbers, radius, mass, step)
     if name in ("plastic", "luding"):
         k1 = numbers["loading_stiffness"]
         k2 = (
@@ -281,6 +338,28 @@ def mover(tool, name, numbers, radius, mass, speed, step):
     def move(x, w, _):
         force = force_of(x, w) if x > 0 else 0.0
         force = force if pulls else max(force, 0.0)
+        w -= step * force / mass
+        return x + step * w, w, force
+
+    return move
+
+
+def late_mover(numbers, radius, mass, step):
+    """One step of Luding's law between equal spheres in Yade, where the slope k2 is that of the step before."""
+    k1, kp = numbers["loading_stiffness"], numbers["unloading_stiffness"]
+    plastic = numbers["equal_penetration_depth"] * radius
+    limit = kp / (kp - k1) * plastic
+    largest, zero = [0.0], [0.0]
+
+    def move(x, w, _):
+        force = 0.0
+        if x > 0:
+            k2 = k1 + (kp - k1) * min(largest[0] / limit, 1.0)
+            if x > largest[0]:
+                largest[0] = x
+                zero[0] = min((1 - k1 / k2) * x, plastic)
+            line = k2 * (x - zero[0])
+            force = k1 * x if line >= k1 * x and x < limit else max(line, 0.0)
         w -= step * force / mass
         return x + step * w, w, force
 

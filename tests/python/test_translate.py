@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 from brinell import ProgramError
-from drops import PHASES, SCENE, law_of_tool, promised_at, stepped, touched
+from drops import PHASES, SCENE, law_of_tool, outcome_of, promised_at, stepped, touched
 from scipy.integrate import solve_ivp
 
 RADIUS, MASS = 5e-3, 4e-3
@@ -52,23 +52,27 @@ def test_a_ball_in_mujoco_rebounds_as_promised(step):
             assert np.max(rebounds) == pytest.approx(promise["most_restitution"], abs=1e-5)
 
 
+# impacts that lose little, for a model that is for them
+SLOW = {"hunt-crossley": "0.05:0.2"}
 INTEGRATED = [
     ("modelica", "elastogap"),
     ("adams", "impact"),
     ("motionsolve", "impact"),
     ("simscape", "smooth-spring-damper"),
     ("exudyn", "sphere"),
+    ("exudyn", "hunt-crossley"),
+    ("exudyn", "plastic"),
+    ("exudyn", "damping"),
     ("recurdyn", "contact"),
 ]
 
 
 @pytest.mark.parametrize(("tool", "name"), INTEGRATED)
 def test_the_published_law_integrated_anew_gives_what_is_promised(tool, name):
-    way = translated(SCENE, tool)[name]
+    way = translated(SCENE, tool, speed=SLOW.get(name))[name]
     assert way.step is None
     for speed in way.promised["speed"]:
-        force, pulls = law_of_tool(tool, name, way.numbers, RADIUS, MASS, speed)
-        outcome = touched(force, pulls, MASS, speed)
+        outcome = outcome_of(tool, name, way.numbers, RADIUS, MASS, speed)
         promise = promised_at(way, speed)
         for quantity, value in outcome.items():
             # a corner of the force falls between two instants of an integration
@@ -79,6 +83,7 @@ def test_the_published_law_integrated_anew_gives_what_is_promised(tool, name):
 STEPPED = [
     ("chrono", "hooke"),
     ("chrono", "hertz"),
+    ("chrono", "flores"),
     ("newton", "semi-implicit"),
     ("newton", "mujoco-solver"),
     ("lammps", "hooke"),
@@ -91,10 +96,13 @@ STEPPED = [
     ("mercurydpm", "linear"),
     ("mercurydpm", "plastic"),
     ("yade", "mindlin"),
+    ("yade", "luding"),
+    ("physx", "compliant"),
     ("ode", "spring"),
     ("gazebo", "spring"),
     ("bullet", "stiffness"),
     ("drake", "point"),
+    ("drake", "sap"),
 ]
 
 
@@ -116,7 +124,7 @@ def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
 
 def test_at_the_speed_of_the_fit_restitution_and_contact_time_are_the_scenes():
     for tool, name in INTEGRATED + STEPPED:
-        translation = translated(SCENE, tool)
+        translation = translated(SCENE, tool, speed=SLOW.get(name))
         promise = promised_at(translation[name], translation.speed)
         at = list(translation.wanted["speed"]).index(translation.speed)
         assert promise["restitution"] == pytest.approx(

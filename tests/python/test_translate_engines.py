@@ -10,17 +10,18 @@ from pathlib import Path
 import brinell
 import numpy as np
 import pytest
-from drops import PHASES, SCENE, compare, promised_at
+from drops import PHASES, SCENE, compare, promised_at, stepped
 
 RADIUS, MASS = 5e-3, 4e-3
 SPEED = 1.0
 STEPS = (None, "1e-4")
 
 
+@pytest.mark.parametrize("name", ["point", "sap"])
 @pytest.mark.parametrize("step", STEPS)
-def test_drake(step):
+def test_drake(name, step):
     drake = pytest.importorskip("pydrake.all")
-    way = brinell.translate(SCENE, "drake", step=step)["point"]
+    way = brinell.translate(SCENE, "drake", step=step)[name]
     made = {}
     exec(way.block, made)
     rebounds = []
@@ -28,6 +29,8 @@ def test_drake(step):
         builder = drake.DiagramBuilder()
         plant, _ = drake.AddMultibodyPlantSceneGraph(builder, way.step)
         plant.set_contact_model(drake.ContactModel.kPoint)
+        if name == "sap":
+            plant.set_discrete_contact_approximation(drake.DiscreteContactApproximation.kSap)
         plant.mutable_gravity_field().set_gravity_vector([0, 0, 0])
         inertia = drake.SpatialInertia.SolidSphereWithMass(MASS, RADIUS)
         body = plant.AddRigidBody("ball", inertia)
@@ -132,12 +135,21 @@ def test_newton(name, step, tolerance):
     assert np.mean(rebounds) == pytest.approx(promised_at(way, SPEED)["restitution"], abs=tolerance)
 
 
-def test_exudyn():
+@pytest.mark.parametrize(
+    ("name", "speeds"),
+    [
+        ("sphere", (0.1, 1.0, 3.0)),
+        ("hunt-crossley", (0.05, 0.1, 0.2)),
+        ("plastic", (0.1, 1.0, 3.0)),
+        ("damping", (0.1, 1.0, 3.0)),
+    ],
+)
+def test_exudyn(name, speeds):
     exudyn = pytest.importorskip("exudyn")
     from exudyn import utilities
 
-    way = brinell.translate(SCENE, "exudyn")["sphere"]
-    for speed in (0.1, 1.0, 3.0):
+    way = brinell.translate(SCENE, "exudyn", speed=f"{speeds[0]}:{speeds[-1]}")[name]
+    for speed in speeds:
         promise = promised_at(way, speed)
         container = exudyn.SystemContainer()
         mbs = container.AddSystem()
@@ -263,21 +275,9 @@ def test_lammps_mdr(tmp_path):
     compare(way, SPEED, rebounds, 1e-4)
 
 
-@pytest.mark.parametrize("step", [1e-3, 1e-4])
-def test_sapien(step):
-    sapien = pytest.importorskip("sapien")
+def rebounds_in_sapien(sapien, material, step, **settings):
     physx = sapien.physx
-    way = brinell.translate(SCENE, "physx", step=step)["restitution"]
-    # what the block says in C++, by the names of the bindings
-    (friction, sliding, restitution), threshold, solver = (
-        map(float, re.search(r"createMaterial\((\S+)f, (\S+)f, (\S+)\)", way.block).groups()),
-        float(re.search(r"bounceThresholdVelocity = (\S+)f;", way.block)[1]),
-        re.search(r"solverType = PxSolverType::(\w+);", way.block)[1],
-    )
-    physx.set_scene_config(
-        gravity=np.zeros(3, np.float32), bounce_threshold=threshold, enable_tgs=solver == "eTGS"
-    )
-    material = physx.PhysxMaterial(friction, sliding, restitution)
+    physx.set_scene_config(gravity=np.zeros(3, np.float32), **settings)
     rebounds = []
     for phase in PHASES:
         system = physx.PhysxCpuSystem()
@@ -297,7 +297,37 @@ def test_sapien(step):
             scene.add_entity(entity)
         ball.set_linear_velocity([0, 0, -SPEED])
         # with what comes after
-        for _ in range(10):
+        for _ in range(200):
             scene.step()
         rebounds.append(ball.linear_velocity[2] / SPEED)
-    compare(way, SPEED, rebounds, 1e-5)
+    return rebounds
+
+
+@pytest.mark.parametrize("step", [1e-3, 1e-4])
+def test_sapien(step):
+    sapien = pytest.importorskip("sapien")
+    way = brinell.translate(SCENE, "physx", step=step)["restitution"]
+    # what the block says in C++, by the names of the bindings
+    material = re.search(r"createMaterial\((\S+)f, (\S+)f, (\S+)\)", way.block).groups()
+    threshold = float(re.search(r"bounceThresholdVelocity = (\S+)f;", way.block)[1])
+    tgs = re.search(r"solverType = PxSolverType::(\w+);", way.block)[1] == "eTGS"
+    made = sapien.physx.PhysxMaterial(*map(float, material))
+    settings = {"bounce_threshold": threshold, "enable_tgs": tgs}
+    compare(way, SPEED, rebounds_in_sapien(sapien, made, step, **settings), 1e-5)
+
+
+@pytest.mark.parametrize("step", STEPS)
+def test_sapien_has_the_compliant_contact_of_physx(step):
+    sapien = pytest.importorskip("sapien")
+    way = brinell.translate(SCENE, "physx", step=step)["compliant"]
+    # these bindings have no damping
+    numbers = {**way.numbers, "damping": 0.0}
+    made = sapien.physx.PhysxMaterial(0.0, 0.0, -numbers["stiffness"])
+    rebounds = rebounds_in_sapien(sapien, made, way.step, enable_tgs=False)
+    impacts = [
+        stepped("physx", "compliant", numbers, RADIUS, MASS, SPEED, way.step, phase)
+        for phase in PHASES
+    ]
+    expected = [impact["restitution"] for impact in impacts]
+    assert rebounds == pytest.approx(expected, abs=5e-4)
+    assert np.mean(rebounds) == pytest.approx(np.mean(expected), abs=1e-4)

@@ -31,11 +31,18 @@ for phase in asked["phases"]:
     O.engines = [
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
-        InteractionLoop([Ig2_Wall_Sphere_ScGeom()], [physics], [Law2_ScGeom_MindlinPhys_Mindlin()]),
+        InteractionLoop(
+            [Ig2_Wall_Sphere_ScGeom(), Ig2_Sphere_Sphere_ScGeom()],
+            [physics],
+            [Law2_ScGeom_MindlinPhys_Mindlin(), Law2_ScGeom_LudingPhys_Basic()],
+        ),
         integrator,
     ]
     O.materials.append(material)
-    O.bodies.append(utils.wall(0, axis=2, material=material))
+    if asked["on_wall"]:
+        O.bodies.append(utils.wall(0, axis=2, material=material))
+    else:
+        O.bodies.append(utils.sphere((0, 0, -radius), radius, fixed=True, material=material))
     height = radius + phase * O.dt * speed
     ball = O.bodies[O.bodies.append(utils.sphere((0, 0, height), radius, material=material))]
     ball.state.mass, ball.state.vel = asked["mass"], (0, 0, -speed)
@@ -45,9 +52,10 @@ print("rebounds", json.dumps(rebounds))
 """
 
 
-def rebounds_in_yade(block):
+def rebounds_in_yade(block, on_wall=True):
     asked = {
         "block": block,
+        "on_wall": on_wall,
         "phases": list(PHASES),
         "radius": RADIUS,
         "mass": MASS,
@@ -82,6 +90,17 @@ def rebounds_in_yade(block):
 def test_yade(step):
     way = brinell.translate(SCENE, "yade", step=step)["mindlin"]
     compare(way, SPEED, rebounds_in_yade(way.block), 1e-8)
+
+
+@pytest.mark.parametrize("step", [None, "1e-4"])
+def test_yade_luding(step):
+    way = brinell.translate(SCENE, "yade", step=step)["luding"]
+    compare(way, SPEED, rebounds_in_yade(way.block, on_wall=False), 1e-6)
+
+
+def test_yades_luding_is_elastic_on_a_wall():
+    block = brinell.translate(SCENE, "yade")["luding"].block
+    assert min(rebounds_in_yade(block)) > 0.99
 
 
 def test_yade_damps_more_without_the_integrator_of_the_block():

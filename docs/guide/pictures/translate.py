@@ -17,10 +17,10 @@ FOLDER = Path(__file__).parent
 SCENE = FOLDER.parents[2] / "scenes/mass_known.toml"
 WAYS = (
     ("mujoco", "pair", "a spring and a damper: MuJoCo, Bullet, ODE, Simscape ...", "#0072b2"),
-    ("drake", "point", "Drake, RecurDyn", "#d55e00"),
+    ("drake", "point", "Drake (lagged), RecurDyn", "#d55e00"),
     ("adams", "impact", "Adams, MotionSolve", "#009e73"),
     ("modelica", "elastogap", "Modelica", "#cc79a7"),
-    ("mercurydpm", "plastic", "MercuryDPM, Luding's law", "#e69f00"),
+    ("mercurydpm", "plastic", "MercuryDPM, LIGGGHTS, Yade: Luding's law", "#e69f00"),
 )
 RANGE = "0.1:3"
 

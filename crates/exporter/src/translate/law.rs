@@ -25,11 +25,18 @@ pub enum Law {
     ElastoGap { stiffness: f64, exponent: f64, damping: f64 },
     /// `s (k x + c w)`, where `s` grows from 0 to 1 over the `width`; which way is not published, here as `y^2 (3 - 2y)`.
     Smooth { stiffness: f64, damping: f64, width: f64, pulls: bool },
+    /// Loading with `k x^n`, unloading with `k/(1 - p) (x^n - p xm^n)` from the largest overlap `xm`: at every speed the same
+    /// restitution.
+    ///
+    /// Reference: S. C. Thakur, J. P. Morrissey, J. Sun, J. F. Chen, J. Y. Ooi, *Granular Matter* 16 (2014) 383-400, without adhesion.
+    Steeper { stiffness: f64, exponent: f64, ratio: f64 },
     /// Loading with `k1 x`, unloading with a slope that grows from `k1` to `k2` as the largest overlap grows to `limit`; beyond, both
     /// with the slope `k2`.
     ///
+    /// `late`, in steps of a tool that takes the slope from the largest overlap of the step before: the last two of these \[m\].
+    ///
     /// Reference: S. Luding, *Granular Matter* 10 (2008) 235-246.
-    Luding { loading: f64, unloading: f64, limit: f64 },
+    Luding { loading: f64, unloading: f64, limit: f64, late: Option<[f64; 2]> },
     /// An elastoplastic sphere on a rigid flat, without adhesion.
     Plastic(Plastic),
     /// Hertz, then linear; unloading as Hertz, summed up in steps.
@@ -58,16 +65,25 @@ impl Law {
                 spring + (damping * w).clamp(-spring, spring)
             }
             Law::Smooth { stiffness, damping, width, .. } => smooth(x / width) * (stiffness * x + damping * w),
-            Law::Luding { loading, unloading, limit } => {
+            Law::Steeper { stiffness, exponent, ratio } => {
+                let spring = stiffness * pow(x, exponent);
+                let way_back = (spring - ratio * stiffness * pow(deepest.max(x), exponent)) / (1.0 - ratio);
+                way_back.min(spring)
+            }
+            Law::Luding { loading, unloading, limit, late } => {
                 let deepest = deepest.max(x);
-                // beyond the limit loading and unloading are one line
-                let slope = loading + (unloading - loading) * (deepest / limit).min(1.0);
-                let way_back = if deepest < limit {
-                    loading * deepest - slope * (deepest - x)
-                } else {
-                    loading * limit - slope * (limit - x)
+                let slope = |deepest: f64| loading + (unloading - loading) * (deepest / limit).min(1.0);
+                let way_back = match late {
+                    Some([before, last]) if last > 0.0 => {
+                        let left = (1.0 - loading / slope(before)) * deepest;
+                        let most = (1.0 - loading / unloading) * limit;
+                        slope(if x < deepest { deepest } else { before }) * (x - left.min(most))
+                    }
+                    _ if deepest < limit => loading * deepest - slope(deepest) * (deepest - x),
+                    _ => loading * limit - unloading * (limit - x),
                 };
-                if deepest < limit { way_back.min(loading * x) } else { way_back }
+                // beyond the limit loading and unloading are one line
+                if x < limit { way_back.min(loading * x) } else { way_back }
             }
             Law::Plastic(plastic) => plastic.force(x, deepest.max(x)),
             Law::Thornton(thornton) => thornton.force(x, deepest.max(x)),
@@ -91,6 +107,7 @@ impl Law {
             Law::HuntCrossley { stiffness, exponent, .. }
             | Law::Proportional { stiffness, exponent, .. }
             | Law::Impact { stiffness, exponent, .. }
+            | Law::Steeper { stiffness, exponent, .. }
             | Law::ElastoGap { stiffness, exponent, .. } => (stiffness, exponent),
             Law::Luding { loading, .. } => (loading, 1.0),
             Law::Plastic(Plastic { modulus, radius, .. }) => (4.0 / 3.0 * modulus * sqrt(radius), 1.5),
@@ -104,6 +121,9 @@ impl Law {
         match self {
             Law::Plastic(plastic) => Law::Plastic(plastic.noticing(x)),
             Law::Thornton(thornton) => Law::Thornton(thornton.noticing(x, deepest)),
+            Law::Luding { loading, unloading, limit, late: Some([_, last]) } if x > last => {
+                Law::Luding { loading, unloading, limit, late: Some([last, x]) }
+            }
             law => law,
         }
     }
@@ -124,13 +144,18 @@ pub enum Form {
     Approaching,
     /// With the exponent 1.
     LinearHuntCrossley,
+    /// With Hertz's exponent.
+    HertzHuntCrossley,
     HuntCrossley,
     /// With Hertz's exponent and a damping in proportion.
     Hertz,
     PullingHertz,
     Impact,
     ElastoGap,
+    Steeper,
     Luding,
+    /// With the slope a step late.
+    LateLuding,
     /// An elastoplastic sphere.
     Plastic,
     Thornton,
@@ -147,13 +172,15 @@ pub struct Shape {
 impl Form {
     /// The shape of a form that has none to choose.
     pub fn shape(self) -> Shape {
-        let hertzian = matches!(self, Form::Hertz | Form::PullingHertz | Form::Plastic | Form::Thornton);
+        let hertzian =
+            matches!(self, Form::HertzHuntCrossley | Form::Hertz | Form::PullingHertz | Form::Plastic | Form::Thornton);
         Shape { exponent: if hertzian { 1.5 } else { 1.0 }, ramp: 1.0 }
     }
 
     /// Whether exponent and ramp are numbers that the user types.
     pub fn chooses(self) -> (bool, bool) {
-        (matches!(self, Form::HuntCrossley | Form::Impact | Form::ElastoGap), self == Form::Impact)
+        let exponent = matches!(self, Form::HuntCrossley | Form::Impact | Form::ElastoGap | Form::Steeper);
+        (exponent, self == Form::Impact)
     }
 
     /// The law in which a mass at the speed of `impact` would come to rest at the overlap `scale` \[m\] by its spring alone, with a
@@ -169,7 +196,7 @@ impl Form {
                 Law::Spring { stiffness, damping, pulls: self == Form::PullingSpring }
             }
             Form::Approaching => Law::Approaching { stiffness, damping },
-            Form::LinearHuntCrossley | Form::HuntCrossley => {
+            Form::LinearHuntCrossley | Form::HertzHuntCrossley | Form::HuntCrossley => {
                 Law::HuntCrossley { stiffness, exponent, dissipation: losses / speed }
             }
             Form::Hertz | Form::PullingHertz => {
@@ -178,10 +205,12 @@ impl Form {
             }
             Form::Impact => Law::Impact { stiffness, exponent, damping, ramp: shape.ramp * scale },
             Form::ElastoGap => Law::ElastoGap { stiffness, exponent, damping },
-            Form::Luding => {
+            Form::Steeper => Law::Steeper { stiffness, exponent, ratio: losses / (1.0 + losses) },
+            Form::Luding | Form::LateLuding => {
                 // below the limit the slope grows in proportion to the overlap, which is reached at the largest speed
                 let (limit, growth) = (scale * fastest / speed, losses * fastest / speed);
-                Law::Luding { loading: stiffness, unloading: stiffness * (1.0 + growth), limit }
+                let late = (self == Form::LateLuding).then_some([0.0; 2]);
+                Law::Luding { loading: stiffness, unloading: stiffness * (1.0 + growth), limit, late }
             }
             Form::Plastic => {
                 // Hertz's mean pressure at the scale, over that of the yielding sphere

@@ -270,11 +270,13 @@ impl Case {
         let promised = promised.ok_or("its contact does not end at every speed of the range")?;
         let typed = self.typed(way, fitted.as_ref(), &promised, request)?;
         let is_explicit = way.stepping == Stepping::Explicit;
-        let largest_step = fitted.as_ref().filter(|_| is_explicit).and_then(|fitted| {
-            let at = |speed: f64| largest_passive_step(&fitted.law, way.stepping, self.mass, speed);
-            // a stiffening law has its shortest contact at the largest speed
-            Some(at(self.speed)?.min(at(fastest)?))
-        });
+        let largest_step =
+            question.as_ref().zip(fitted.as_ref()).filter(|_| is_explicit).and_then(|(question, fitted)| {
+                let at =
+                    |speed: f64| largest_passive_step(&question.at(&fitted.law, speed), way.stepping, self.mass, speed);
+                // a stiffening law has its shortest contact at the largest speed
+                Some(at(self.speed)?.min(at(fastest)?))
+            });
         let (numbers, block) = typed;
         let mut translated = Translated {
             name: &way.name,
@@ -315,7 +317,7 @@ impl Case {
         let mut block = way.block.trim_matches('\n').to_string();
         let mut typed = Vec::new();
         for number in &way.numbers {
-            let none = || format!("its restitution is too high for {} to reach it", number.means);
+            let none = || format!("no {} leads to a restitution of {:.3}", number.means, goal.restitution);
             let value = context.value(&number.key).ok_or_else(none)?;
             let (factor, unit) = match request.millimetres {
                 true => numbers::in_millimetres(&number.unit, exponent).expect("units of the table"),

@@ -29,6 +29,8 @@ pub enum Stepping {
     Implicit,
     /// The same, and already in the step in which the bodies would touch.
     Predicted,
+    /// The same, with the force of a spring that is longer by the gap that is left in the step in which the bodies would touch.
+    Stretched,
     /// The lagged solver of Drake: spring and damping of the step's end, if the bodies overlap at its start.
     Lagged,
     /// The speed is set to the restitution times that before.
@@ -139,8 +141,9 @@ fn stepped(law: &Law, stepping: Stepping, mass: f64, step: f64, (x, w, deepest):
             let error_reduction = if x > 0.0 { step * stiffness * softness } else { 1.0 };
             ((w + error_reduction * x / step) / (softness + step / mass)).max(0.0)
         }
-        _ if x <= 0.0 => 0.0,
-        (Stepping::Implicit, Law::Spring { stiffness, damping, .. }) => {
+        (Stepping::Stretched, _) if x + step * w <= 0.0 => 0.0,
+        _ if x <= 0.0 && stepping != Stepping::Stretched => 0.0,
+        (Stepping::Implicit | Stepping::Stretched, Law::Spring { stiffness, damping, .. }) => {
             let hard = step * stiffness + damping;
             ((stiffness * x + hard * w) / (1.0 + step * hard / mass)).max(0.0)
         }

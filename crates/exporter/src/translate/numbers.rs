@@ -46,8 +46,12 @@ impl Context<'_> {
                 "exponent" => Some(exponent),
                 "dissipation" => Some(dissipation),
                 "indentation_damping" => Some(stiffness * dissipation),
+                // 1.5 (1 - E), the factor of a nearly elastic impact
+                "hunt_crossley_restitution" => Some(1.0 - dissipation * self.speed / 1.5).filter(|typed| *typed > 0.0),
                 "impact_model_restitution" => Some(impact_model_restitution(dissipation * self.speed)),
-                _ => None,
+                // 8/5 (1 - E)/E
+                "flores_restitution" => Some(8.0 / (8.0 + 5.0 * dissipation * self.speed)),
+                _ => self.of_hertz(key, stiffness, 0.0),
             },
             Law::Proportional { stiffness, factor, .. } => self.of_hertz(key, stiffness, factor),
             Law::Impact { stiffness, exponent, damping, ramp } => match key {
@@ -63,6 +67,12 @@ impl Context<'_> {
                 "damping" => Some(damping),
                 _ => None,
             },
+            Law::Steeper { stiffness, exponent, ratio } => match key {
+                "stiffness" => Some(stiffness),
+                "exponent" => Some(exponent),
+                "plasticity_ratio" => Some(ratio),
+                _ => None,
+            },
             Law::Plastic(Plastic { modulus, strength, .. }) => match key {
                 "youngs_modulus" => Some(modulus * (1.0 - POISSON * POISSON)),
                 "yield_strength" => strength.is_finite().then_some(strength),
@@ -72,12 +82,14 @@ impl Context<'_> {
                 "yield_ratio" => limit.is_finite().then(|| sqrt(limit / self.pair.radius)),
                 _ => self.of_hertz(key, stiffness, 0.0),
             },
-            Law::Luding { loading, unloading, limit } => match key {
+            Law::Luding { loading, unloading, limit, .. } => match key {
                 "loading_stiffness" => Some(loading),
                 "unloading_stiffness" => Some(unloading),
                 "stiffness_ratio" => Some(unloading / loading),
                 // K/(K - k1) phi 2R is the limit
                 "penetration_depth" => Some(0.5 * limit * (1.0 - loading / unloading) / self.pair.radius),
+                // K/(K - k1) phi R, between equal spheres
+                "equal_penetration_depth" => Some(limit * (1.0 - loading / unloading) / self.pair.radius),
                 _ => None,
             },
         }
@@ -96,6 +108,7 @@ impl Context<'_> {
             "damping_ratio" => Some(ratio),
             "time_constant" => Some(1.0 / (ratio * frequency)),
             "erp" => self.step.map(|step| step * stiffness / (step * stiffness + damping)),
+            "relaxation_time" => Some(damping / stiffness),
             "cfm" => self.step.map(|step| 1.0 / (step * stiffness + damping)),
             "width" => Some(self.depth / 20.0),
             // from 16/15 E* sqrt(R) (15 m V^2/(16 E* sqrt(R)))^0.2 with V = 1 m/s
