@@ -2,7 +2,7 @@
 
 use crate::package::LibraryWay;
 use crate::prebuilt;
-use crate::{app, check, curve, hardness, law_list, new, predict, report, translate};
+use crate::{app, check, curve, hardness, law_list, new, predict, report, schema, translate};
 use brinell_exporter::platform::{self, Platform};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
@@ -78,6 +78,8 @@ pub enum Command {
     },
     /// List the built-in materials
     Materials,
+    /// Print the JSON Schema of scenes, by which editors complete and check them
+    Schema(schema::Arguments),
     /// Print the script that completes the arguments of this program in a shell
     Completions {
         /// The shell

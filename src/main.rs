@@ -33,6 +33,7 @@ mod prebuilt;
 mod predict;
 mod report;
 mod scene_file;
+mod schema;
 mod sources;
 mod ssp;
 mod summary;
@@ -145,6 +146,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
         Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
         Some(Command::Merge { fmus, output }) => merge::run(fmus, output, json)?,
+        Some(Command::Schema(arguments)) => schema::run(arguments)?,
         Some(Command::Materials) => materials::run(json)?,
         Some(Command::Completions { shell }) => about::completions(*shell),
         Some(Command::Man { output }) => about::manual(output)?,

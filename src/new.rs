@@ -2,6 +2,7 @@
 
 use crate::files::{self, FileError};
 use crate::messages::WrongCall;
+use crate::schema;
 use brinell_exporter::layout::{json_line, shown};
 use brinell_exporter::scene::{check_name, new_scene};
 use serde_json::json;
@@ -20,13 +21,14 @@ pub struct Arguments {
     pub output: Option<PathBuf>,
 }
 
-/// Writes the scene, unless the file exists.
+/// Writes the scene, unless the file exists, and beside it the schema that its first line names.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let Arguments { name, output } = arguments;
     check_name(name).map_err(WrongCall)?;
     let path = output.clone().unwrap_or_else(|| format!("{name}.toml").into());
-    let text = new_scene(name);
+    let text = format!("#:schema ./{}\n{}", schema::FILE, new_scene(name));
     write_new(&path, &text)?;
+    schema::write(Some(&files::folder_of(&path).join(schema::FILE)))?;
     if as_json {
         print!("{}", json_line(&json!({ "scene": path.to_string_lossy() })));
     } else {

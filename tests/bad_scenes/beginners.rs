@@ -1,7 +1,7 @@
 //! `brinell new`, and typical errors of beginners in scenes.
 
-use super::SCENE;
 use super::command::{contents, empty_folder, run, scene};
+use super::{SCENE, schema};
 use std::fs;
 
 #[test]
@@ -127,12 +127,15 @@ fn a_file_that_never_ends_is_no_scene() {
 fn said(text: &str) -> String {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), text).unwrap();
-    run(folder.path(), ["predict", "scene.toml"]).with_status(1).err
+    let message = run(folder.path(), ["predict", "scene.toml"]).with_status(1).err;
+    schema::agrees(text, &message);
+    message
 }
 
 /// The warnings about the plausibility of a valid scene.
 #[track_caller]
 fn doubted(text: &str) -> String {
+    schema::accepts(text);
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), text).unwrap();
     run(folder.path(), ["predict", "scene.toml"]).with_status(0).err

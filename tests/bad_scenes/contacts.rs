@@ -1,7 +1,7 @@
 //! Errors in scenes of several contacts: the message names the contact, the place and the allowed values.
 
 use super::command::{empty_folder, run};
-use super::refusal::refused_text;
+use super::refused_text;
 use std::fs;
 
 /// Two contacts without errors.

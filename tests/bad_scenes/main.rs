@@ -4,11 +4,11 @@ mod beginners;
 mod contacts;
 mod friction;
 mod laws;
+mod schema;
 mod shared_bodies;
 
 use brinell_testing::{command, refusal};
 use command::{contents, empty_folder, run};
-use refusal::{message_of, refused_text};
 use std::fs;
 
 /// Cargo builds the program before these tests; without its feature they do not compile.
@@ -24,6 +24,23 @@ youngs_modulus = 206e9
 poissons_ratio = 0.3
 yield_strength = 300e6
 ";
+
+/// Exports `bytes`, which are refused: the message, after a look at what the schema says of them.
+#[track_caller]
+fn message_of(bytes: &[u8]) -> String {
+    let message = refusal::message_of(bytes);
+    if let Ok(text) = str::from_utf8(bytes) {
+        schema::agrees(text, &message);
+    }
+    message
+}
+
+/// Exports the marked scene: the message must name the marked place and contain `parts`.
+#[track_caller]
+fn refused_text(marked: &str, parts: &[&str]) {
+    let message = refusal::refused_text(marked, parts);
+    schema::agrees(&marked.replacen('§', "", 1), &message);
+}
 
 /// Exports the good scene with `from` replaced by `to`: the message must name the marked place and contain `parts`.
 #[track_caller]

@@ -1,7 +1,7 @@
 //! Errors in scenes whose contacts share bodies: the message names the body or the contact, the place and the allowed values.
 
 use super::command::{empty_folder, run};
-use super::refusal::refused_text;
+use super::refused_text;
 use std::fs;
 
 /// A row of two balls before a wall, without errors.

@@ -9,6 +9,7 @@
 
 use crate::markdown::{Block, Page};
 use crate::{is_writing, pages, parallel, python, read, root, skips};
+use brinell_testing::schema;
 use std::convert::Infallible;
 use std::env;
 use std::ffi::OsString;
@@ -83,6 +84,10 @@ impl Run {
             if missing("impactor", &text) && missing("target", &text) {
                 text += "\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
             }
+        }
+        let found = schema::mistakes(&text);
+        if found.as_ref().is_none_or(|found| !found.is_empty()) {
+            self.mistakes.push(format!("{}: the schema says {found:?} of\n{text}", self.page.display()));
         }
         let path = self.folder.path().join("part_of_a_scene.toml");
         fs::write(&path, text).expect("room for a scene");

@@ -15,6 +15,7 @@ mod modules;
 mod parallel;
 mod promises;
 mod record;
+mod schema;
 mod tables;
 
 use brinell_testing::{physics, python, skips};

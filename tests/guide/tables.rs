@@ -1,6 +1,5 @@
 //! Tables of the guide generated from `modelDescription/`, and the keys of a scene.
 
-use crate::markdown::Page;
 use crate::{is_writing, read, root};
 use serde_json::Value as Json;
 use std::fs;
@@ -203,43 +202,75 @@ fn tables_are_those_of_the_model_description() {
     shows("all-laws.md", "rate-dependent laws", &laws("damped"));
 }
 
-/// The keys of a table in a scene file: the public fields of this struct of the exporter.
-fn fields(structure: &str) -> Vec<String> {
-    let source = read(Path::new("crates/exporter/src/scene/file.rs"));
+/// The keys of a table in a scene file, in their order: the public fields of this struct of the exporter.
+fn fields(file: &str, structure: &str) -> Vec<String> {
+    let source = read(Path::new(file));
     let (_, rest) = source.split_once(&format!("struct {structure} {{")).unwrap_or_else(|| panic!("no {structure}"));
     let fields = rest.split("\n}").next().unwrap().lines().filter_map(|line| line.trim().strip_prefix("pub "));
-    fields.map(|field| field.split(':').next().unwrap().to_string()).collect()
+    fields.map(|field| field.split(':').next().unwrap().to_string()).filter(|field| !field.starts_with('(')).collect()
+}
+
+/// The keys of a table of a scene as the schema describes them, in the order of the struct; those that are as in `others` share a row.
+fn keys(schema: &Json, order: &[String], others: Option<&Json>) -> String {
+    let keys = schema["properties"].as_object().expect("a table has keys");
+    assert!(order.iter().all(|key| keys.contains_key(key)) && order.len() == keys.len(), "{order:?}, and {keys:?}");
+    let mut table = heading(&["key", "unit", "allowed", "default", "meaning"]);
+    let required: Vec<_> =
+        schema["required"].as_array().into_iter().flatten().filter_map(Json::as_str).map(String::from).collect();
+    let is_same = |key: &String| {
+        others.is_some_and(|others| others["properties"][key]["description"] == keys[key]["description"])
+    };
+    for key in order.iter().filter(|key| !is_same(key)) {
+        let schema = &keys[key];
+        let text = |key: &str| schema[key].as_str().unwrap_or_default();
+        let number = |key: &str| schema[key].as_f64().map(short);
+        let values = schema["enum"].as_array().or(schema["items"]["enum"].as_array()).filter(|values| values.len() < 5);
+        let of_texts = schema["examples"].as_array().filter(|_| text("type") == "string");
+        let code = |values: &Vec<Json>| values.iter().map(|value| format!("`{value}`")).collect::<Vec<_>>().join(", ");
+        let allowed = match (number("minimum"), number("maximum"), number("exclusiveMinimum")) {
+            (Some(least), Some(most), _) => format!("{least} to {most}"),
+            (Some(least), None, _) => format!("from {least}"),
+            (.., Some(_)) => "positive".into(),
+            _ => values.or(of_texts).map(code).unwrap_or_default(),
+        };
+        let is_required = required.contains(key);
+        let default = match &schema["default"] {
+            _ if is_required => "required".into(),
+            Json::Null if text("x-default").is_empty() => "none".to_string(),
+            Json::Null => text("x-default").into(),
+            value => format!("`{value}`"),
+        };
+        let lines =
+            schema["x-taplo"]["docs"]["enumValues"].as_array().zip(values).map_or(String::new(), |(lines, values)| {
+                let line = |(value, line): (&Json, &Json)| format!(" `{value}`: {}", line.as_str().expect("a line"));
+                values.iter().zip(lines).map(line).collect()
+            });
+        let meaning = format!("{}{lines}", text("description"));
+        table += &row(&[&format!("`{key}`"), text("x-unit"), &allowed, &default, &meaning]);
+    }
+    let same: Vec<_> = order.iter().filter(|key| is_same(key)).map(|key| format!("`{key}`")).collect();
+    if same.is_empty() { table } else { table + &row(&[&same.join(", "), "", "", "", "as for the [target](#target)"]) }
 }
 
 #[test]
-fn every_key_of_a_scene_is_explained_and_no_other() {
-    let page = read(Path::new("docs/guide/scenes.md"));
-    let tables = [
-        ("### `[impactor]`", "ImpactorKeys"),
-        ("### `[target]`", "BodyTable"),
-        ("### `[law]`", "LawTable"),
-        ("### `[fmu]`", "Fmu"),
-        ("### `[impact]`", "ImpactTable"),
-        ("### `[friction]`", "FrictionTable"),
-        ("### `[coupling]`", "CouplingTable"),
-        ("### `[[body]]`", "SharedBodyTable"),
-        ("### `[[contact]]`", "ContactTable"),
-    ];
-    for (heading, structure) in tables {
-        let (_, section) = page.split_once(heading).unwrap_or_else(|| panic!("scenes.md has no {heading}"));
-        let section = section.split("\n#").next().unwrap();
-        let rows = section.lines().filter_map(|line| line.strip_prefix("| `")?.split('`').next());
-        let (mut explained, mut keys) = (rows.map(String::from).collect::<Vec<_>>(), fields(structure));
-        explained.sort();
-        keys.sort();
-        assert_eq!(explained, keys, "scenes.md, {heading}: explained, and what the exporter reads");
-    }
-    for key in fields("SceneFile") {
-        let shown = Page::parse(&page).code;
-        let names = [key.clone(), format!("[{key}]"), format!("[[{key}]]")];
-        assert!(
-            ["description", "author"].contains(&key.as_str()) || names.iter().any(|name| shown.contains(name)),
-            "scenes.md says nothing of {key}"
-        );
-    }
+fn the_keys_of_scenes_are_those_of_the_schema() {
+    const FILE: &str = "crates/exporter/src/scene/file.rs";
+    let schema = brinell_exporter::schema::documented();
+    let of = &schema["properties"];
+    let show = |name: &str, schema: &Json, structure: &str| {
+        let others = (name == "impactor").then_some(&of["target"]);
+        shows("scenes.md", &format!("keys of {name}"), &keys(schema, &fields(FILE, structure), others));
+    };
+    show("a scene", &schema, "SceneFile");
+    show("impactor", &of["impactor"], "ImpactorKeys");
+    show("target", &of["target"], "BodyTable");
+    show("law", &of["law"], "LawTable");
+    show("fmu", &of["fmu"], "Fmu");
+    show("impact", &of["impact"], "ImpactTable");
+    show("friction", &of["friction"], "FrictionTable");
+    show("coupling", &of["coupling"], "CouplingTable");
+    show("body", &of["body"]["items"], "SharedBodyTable");
+    show("contact", &of["contact"]["items"], "ContactTable");
+    let materials = keys(&of["material"]["items"], &fields("crates/exporter/src/table.rs", "Material"), None);
+    shows("scenes.md", "keys of material", &materials);
 }

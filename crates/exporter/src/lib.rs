@@ -77,6 +77,7 @@ pub mod predict;
 pub mod regime;
 pub mod rods;
 pub mod scene;
+pub mod schema;
 pub mod signature;
 mod strength_text;
 pub mod symbols;

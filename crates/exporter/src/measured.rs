@@ -6,6 +6,7 @@
 use crate::model::{AnyModel, paired};
 use crate::numbers::{cell, in_message, quantity};
 use crate::pairing::{published, unloading_of};
+use crate::scene::any_case;
 use crate::table::{Class, Material};
 use crate::tension::Tension;
 use crate::{table, units};
@@ -212,6 +213,26 @@ enum Reading {
 pub const SCALES: &str =
     "\"200 HBW 10/3000\" (ball in mm, load in kgf), \"640 HV10\", \"58 HRC\", \"90 HRB\" or \"700 HLD\"";
 
+/// The names of the scales.
+const BRINELL: [&str; 3] = ["HBW", "HB", "HBS"];
+const VICKERS: [&str; 1] = ["HV"];
+const ROCKWELL: [&str; 4] = ["HRC", "HRB", "HRBW", "HRBS"];
+const LEEB: [&str; 2] = ["HLD", "LD"];
+
+/// The form of a hardness, as a pattern of JSON Schema.
+pub fn pattern() -> String {
+    let [brinell, vickers, rockwell] = [any_case(&BRINELL), any_case(&VICKERS), any_case(&ROCKWELL)];
+    let test = r"(?:\s*[0-9.]+\s*/\s*[0-9.]+(?:\s*/\s*[0-9.]+)?)?";
+    let scale = format!(r"(?:(?:{brinell}){test}|{vickers}[0-9./ ]*|{rockwell}|{})", any_case(&LEEB));
+    // the scale may be the first
+    format!(r"^\s*[0-9.]+\s*{scale}\s*$|^\s*[A-Za-z].*[0-9]")
+}
+
+/// That of one that was measured by impacts, the rate of which is in its strength.
+pub fn of_impacts() -> String {
+    any_case(&LEEB)
+}
+
 impl Reading {
     /// The reading in `text`: a number and its scale, in either order.
     fn parse(text: &str) -> Result<Reading, String> {
@@ -236,8 +257,8 @@ impl Reading {
         let letters = scale.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(scale.len());
         let (name, test) = scale.split_at(letters);
         match (name, test) {
-            ("HBW" | "HB" | "HBS", "") => Ok(Reading::Brinell(number, None)),
-            ("HBW" | "HB" | "HBS", test) => {
+            (name, "") if BRINELL.contains(&name) => Ok(Reading::Brinell(number, None)),
+            (name, test) if BRINELL.contains(&name) => {
                 let parts: Vec<f64> = test.split('/').map_while(|part| part.parse().ok()).collect();
                 match parts[..] {
                     [ball, load] | [ball, load, _] if ball > 0.0 && load > 0.0 => {
@@ -246,13 +267,16 @@ impl Reading {
                     _ => Err(format!("`{test}` is not the ball's diameter in mm and the load in kgf, as in 10/3000")),
                 }
             }
-            ("HV", test) if test.is_empty() || test.split('/').all(|part| part.parse::<f64>().is_ok()) => {
+            (name, test)
+                if VICKERS.contains(&name)
+                    && (test.is_empty() || test.split('/').all(|part| part.parse::<f64>().is_ok())) =>
+            {
                 Ok(Reading::Vickers(number))
             }
-            ("HRC" | "HRB" | "HRBW" | "HRBS", "") => {
+            (name, "") if ROCKWELL.contains(&name) => {
                 Ok(Reading::Rockwell(number, if name == "HRC" { 'C' } else { 'B' }))
             }
-            ("HLD" | "LD", "") => Ok(Reading::Leeb(number)),
+            (name, "") if LEEB.contains(&name) => Ok(Reading::Leeb(number)),
             ("HL", _) => {
                 Err("a rebound hardness has the letter of its device; that of device D is known, as in \"700 HLD\""
                     .into())

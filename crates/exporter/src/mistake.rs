@@ -2,10 +2,11 @@
 
 use crate::layout::shown;
 use crate::numbers::{in_message, out_of_range};
-use crate::table;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+use std::borrow::Cow;
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
-use toml::Spanned;
 
 /// A scene that cannot be used, with the place and the reason.
 #[derive(Debug, thiserror::Error)]
@@ -39,6 +40,43 @@ pub fn text(bytes: Vec<u8>, path: &Path) -> Result<String, SceneError> {
     })
 }
 
+/// A value with its place in the text.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
+#[serde(transparent)]
+pub struct Spanned<T>(toml::Spanned<T>);
+
+impl<T: JsonSchema> JsonSchema for Spanned<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
+impl<T> Spanned<T> {
+    pub fn new(span: Range<usize>, value: T) -> Spanned<T> {
+        Spanned(toml::Spanned::new(span, value))
+    }
+
+    pub fn span(&self) -> Range<usize> {
+        self.0.span()
+    }
+
+    pub fn get_ref(&self) -> &T {
+        self.0.get_ref()
+    }
+
+    pub fn into_inner(self) -> T {
+        self.0.into_inner()
+    }
+}
+
 /// An error at a place in the text.
 pub struct Mistake(pub Range<usize>, pub String);
 
@@ -51,13 +89,6 @@ impl Mistake {
         let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
         SceneError::Wrong { path: path.into(), line, column, span, message }
     }
-}
-
-/// Rejects a value of the parameter `name` outside its range. `owner` precedes the name in the message.
-pub fn check_limits(name: &str, owner: &str, value: &Spanned<f64>) -> Result<(), Mistake> {
-    let variable = table::variable(name);
-    let allowed = variable.minimum.unwrap_or(f64::MIN)..=variable.maximum.unwrap_or(f64::MAX);
-    check_range((name, variable.unit.as_deref().unwrap_or("")), owner, value, allowed)
 }
 
 /// Rejects a value with this name and unit unless it is `allowed`. `owner` precedes the name in the message.

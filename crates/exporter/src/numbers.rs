@@ -99,8 +99,13 @@ pub fn percent(difference: f64) -> String {
 /// What is wrong with the `value` of a name: `= -1 is out of range: allowed is 0 to 1e9 m`. Numbers look as in the messages of an
 /// FMU, but have all their digits.
 pub fn out_of_range(value: f64, allowed: &RangeInclusive<f64>, unit: &str) -> String {
-    let [value, least, most] = [value, *allowed.start(), *allowed.end()].map(in_message);
-    format!("= {value} is out of range: allowed is {least} to {most} {unit}").trim_end().into()
+    let (value, allowed) = (in_message(value), in_range(allowed));
+    format!("= {value} is out of range: allowed is {allowed} {unit}").trim_end().into()
+}
+
+/// A range in a message: `1e-9 to 10`.
+pub fn in_range(allowed: &RangeInclusive<f64>) -> String {
+    format!("{} to {}", in_message(*allowed.start()), in_message(*allowed.end()))
 }
 
 /// A number in a message, with all its digits: `0.005`, `300000`, `1e300`.

@@ -1,6 +1,7 @@
 //! The constants of a law: their list, and the law with the constants of a scene.
 
 use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::nearest::unknown;
 use crate::numbers::{in_message, out_of_range};
 use crate::table;
@@ -9,7 +10,6 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use toml::Spanned;
 
 /// A table of constants in a scene.
 pub type ConstantTable = Spanned<BTreeMap<Spanned<String>, Spanned<toml::Value>>>;

@@ -10,6 +10,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_fmu::scene::{Integer, Parameter, Real};
 use names::{first, lists};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::LazyLock;
 
@@ -193,31 +194,35 @@ pub struct DisplayUnit {
 }
 
 /// What a metal is, as far as a reading depends on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Class {
     /// Steel with a ferritic, pearlitic or martensitic structure, for which conversions between hardness scales are made.
     Steel,
     /// Austenitic steel.
     Austenitic,
+    /// Aluminium and its alloys.
     Aluminium,
+    /// Any other metal.
     Other,
 }
 
 /// A material, built in or of one's own; see `modelDescription/materials.toml`.
-#[derive(Clone, Debug, Deserialize, serde::Serialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, serde::Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
+    /// Its name in scenes.
     pub name: String,
     /// Its other names, some of which belong to several conditions of an alloy.
     #[serde(default)]
     pub aliases: Vec<String>,
     /// What it is, if Young's modulus doesn't say it.
     pub class: Option<Class>,
-    /// Young's modulus \[Pa\].
+    /// Young's modulus.
     pub youngs_modulus: f64,
+    /// Poisson's ratio.
     pub poissons_ratio: f64,
-    /// Yield strength \[Pa\], if the material has one.
+    /// Yield strength, if the material has one.
     pub yield_strength: Option<f64>,
     /// Flow stress through yield and tensile strength, from which its strength follows.
     pub tension: Option<Tension>,
@@ -225,10 +230,11 @@ pub struct Material {
     pub hardness: Option<String>,
     /// `n` of the hardening that goes with the hardness, if it isn't that of the class.
     pub hardening_exponent: Option<f64>,
-    /// Density \[kg/m^3\].
+    /// Density.
     pub density: f64,
     /// What to say wherever it is used.
     pub warning: Option<String>,
+    /// Where its numbers are from.
     #[serde(default)]
     pub source: String,
 }
@@ -241,12 +247,12 @@ impl Material {
 }
 
 /// The flow stress `K eps^n` of a tensile test.
-#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, serde::Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tension {
-    /// `K` \[Pa\].
+    /// `K`.
     pub coefficient: f64,
-    /// `n` \[-\].
+    /// `n`.
     pub exponent: f64,
 }
 
@@ -302,6 +308,9 @@ const _: () = {
 };
 
 static LAWS: LazyLock<LawTables> = LazyLock::new(|| toml::from_str(brinell_tables::LAWS).expect(PART_OF_THE_PROGRAM));
+
+/// The outputs of contacts that share bodies alone.
+pub const OF_SHARED: [&str; 3] = ["impulse_moment", "tangential_impulse_moment", "tangential_speed"];
 
 /// The entries of the laws that a scene names under `law.loading`: elastoplastic and rate-dependent ones.
 pub fn loading_laws() -> Vec<&'static Law> {

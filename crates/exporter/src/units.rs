@@ -213,6 +213,36 @@ fn split(text: &str) -> Option<(String, &str)> {
     })
 }
 
+/// The pattern, for JSON Schema, of texts that stand for a number in this SI `unit`, and usual units. A single symbol has the same
+/// dimension; that of a product no regular expression knows.
+pub fn pattern(unit: &str, may_be_negative: bool) -> Option<(String, &'static [&'static str])> {
+    const NUMBER: &str = r"(?:[0-9_]+\.?[0-9_]*|\.[0-9_]+)(?:[eE][+-]?[0-9_]+)?";
+    let (Kind { usual, .. }, Unit { dimension, .. }) = (kind(unit)?, Unit::parse(unit)?);
+    let sign = if may_be_negative { "[+-]?" } else { r"\+?" };
+    let prefixes: String = PREFIXES.iter().map(|(prefix, _)| *prefix).collect();
+    let with_power = |(name, .., own): &Symbol| {
+        let power = (1..=4).find(|power| own.map(|part| part * power) == dimension)?;
+        Some(match power {
+            1 => (*name).to_string(),
+            2 => format!("{name}(?:(?:\\^|\\*\\*)?2|\u{b2})"),
+            3 => format!("{name}(?:(?:\\^|\\*\\*)?3|\u{b3})"),
+            power => format!("{name}(?:\\^|\\*\\*)?{power}"),
+        })
+    };
+    let list = |symbols: &[Symbol], of: &dyn Fn(&Symbol) -> Option<String>| {
+        symbols.iter().filter_map(of).collect::<Vec<_>>().join("|")
+    };
+    let any = |of: &dyn Fn(&Symbol) -> Option<String>| match [list(&METRIC, of), list(&OTHERS, of)] {
+        [metric, others] if metric.is_empty() => others,
+        [metric, others] if others.is_empty() => format!("[{prefixes}]?(?:{metric})"),
+        [metric, others] => format!("[{prefixes}]?(?:{metric})|{others}"),
+    };
+    let symbol = any(&|(name, ..)| Some((*name).to_string()));
+    let product = format!("(?:(?:{symbol})[-^*0-9\u{b2}\u{b3}]*(?:[./*\u{b7} ]+|\\s*$)){{2,}}");
+    let ways = [any(&with_power), product].into_iter().filter(|way| !way.is_empty()).collect::<Vec<_>>().join("|");
+    Some((format!("^\\s*{sign}{NUMBER}\\s*(?:{ways})\\s*$"), usual))
+}
+
 /// A number with a unit in `text`, in this SI `unit`. `None` if the text doesn't begin with a number, or no other unit is known.
 ///
 /// # Errors

@@ -11,6 +11,9 @@ pub fn forbidden(text: &str) -> Option<(usize, char)> {
     })
 }
 
+/// The same as a pattern of JSON Schema.
+pub const ALLOWED: &str = r"^[^\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]*$";
+
 /// The number of a character, for messages: it may be invisible.
 pub fn name(character: char) -> String {
     format!("U+{:04X}", u32::from(character))

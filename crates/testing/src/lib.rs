@@ -30,6 +30,7 @@ pub mod python;
 pub mod rebuilt;
 pub mod refusal;
 pub mod scenes;
+pub mod schema;
 pub mod skips;
 pub mod standalone;
 pub mod suites;

@@ -18,9 +18,9 @@ pub fn message_of(bytes: &[u8]) -> String {
     run.err
 }
 
-/// Exports the marked scene: the message must name the marked place and contain `parts`.
+/// Exports the marked scene: the message must name the marked place and contain `parts`. Returns it.
 #[track_caller]
-pub fn refused_text(marked: &str, parts: &[&str]) {
+pub fn refused_text(marked: &str, parts: &[&str]) -> String {
     let (before, after) = marked.split_once('§').expect("a marked place");
     let line = before.matches('\n').count() + 1;
     let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
@@ -30,4 +30,5 @@ pub fn refused_text(marked: &str, parts: &[&str]) {
     for part in parts {
         assert!(message.contains(part), "nothing of {part:?} in: {message}");
     }
+    message
 }

@@ -4,6 +4,7 @@ use super::PredictError;
 use crate::law_check;
 use crate::laws::Choice;
 use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::model::AnyModel;
 use crate::numbers::in_message;
 use crate::pairing::{check_ties, published};
@@ -12,7 +13,6 @@ use crate::scene::Scene;
 use crate::table;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
-use toml::Spanned;
 
 /// Prefixes of the constants of a loading law and of an unloading law.
 pub const LOADING: &str = "law.loading_parameters.";

@@ -1,17 +1,18 @@
 //! What lies beside a scene: tables of materials of one's own, and files that the scene names. The scene's text takes in what it uses, so
 //! that an FMU has the numbers and no file.
 
-use super::contacts::{DENSITIES, find_material};
+use super::contacts::find_material;
 use super::file::{MaterialsFile, SceneFile};
+use super::quantities::check_quantity;
 use crate::layout::shortened;
 use crate::measured::{self, Metal};
-use crate::mistake::{Mistake, SceneError, check_limits, check_range};
+use crate::mistake::Spanned;
+use crate::mistake::{Mistake, SceneError};
 use crate::nearest::unknown;
 use crate::table::{Class, MATERIALS, Material};
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write;
 use std::path::Path;
-use toml::Spanned;
 
 /// What lies beside a scene.
 #[derive(Default)]
@@ -85,23 +86,17 @@ fn check_material(table: &Spanned<Material>) -> Result<(), Mistake> {
     if material.name.trim().is_empty() {
         return wrong("it needs a name".into());
     }
-    let limits = [
-        ("target.youngs_modulus", Some(material.youngs_modulus)),
-        ("target.poissons_ratio", Some(material.poissons_ratio)),
-        ("target.yield_strength", material.yield_strength),
+    let numbers = [
+        ("youngs_modulus", Some(material.youngs_modulus)),
+        ("poissons_ratio", Some(material.poissons_ratio)),
+        ("yield_strength", material.yield_strength),
+        ("density", Some(material.density)),
+        ("tension.coefficient", material.tension.map(|tension| tension.coefficient)),
+        ("tension.exponent", material.tension.map(|tension| tension.exponent)),
+        ("hardening_exponent", material.hardening_exponent),
     ];
-    for (name, value) in limits {
-        let Some(value) = value else { continue };
-        check_limits(name, "", &at(value))
-            .map_err(|Mistake(span, why)| Mistake(span, why.replacen("target.", "", 1)))?;
-    }
-    check_range(("density", "kg/m^3"), "", &at(material.density), DENSITIES)?;
-    if let Some(tension) = material.tension {
-        check_range(("coefficient", "Pa"), "tension.", &at(tension.coefficient), 1e-6..=1e18)?;
-        check_range(("exponent", ""), "tension.", &at(tension.exponent), 0.0..=0.6)?;
-    }
-    if let Some(exponent) = material.hardening_exponent {
-        check_range(("hardening_exponent", ""), "", &at(exponent), 0.0..=0.6)?;
+    for (name, value) in numbers {
+        value.map(|value| check_quantity(name, "", &at(value))).transpose()?;
     }
     let ways = [material.yield_strength.is_some(), material.tension.is_some(), material.hardness.is_some()];
     if ways.into_iter().filter(|given| *given).count() > 1 {

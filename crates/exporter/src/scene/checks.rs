@@ -10,8 +10,10 @@ use super::friction;
 use super::laws::{self, SceneLaws};
 use super::losses::{self, Loss};
 use super::names::check_name;
+use super::quantities::check_quantity;
 use super::shared_bodies;
-use crate::mistake::{Mistake, check_limits, positive};
+use crate::mistake::Spanned;
+use crate::mistake::{Mistake, positive};
 use crate::model::{check_energy, speed_of_height};
 use crate::numbers::in_message;
 use crate::table::VARIABLES;
@@ -21,7 +23,6 @@ use brinell_contact::impact::Impact;
 use brinell_contact::rate::Factors;
 use std::f64::consts::PI;
 use std::ops::Range;
-use toml::Spanned;
 
 /// The scene of `file`, without its text.
 ///
@@ -150,7 +151,7 @@ fn check_parameters(
     }
     for (name, value) in numbers {
         let Some(value) = value else { continue };
-        check_limits(name, "", &value)?;
+        check_quantity(name, "", &value)?;
         parameters.push(Parameter::shared(name, *value.get_ref(), !is_input(name)));
     }
     groups.iter_mut().flat_map(|group| &mut group.own).for_each(|own| own.settable = !is_input(own.name));

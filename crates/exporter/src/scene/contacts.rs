@@ -5,10 +5,12 @@ use super::bodies::{Body, Both};
 use super::file::{BodyTable, ContactTable, Impactor, SceneFile};
 use super::laws;
 use super::names::check_identifier;
+use super::quantities::check_quantity;
 use super::strength::{self, Elastic, Flow, Rate};
 use crate::layout::shortened;
 use crate::measured::{MeasuredStrength, STEEL_RATE};
-use crate::mistake::{Mistake, check_limits, check_range};
+use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::nearest::{one_of, unknown};
 use crate::numbers::in_message;
 use crate::rods::Rod;
@@ -16,23 +18,15 @@ use crate::table::{self, MATERIALS, VARIABLES};
 use brinell_contact::Surface;
 use brinell_contact::loading::AnyLoading;
 use std::collections::HashSet;
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 use std::sync::Arc;
-use toml::Spanned;
 
 /// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
-const MOST_CONTACTS: i64 = 100_000;
+pub const MOST_CONTACTS: i64 = 100_000;
 
 /// Largest number of values of parameters that each contact has for itself. Restoring a state from bytes puts them on the
 /// stack.
 const MOST_VALUES: usize = 10_000;
-
-/// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
-pub const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
-
-/// Allowed lengths of rods \[m\], and their cross-sections \[m^2\].
-const LENGTHS: RangeInclusive<f64> = 1e-9..=1e6;
-const AREAS: RangeInclusive<f64> = 1e-18..=1e12;
 
 /// A property that the scene gives elsewhere for all contacts.
 const MASS: &str = "effective_mass";
@@ -159,12 +153,7 @@ impl Numbers {
 
     /// Rejects a number outside its range. `owner` precedes its name in the message.
     fn check(&self, owner: &str) -> Result<(), Mistake> {
-        self.values.iter().try_for_each(|(name, value)| match name.rsplit('.').next() {
-            Some("density") => check_range((name, "kg/m^3"), owner, value, DENSITIES),
-            Some("length") => check_range((name, "m"), owner, value, LENGTHS),
-            Some("area") => check_range((name, "m^2"), owner, value, AREAS),
-            _ => check_limits(name, owner, value),
-        })
+        self.values.iter().try_for_each(|(name, value)| check_quantity(name, owner, value))
     }
 
     /// The numbers that are parameters. The strength of an impactor that never yields is none.
@@ -352,22 +341,30 @@ fn flows_of(bodies: &Both<&BodyTable>, own: &Numbers, above: &Above) -> Result<F
     })
 }
 
+/// The keys of bodies that no contact has for itself.
+pub const OF_ALL_CONTACTS: [&str; 2] = ["rate", "plate_thickness"];
+
 /// Rejects keys in a `body` of the contact `name` that apply to all contacts.
 fn check_own(name: &str, body: Body, table: &BodyTable) -> Result<(), Mistake> {
-    let keys = [
-        ("rate", table.rate.as_ref().map(Spanned::span)),
-        ("plate_thickness", table.plate_thickness.as_ref().map(Spanned::span)),
-    ];
-    let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) else { return Ok(()) };
+    let spans = [table.rate.as_ref().map(Spanned::span), table.plate_thickness.as_ref().map(Spanned::span)];
+    let Some((key, span)) = OF_ALL_CONTACTS.into_iter().zip(spans).find_map(|(key, span)| Some((key, span?))) else {
+        return Ok(());
+    };
     let body = body.name();
     Err(Mistake(span, format!("contact `{name}`: {body}.{key} belongs to [{body}], for all contacts")))
+}
+
+/// The beginnings of the names of variables.
+pub fn taken_names() -> Vec<&'static str> {
+    let mut taken: Vec<_> = VARIABLES.iter().filter_map(|variable| variable.name.split('.').next()).collect();
+    taken.dedup();
+    taken
 }
 
 /// The name of a contact, which must not be the beginning of the name of another variable.
 fn check_contact_name(name: &Spanned<String>) -> Result<String, Mistake> {
     let text = check_identifier(name)?;
-    let mut taken: Vec<_> = VARIABLES.iter().filter_map(|variable| variable.name.split('.').next()).collect();
-    taken.dedup();
+    let taken = taken_names();
     if taken.contains(&text.as_str()) {
         let message = format!("name = {text:?} belongs to a variable of the FMU, as do `{}`", taken.join("`, `"));
         return Err(Mistake(name.span(), message));

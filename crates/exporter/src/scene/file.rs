@@ -1,36 +1,58 @@
 //! The contents of a scene file: tables and keys, without interpretation.
 
 use super::beside::{self, Beside, OwnMaterial};
+use super::contacts::MOST_CONTACTS;
 use super::parser_words;
+use super::quantities::quantity_of;
 use crate::layout::shortened;
 use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::parameters::ConstantTable;
-use crate::table::{Material, VARIABLES};
+use crate::table::Material;
 use crate::{tension, units};
 use brinell_contact::Surface;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-#[derive(Deserialize)]
+/// A scene: one contact of two bodies, or several, and the FMU that is made of it.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
+    /// Name of the FMU and of its library: a C identifier, and no keyword of C or C++.
     pub name: Spanned<String>,
+    /// One line for the XML and the page inside the FMU.
     pub description: Option<Spanned<String>>,
+    /// Who answers for the FMU: the attribute of this name in the XML.
     pub author: Option<Spanned<String>>,
+    /// The body that presses.
+    #[schemars(extend("x-default" = "required, unless every contact has its own"))]
     pub impactor: Option<Spanned<Impactor>>,
+    /// The body that it meets.
+    #[schemars(extend("x-default" = "required, unless every contact has its own"))]
     pub target: Option<Spanned<BodyTable>>,
+    /// The laws.
     #[serde(default)]
     pub law: LawTable,
+    /// The variables of the FMU, and how it is built.
     #[serde(default)]
     pub fmu: Fmu,
+    /// The impact that the scene is made for.
+    #[schemars(extend("x-default" = "1 m/s"))]
     pub impact: Option<Spanned<ImpactTable>>,
+    /// A tangential force: every contact has [friction](friction.md), and the FMU the input `tangential_rate`.
     pub friction: Option<Spanned<FrictionTable>>,
+    /// The FMU moves the bodies itself within a step, see [coupling](coupling.md).
     pub coupling: Option<Spanned<CouplingTable>>,
+    /// The bodies that [several contacts share](#contacts-that-share-bodies).
+    #[schemars(extend("minItems" = 1))]
     pub body: Option<Spanned<Vec<Spanned<SharedBodyTable>>>>,
+    /// The [contacts](#several-contacts), if there are several, or if they share bodies.
+    #[schemars(extend("minItems" = 1, "x-default" = "one, whose variables have plain names"))]
     pub contact: Option<Spanned<Vec<Spanned<ContactTable>>>>,
+    /// [Materials of one's own](#materials-of-your-own), which go before the built-in ones.
     pub material: Option<Vec<Spanned<Material>>>,
     /// The materials of the scene's own, and those of tables beside it that it uses.
     #[serde(skip)]
@@ -59,46 +81,98 @@ impl MaterialsFile {
 }
 
 /// One of the two bodies: `[target]`, and with fewer keys [`Impactor`].
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct BodyTable {
+    /// A [built-in material](#built-in-materials) or [one of your own](#materials-of-your-own), which gives moduli, strength and
+    /// density.
     pub material: Option<Spanned<String>>,
+    /// Young's modulus.
+    #[schemars(extend("x-default" = "that of the material", "examples" = ["206 GPa"]))]
     pub youngs_modulus: Option<Spanned<f64>>,
+    /// Poisson's ratio.
+    #[schemars(extend("x-default" = "that of the material", "examples" = [0.3]))]
     pub poissons_ratio: Option<Spanned<f64>>,
+    /// Yield strength.
+    #[schemars(extend("x-default" = "that of the material, else elastic", "examples" = ["300 MPa"]))]
     pub yield_strength: Option<Spanned<f64>>,
+    /// Increase of the flow stress per plastic strain, `sigma = S + H eps_p`; for the law
+    /// [`brinell`](laws.md#hardening-and-poissons-ratio).
+    #[schemars(extend("x-default" = "0: no hardening", "examples" = ["2 GPa"]))]
     pub hardening_modulus: Option<Spanned<f64>>,
+    /// The same as the slope of a tensile test beyond yield, `E_t = H/(1 + H/E)`, below Young's modulus; give one of the two.
     pub tangent_modulus: Option<Spanned<f64>>,
+    /// `{ coefficient = K, exponent = n }`: flow stress `K eps_p^n` instead of yield strength and hardening; approximated as
+    /// [linear](laws.md#power-law-hardening) over the strains of the scene's impact.
     pub power_law: Option<Spanned<PowerLawTable>>,
+    /// A hardness with its scale, instead of the yield strength: the [flow stress that it says](hardness.md#strength-from-a-hardness),
+    /// at the strain of the scene's impact.
+    #[schemars(with = "Option<String>", extend("examples" = ["200 HBW 10/3000", "640 HV10", "58 HRC", "90 HRB", "700 HLD"]))]
     pub hardness: Option<Spanned<toml::Value>>,
+    /// Tensile strength, from which the same follows.
+    #[schemars(extend("examples" = ["480 MPa"]))]
     pub tensile_strength: Option<Spanned<f64>>,
+    /// A [tensile test](hardness.md#strength-from-a-tensile-test): the name of a CSV file, relative to the scene; or
+    /// `{ proof_stress = "240 MPa", tensile_strength = "480 MPa" }`; or the points `{ true_strain = [...], true_stress = [...] }`,
+    /// with `plastic_strain` instead where the elastic part is subtracted.
     pub tensile_test: Option<Spanned<TensileTestTable>>,
+    /// `n` of the flow stress `K eps^n` between the strain of that test and the strain of the impact; other metals than steel and
+    /// aluminium need it.
+    #[schemars(extend("x-default" = "that of its class", "examples" = [0.15]))]
     pub hardening_exponent: Option<Spanned<f64>>,
+    /// `{ model = "johnson-cook", c = 0.014, reference_rate = 1.0 }` or `{ model = "cowper-symonds", d = 40.4, q = 5 }`: strength as a
+    /// function of the [strain rate](laws.md#strain-rate): of the scene's impact, or with `[coupling]` of each impact.
+    #[schemars(extend("x-default" = "none; that of AISI 4340 with `hardness`, `tensile_strength` or `tensile_test` of steel"))]
     pub rate: Option<Spanned<RateTable>>,
+    /// Density; the warning of [fast impacts](limits.md) and two [losses](losses.md) need it.
+    #[schemars(extend("x-default" = "that of the material", "examples" = ["7.85 g/cm^3"]))]
     pub density: Option<Spanned<f64>>,
+    /// Length of a [rod](limits.md#long-bodies), such as a piston, a chisel or a pin, with its `area`; needs density and moduli.
+    #[schemars(extend("x-default" = "compact"))]
     pub length: Option<Spanned<f64>>,
+    /// Area of the rod's cross-section.
+    #[schemars(extend("x-default" = "compact"))]
     pub area: Option<Spanned<f64>>,
+    /// Radius of a curved target; negative for a socket, which must be wider than the impactor.
+    #[schemars(extend("x-default" = "flat", "examples" = ["-50 mm"]))]
     pub radius: Option<Spanned<f64>>,
+    /// Thickness of a thin plate that [gives way](losses.md#a-thin-plate) to the force; needs the density.
+    #[schemars(extend("x-default" = "thick", "examples" = ["4 mm"]))]
     pub plate_thickness: Option<Spanned<f64>>,
+    /// What a contact meets after a separation.
+    #[schemars(extend("default" = "dented"))]
     pub surface: Option<SurfaceName>,
 }
 
-/// The keys of `[impactor]`, which is no plate and has no surface that remembers, in the order of messages.
-#[derive(Deserialize)]
+/// The keys of `[impactor]`, which is no plate and has no surface that remembers, in the order of messages. Those without a line are
+/// as for the target.
+#[derive(Deserialize, JsonSchema)]
 #[serde(remote = "BodyTable", deny_unknown_fields, expecting = "a table")]
 struct ImpactorKeys {
+    /// A [built-in material](#built-in-materials) or [one of your own](#materials-of-your-own), which makes the impactor elastic; if it
+    /// is softer than the target, [the impactor yields](laws.md#which-body-yields).
     pub material: Option<Spanned<String>>,
+    /// Radius of the sphere.
+    #[schemars(extend("x-default" = "required", "examples" = ["5 mm"]))]
     pub radius: Option<Spanned<f64>>,
+    /// Young's modulus; give Poisson's ratio too.
+    #[schemars(extend("x-default" = "that of the material, else rigid", "examples" = ["210 GPa"]))]
     pub youngs_modulus: Option<Spanned<f64>>,
+    #[schemars(extend("x-default" = "that of the material, else rigid"))]
     pub poissons_ratio: Option<Spanned<f64>>,
+    /// Yield strength of an elastic impactor; the [softer body](laws.md#which-body-yields) yields first.
+    #[schemars(extend("x-default" = "that of the material"))]
     pub yield_strength: Option<Spanned<f64>>,
     pub hardening_modulus: Option<Spanned<f64>>,
     pub tangent_modulus: Option<Spanned<f64>>,
     pub power_law: Option<Spanned<PowerLawTable>>,
+    #[schemars(with = "Option<String>")]
     pub hardness: Option<Spanned<toml::Value>>,
     pub tensile_strength: Option<Spanned<f64>>,
     pub tensile_test: Option<Spanned<TensileTestTable>>,
     pub hardening_exponent: Option<Spanned<f64>>,
     pub rate: Option<Spanned<RateTable>>,
+    /// Density: with it, `[impact]` may leave out the mass, which is then that of a solid ball, or of the rod.
     pub density: Option<Spanned<f64>>,
     pub length: Option<Spanned<f64>>,
     pub area: Option<Spanned<f64>>,
@@ -109,43 +183,57 @@ struct ImpactorKeys {
 }
 
 /// `[impactor]`.
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 pub struct Impactor(#[serde(with = "ImpactorKeys")] pub BodyTable);
 
 /// How the flow stress grows with the strain rate.
-#[derive(Clone, Deserialize)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RateTable {
+    /// The model.
     pub model: Spanned<String>,
+    /// `C` of `1 + C ln(rate/reference_rate)`, of Johnson and Cook.
     pub c: Option<Spanned<f64>>,
+    /// The strain rate of the test that the strength is from.
     pub reference_rate: Option<Spanned<f64>>,
+    /// `D` of `1 + (rate/D)^(1/q)`, of Cowper and Symonds.
     pub d: Option<Spanned<f64>>,
+    /// `q` of the same.
     pub q: Option<Spanned<f64>>,
 }
 
 /// Flow stress `coefficient eps_p^exponent`.
-#[derive(Clone, Deserialize)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PowerLawTable {
+    /// `K`, the flow stress at a strain of 1.
     pub coefficient: Spanned<f64>,
+    /// `n`.
     pub exponent: Spanned<f64>,
 }
 
 /// A tensile test: two numbers, or a curve. The name of a file stands for its curve.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct TensileTestTable {
+    /// Proof stress at 0.2 % plastic strain.
     pub proof_stress: Option<Spanned<f64>>,
+    /// Tensile strength.
     pub tensile_strength: Option<Spanned<f64>>,
+    /// True strains of the points.
     pub true_strain: Option<Spanned<Vec<f64>>>,
+    /// True strains less their elastic part.
     pub plastic_strain: Option<Spanned<Vec<f64>>>,
+    /// True stresses of the points.
     pub true_stress: Option<Spanned<Vec<f64>>>,
 }
 
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SurfaceName {
+    /// Each contact hits the same dent again.
     Dented,
+    /// Each contact after a separation meets an untouched surface.
     Fresh,
 }
 
@@ -158,35 +246,70 @@ impl From<SurfaceName> for Surface {
     }
 }
 
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LawTable {
+    /// A [loading law](all-laws.md#loading-laws) or a [rate-dependent law](rate-dependent.md).
+    #[schemars(extend("x-default" = "`\"brinell\"`; without a yield strength `\"hertz\"`"))]
     pub loading: Option<Spanned<String>>,
+    /// Constants of the loading law, or of the rate-dependent law, by name.
+    #[schemars(with = "Option<ConstantKeys>", extend("x-default" = "those of the reference"))]
     pub loading_parameters: Option<ConstantTable>,
+    /// An [unloading law](all-laws.md#unloading-laws).
+    #[schemars(extend("x-default" = "the law that `loading` was published with, else `\"contact-radius\"`"))]
     pub unloading: Option<Spanned<String>>,
+    /// Coefficient of restitution that a rate-dependent law is made for.
+    #[schemars(extend("examples" = [0.8]))]
     pub restitution: Option<Spanned<f64>>,
+    /// A restitution, or `"waves"`: a [loss below yield](losses.md), on top of any plastic law.
+    #[schemars(with = "Option<f64>", extend("x-default" = "nothing is lost below yield", "examples" = [0.95, "waves"]))]
     pub elastic_restitution: Option<Spanned<toml::Value>>,
+    /// Damping factor of a rate-dependent law.
+    #[schemars(extend("x-default" = "that of the law"))]
     pub damping: Option<Spanned<String>>,
+    /// Constants of the unloading law, by name.
+    #[schemars(with = "Option<ConstantKeys>", extend("x-default" = "those of the reference"))]
     pub unloading_parameters: Option<ConstantTable>,
+    /// Shorten the elastic recovery where the laws would return [more energy than they took](laws.md#energy).
+    #[schemars(extend("default" = false))]
     pub passivity_guard: Option<Spanned<bool>>,
 }
 
-#[derive(Default, Deserialize)]
+/// A [`ConstantTable`] as a scene has it: numbers.
+type ConstantKeys = BTreeMap<String, f64>;
+
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fmu {
+    /// [Outputs](variables.md#outputs) beside `force`.
     #[serde(default)]
     pub outputs: Vec<Spanned<String>>,
+    /// Naming convention in the XML; some tools turn structured names into buses.
+    #[schemars(extend("x-default" = "`\"flat\"`; several contacts: `\"structured\"`"))]
     pub names: Option<NamesName>,
+    /// The [parameters](variables.md#parameters) that can be set; the others become constants of the binary.
+    #[schemars(extend("x-default" = "all"))]
     pub parameters: Option<Vec<Spanned<String>>>,
+    /// Distance of the bodies at the start; negative: pressed in along the loading curve.
+    #[schemars(extend("default" = 0))]
     pub initial_gap: Option<Spanned<f64>>,
+    /// Step that the FMU suggests to importers (`DefaultExperiment`); any other works, too.
+    #[schemars(extend("x-default" = "one that suits the [coupling](fmu.md#which-force-belongs-to-which-step)", "examples" = ["1 us"]))]
     pub step_size: Option<Spanned<f64>>,
+    /// Stop time that it suggests, not before the end of the first step.
+    #[schemars(extend("x-default" = "one that suits the impact", "examples" = ["1 ms"]))]
     pub stop_time: Option<Spanned<f64>>,
+    /// A library that needs nothing from its process, see [hosts that share nothing](standalone.md).
+    #[schemars(extend("default" = false))]
     pub standalone: Option<bool>,
+    /// The [rate may change within a step](fmu.md); `false` makes an FMU a twentieth smaller. Not with `[coupling]`; rate-dependent laws
+    /// have none.
+    #[schemars(extend("default" = true))]
     pub input_derivatives: Option<Spanned<bool>>,
 }
 
 /// The naming convention of variables for importers.
-#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum NamesName {
     /// Flat names, in which dots have no meaning.
@@ -195,41 +318,52 @@ pub enum NamesName {
     Structured,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CouplingTable {
-    /// Required unless the contacts share bodies.
+    /// The mass that the contact force accelerates: `1/m = 1/m1 + 1/m2`.
+    #[schemars(extend("x-default" = "required, unless contacts [share bodies](#contacts-that-share-bodies)", "examples" = ["4.11 g"]))]
     pub effective_mass: Option<Spanned<f64>>,
+    /// The contacts [share bodies](#contacts-that-share-bodies), and the entries of the matrix of inverse effective masses are inputs
+    /// [1/kg].
     pub inverse_masses: Option<Spanned<InverseMassesName>>,
+    /// Order of execution of the importer, see [coupling](coupling.md).
+    #[schemars(extend("default" = "serial"))]
     pub master: Option<MasterName>,
+    /// What becomes an input, instead of a derivative and a parameter.
     #[serde(default)]
     pub inputs: Vec<Spanned<String>>,
 }
 
 /// Where the inverse masses of contacts that share bodies come from, if the scene has no bodies.
-#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum InverseMassesName {
     Input,
 }
 
 /// Friction of all contacts.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionTable {
+    /// Coulomb's coefficient of friction.
     pub coefficient: Spanned<f64>,
+    /// Number of tangential directions; with 2, rates and forces along the surface are [vectors](friction.md#two-directions).
+    #[schemars(extend("default" = 1, "enum" = [1, 2]))]
     pub directions: Option<Spanned<i64>>,
 }
 
 /// Friction of one contact.
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OwnFriction {
+    /// Coulomb's coefficient of friction; 0 is a contact without friction.
+    #[schemars(extend("x-default" = "that of the scene"))]
     pub coefficient: Option<Spanned<f64>>,
 }
 
 /// The order in which an importer steps FMUs.
-#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum MasterName {
     /// The contact first; its force is applied over the same step.
@@ -238,45 +372,83 @@ pub enum MasterName {
     Parallel,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImpactTable {
-    /// Without a mass, that of a solid ball or of the rod is used if the impactor has a density.
+    /// Effective mass `m1 m2/(m1 + m2)`: that of the impactor if the target is held.
+    #[schemars(extend("x-default" = "that of a solid impactor of known density, else required", "examples" = ["4.11 g"]))]
     pub mass: Option<Spanned<f64>>,
+    /// Closing speed.
+    #[schemars(extend("x-default" = "required, or `drop_height`", "examples" = ["1 m/s"]))]
     pub speed: Option<Spanned<f64>>,
+    /// Height from which the impactor falls, instead of the speed.
+    #[schemars(extend("examples" = ["0.5 m"]))]
     pub drop_height: Option<Spanned<f64>>,
+    /// Warn of [unstable steps](coupling.md#warnings-about-coupling), for FMUs that do not know the mass.
+    #[schemars(extend("default" = true))]
     pub watch: Option<bool>,
 }
 
 /// A body that contacts share.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct SharedBodyTable {
+    /// Name of the body, a C identifier; `ground` always exists and never moves.
     pub name: Spanned<String>,
+    /// Mass.
     pub mass: Spanned<f64>,
-    /// One number, three or six.
+    /// Moments of inertia about the centre of mass: one number (a ball), three (principal, along x, y and z of the scene) or six (the
+    /// elements xx, yy, zz, xy, xz, yz of the tensor, which is positive definite).
+    #[schemars(with = "Option<Vec<f64>>", extend("x-default" = "forces don't turn the body"))]
     pub inertia: Option<Spanned<toml::Value>>,
 }
 
 /// One contact, or `count` equal contacts, with the values that differ from the tables above.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ContactTable {
+    /// Name of the contact, or of the group: a C identifier.
     pub name: Spanned<String>,
+    /// Number of equal contacts in the group.
+    #[schemars(range(min = 1, max = MOST_CONTACTS), extend("x-default" = "a single contact"))]
     pub count: Option<Spanned<i64>>,
+    /// The names of the two bodies, `["box", "ground"]`.
+    #[schemars(extend("minItems" = 2, "maxItems" = 2, "x-default" = "required with `[[body]]`"))]
     pub between: Option<Spanned<Vec<Spanned<String>>>>,
+    /// On a line: 1 if the second body is on the positive side of the first, else -1; the closing rate is the velocity of the first minus
+    /// that of the second, times this.
+    #[schemars(extend("default" = 1, "enum" = [1, -1]))]
     pub direction: Option<Spanned<i64>>,
+    /// In space: direction `[x, y, z]` from the first body to the second, of any length; all contacts have one, or none.
+    #[schemars(extend("minItems" = 3, "maxItems" = 3, "x-default" = "bodies on one line"))]
     pub normal: Option<Spanned<Vec<f64>>>,
+    /// With `normal`: the contact's place `[x, y, z]` relative to the centre of mass of each of the two bodies; `[]` is the centre of mass
+    /// itself, and the arm of `ground`.
+    #[schemars(extend("minItems" = 2, "maxItems" = 2, "default" = [[], []]))]
     pub arms: Option<Spanned<Vec<Spanned<Vec<f64>>>>>,
+    /// With `[[body]]` and `[friction]`: the first direction `[x, y, z]` of the tangential rates, at right angles to the normal; the second
+    /// is `normal x tangent`.
+    #[schemars(extend("minItems" = 3, "maxItems" = 3, "x-default" = "required with `[friction]`"))]
     pub tangent: Option<Spanned<Vec<f64>>>,
+    /// Keys of `[impactor]` that differ.
     #[serde(default)]
+    #[schemars(extend("x-default" = "that of the scene"))]
     pub impactor: Impactor,
+    /// Keys of `[target]` that differ.
     #[serde(default)]
+    #[schemars(extend("x-default" = "that of the scene"))]
     pub target: BodyTable,
+    /// Distance at the start.
+    #[schemars(extend("x-default" = "that of `[fmu]`"))]
     pub initial_gap: Option<Spanned<f64>>,
+    /// Mass that the contact's force accelerates.
+    #[schemars(extend("x-default" = "that of `[coupling]`"))]
     pub effective_mass: Option<Spanned<f64>>,
+    /// `{ coefficient = 0.1 }`, if the scene has a table `[friction]`.
     #[serde(default)]
+    #[schemars(extend("x-default" = "that of the scene"))]
     pub friction: OwnFriction,
+    /// Parameters that each contact of the group has for itself: `bead[7].target.yield_strength`.
     #[serde(default)]
     pub parameters_per_contact: Vec<Spanned<String>>,
 }
@@ -291,6 +463,10 @@ impl SceneFile {
         file.own =
             beside::check(file.material.take().unwrap_or_default())?.into_iter().map(OwnMaterial::of_scene).collect();
         file.alone = with_curves(text, &beside.files)?;
+        // beside the FMU there is no schema
+        if file.alone.starts_with("#:schema ") {
+            file.alone.drain(..file.alone.find('\n').map_or(0, |end| end + 1));
+        }
         let taken = beside::take_in(&mut file, &beside.materials);
         if !taken.is_empty() {
             file.alone = format!("{}\n{taken}", file.alone.trim_end());
@@ -370,7 +546,7 @@ fn of_parser(text: &str, error: &toml::de::Error) -> Mistake {
 }
 
 /// The tree of the `text`, and the values that stand for texts in it: numbers with a unit, and files.
-fn parsed<'text>(text: &'text str, files: &Files) -> Result<(Spanned<DeTable<'text>>, InSi), Mistake> {
+fn parsed<'text>(text: &'text str, files: &Files) -> Result<(toml::Spanned<DeTable<'text>>, InSi), Mistake> {
     let tree = DeTable::parse(text).map_err(|error| of_parser(text, &error))?;
     let mut found = Found { files, values: InSi::new() };
     found.in_table("", tree.get_ref())?;
@@ -404,28 +580,6 @@ fn with_curves(text: &str, files: &Files) -> Result<String, Mistake> {
     Ok(with_values(text, values.collect()))
 }
 
-/// The SI unit of the number `key` in a table that is called `table`, or `""` at the top. Dimensionless numbers have none.
-fn unit_of(table: &str, key: &str) -> Option<&'static str> {
-    match (table, key) {
-        // a law has its own constants
-        ("loading_parameters" | "unloading_parameters", _) => None,
-        ("power_law" | "tension", "coefficient")
-        | (_, "tangent_modulus" | "tensile_strength" | "proof_stress" | "true_stress") => Some("Pa"),
-        ("rate", "d" | "reference_rate") => Some("1/s"),
-        (_, "density") => Some("kg/m^3"),
-        (_, "mass") => Some("kg"),
-        (_, "speed") => Some("m/s"),
-        (_, "length" | "drop_height" | "arms") => Some("m"),
-        (_, "step_size" | "stop_time") => Some("s"),
-        (_, "area") => Some("m^2"),
-        (_, "inertia") => Some("kg.m^2"),
-        _ => {
-            let is_key = |name: &str| name.rsplit('.').next() == Some(key);
-            VARIABLES.iter().find(|variable| is_key(&variable.name)).and_then(|variable| variable.unit.as_deref())
-        }
-    }
-}
-
 /// Numbers in SI units and curves as TOML writes them, with the end of the text for which each stands, by its beginning.
 type InSi = BTreeMap<usize, (usize, String)>;
 
@@ -440,7 +594,7 @@ impl Found<'_> {
     fn in_table(&mut self, path: &str, table: &DeTable) -> Result<(), Mistake> {
         table.iter().try_for_each(|(key, value)| {
             let key = key.get_ref();
-            let unit = unit_of(path.rsplit('.').next().unwrap_or_default(), key);
+            let unit = quantity_of(path.rsplit('.').next().unwrap_or_default(), key).unit;
             let path = if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
             if let (TEST, DeValue::String(name)) = (key.as_ref(), value.get_ref()) {
                 let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(name)));
@@ -453,7 +607,12 @@ impl Found<'_> {
     }
 
     /// The same in a `value`, which is a number in this `unit`, a list, or a table.
-    fn in_value(&mut self, path: &str, unit: Option<&'static str>, value: &Spanned<DeValue>) -> Result<(), Mistake> {
+    fn in_value(
+        &mut self,
+        path: &str,
+        unit: Option<&'static str>,
+        value: &toml::Spanned<DeValue>,
+    ) -> Result<(), Mistake> {
         let (text, unit) = match (value.get_ref(), unit) {
             (DeValue::Table(table), _) => return self.in_table(path, table),
             (DeValue::Array(list), _) => return list.iter().try_for_each(|value| self.in_value(path, unit, value)),
@@ -480,7 +639,7 @@ impl Found<'_> {
 }
 
 /// Puts the `values` in place of their texts in this `value`.
-fn put<'text>(value: &mut Spanned<DeValue<'text>>, values: &'text InSi) {
+fn put<'text>(value: &mut toml::Spanned<DeValue<'text>>, values: &'text InSi) {
     let found = values.get(&value.span().start);
     match value.get_mut() {
         DeValue::Table(table) => table.iter_mut().for_each(|(_, value)| put(value, values)),

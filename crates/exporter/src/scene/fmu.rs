@@ -2,14 +2,15 @@
 
 use super::contacts::Parameter;
 use super::file::{CouplingTable, Fmu, MasterName};
+use super::quantities::check_quantity;
 use super::{Coupling, Scene};
-use crate::mistake::{Mistake, check_range, positive};
+use crate::mistake::Spanned;
+use crate::mistake::{Mistake, positive};
 use crate::nearest::unknown;
 use crate::numbers::in_message;
 use crate::table::{self, Causality, VARIABLES};
 use crate::xml;
 use std::collections::HashSet;
-use toml::Spanned;
 
 /// The text of the `key`, which the model description must be able to contain; empty if it is not given.
 pub fn check_text(key: &str, given: Option<&Spanned<String>>) -> Result<String, Mistake> {
@@ -26,7 +27,7 @@ pub fn check_text(key: &str, given: Option<&Spanned<String>>) -> Result<String, 
 }
 
 /// Inputs that an FMU can have in addition to the rate.
-const INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
+pub const INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
 
 /// The coupling in this table, which the unit has without it, too, if its contacts share bodies; and the mass. `damps_by_mass` is
 /// the name of the law if its damping follows from the mass.
@@ -121,8 +122,7 @@ pub fn check_outputs(chosen: &[Spanned<String>], has: &Has) -> Result<Vec<String
                 "the output closing_speed needs [coupling] effective_mass: the FMU must move the bodies itself";
             return Err(Mistake(name.span(), message.into()));
         }
-        let of_shared = ["impulse_moment", "tangential_impulse_moment", "tangential_speed"];
-        if of_shared.contains(&text.as_str()) && !shared_bodies {
+        if table::OF_SHARED.contains(&text.as_str()) && !shared_bodies {
             let message = format!("the output {text} needs contacts that share bodies: tables [[body]]");
             return Err(Mistake(name.span(), message));
         }
@@ -155,7 +155,7 @@ pub fn check_input_derivatives(
 /// Step size and stop time that the scene suggests to importers \[s\], as far as it gives them.
 pub fn check_experiment(given: &Fmu) -> Result<(Option<f64>, Option<f64>), Mistake> {
     for (name, time) in [("fmu.step_size", &given.step_size), ("fmu.stop_time", &given.stop_time)] {
-        time.as_ref().map(|time| check_range((name, "s"), "", time, 1e-30..=1e30)).transpose()?;
+        time.as_ref().map(|time| check_quantity(name, "", time)).transpose()?;
     }
     let value = |time: &Option<Spanned<f64>>| time.as_ref().map(|time| *time.get_ref());
     let (step, stop) = (value(&given.step_size), value(&given.stop_time));

@@ -3,8 +3,8 @@
 use super::Scene;
 use super::file::FrictionTable;
 use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::table;
-use toml::Spanned;
 
 /// What a scene has beside its friction.
 pub struct BesideFriction<'a> {

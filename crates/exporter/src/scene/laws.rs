@@ -5,6 +5,7 @@ use super::contacts::Contacts;
 use super::file::LawTable;
 use crate::law_check;
 use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::model::Dampings;
 use crate::nearest::unknown;
 use crate::pairing;
@@ -13,7 +14,6 @@ use crate::table;
 use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::loading::{AnyLoading, Hertz};
 use brinell_contact::unloading::AnyUnloading;
-use toml::Spanned;
 
 /// The laws of a scene.
 pub struct SceneLaws {

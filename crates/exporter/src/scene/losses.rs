@@ -3,7 +3,9 @@
 use super::Scene;
 use super::contacts::Contacts;
 use super::file::{BodyTable, SceneFile};
+use super::quantities::{check_quantity, quantity_of};
 use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::model::AnyModel;
 use crate::numbers::{in_message, out_of_range, quantity};
 use brinell_contact::damped::Damped;
@@ -11,8 +13,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, Model};
-use std::ops::RangeInclusive;
-use toml::{Spanned, Value};
+use toml::Value;
 
 /// A loss of a scene, with the start value of its parameter. Density and bodies are those of each contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,15 +26,12 @@ pub enum Loss {
     Plate(f64),
 }
 
+/// The loss that a scene names instead of a restitution.
+pub const WAVES: &str = "waves";
+
 /// The names of the parameters.
 pub const RESTITUTION: &str = "elastic_restitution";
 pub const THICKNESS: &str = "target.plate_thickness";
-
-/// Allowed restitutions.
-const RESTITUTIONS: RangeInclusive<f64> = 0.001..=1.0;
-
-/// Allowed thicknesses \[m\].
-const THICKNESSES: RangeInclusive<f64> = 1e-9..=1e6;
 
 /// The loss of the scene `file`; `damped` is the name of its law if that has a damping of its own.
 pub fn check(file: &SceneFile, contacts: &Contacts, damped: Option<&str>) -> Result<Option<Loss>, Mistake> {
@@ -73,22 +71,23 @@ fn of_restitution(given: &Spanned<Value>) -> Result<Loss, Mistake> {
     let number = match given.get_ref() {
         Value::Float(number) => *number,
         Value::Integer(number) => *number as f64,
-        Value::String(text) if text == "waves" => return Ok(Loss::Waves),
+        Value::String(text) if text == WAVES => return Ok(Loss::Waves),
         other => {
             let message =
                 format!("law.elastic_restitution = {other} is neither a number from 0.001 to 1 nor \"waves\"");
             return Err(Mistake(given.span(), message));
         }
     };
-    if RESTITUTIONS.contains(&number) {
+    let allowed = quantity_of("law", RESTITUTION).allowed;
+    if allowed.contains(&number) {
         return Ok(Loss::Fitted(number));
     }
-    let message = format!("law.elastic_restitution {}, or \"waves\"", out_of_range(number, &RESTITUTIONS, ""));
+    let message = format!("law.elastic_restitution {}, or \"waves\"", out_of_range(number, &allowed, ""));
     Err(Mistake(given.span(), message))
 }
 
 fn of_thickness(given: &Spanned<f64>, target: Option<&BodyTable>) -> Result<Loss, Mistake> {
-    crate::mistake::check_range(("target.plate_thickness", "m"), "", given, THICKNESSES)?;
+    check_quantity(THICKNESS, "", given)?;
     if let Some(radius) = target.and_then(|target| target.radius.as_ref()) {
         let message =
             format!("target.radius = {} and target.plate_thickness: a plate is flat", in_message(*radius.get_ref()));

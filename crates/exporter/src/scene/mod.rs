@@ -15,11 +15,13 @@ mod losses;
 mod names;
 mod parser_words;
 pub mod plausible;
+mod quantities;
 mod shared_bodies;
 #[cfg(test)]
 mod shared_bodies_tests;
 mod strength;
 
+use crate::mistake::Spanned;
 use crate::mistake::{Mistake, SceneError};
 use crate::model::{AnyModel, paired};
 use brinell_contact::Model;
@@ -30,14 +32,19 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::Factors;
 use brinell_contact::unloading::AnyUnloading;
 use std::path::Path;
-use toml::Spanned;
 
 pub use beside::{Beside, MaterialTable, OwnMaterial};
 pub use bodies::{Body, Both};
 pub use contacts::{Group, Parameter};
+pub use contacts::{OF_ALL_CONTACTS, taken_names};
+pub use file::SceneFile;
+pub use fmu::INPUTS;
 pub use inverse_masses::{InverseMasses, place};
-pub use losses::Loss;
-pub use strength::{Flow, InImpact, PowerLaw, Rate};
+pub use losses::{Loss, WAVES};
+pub use names::{IDENTIFIER, any_case, is_no_name};
+pub use quantities::{PRODUCT, quantity_of};
+pub use shared_bodies::GROUND;
+pub use strength::{Flow, InImpact, MODELS as RATE_MODELS, PowerLaw, Rate};
 
 /// Whether an FMU can have this `name`: a C identifier that every operating system accepts as a file name.
 ///

@@ -2,7 +2,7 @@
 
 use crate::layout::shortened;
 use crate::mistake::Mistake;
-use toml::Spanned;
+use crate::mistake::Spanned;
 
 /// The name of an FMU: a C identifier that every operating system accepts as a file name.
 ///
@@ -10,9 +10,9 @@ use toml::Spanned;
 pub fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
     let text = check_identifier(name)?;
     let lower = text.to_ascii_lowercase();
-    let port = lower.strip_prefix("com").or(lower.strip_prefix("lpt"));
+    let port = PORTS.iter().find_map(|port| lower.strip_prefix(port));
     let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|digit| digit.is_ascii_digit()));
-    let reason = if is_port || ["con", "prn", "aux", "nul"].contains(&lower.as_str()) {
+    let reason = if is_port || DEVICES.contains(&lower.as_str()) {
         "is that of a device on Windows, where no library can have it"
     } else if KEYWORDS.split_whitespace().any(|keyword| keyword == text) {
         "is a keyword of C or C++, and FMI asks for an identifier"
@@ -20,6 +20,24 @@ pub fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
         return Ok(text);
     };
     Err(Mistake(name.span(), format!("name = {text:?} {reason}: call it otherwise")))
+}
+
+/// The devices of Windows, and those that a digit follows.
+const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+const PORTS: [&str; 2] = ["com", "lpt"];
+
+/// The pattern of these `names` in letters of any case.
+pub fn any_case(names: &[&str]) -> String {
+    let of_letter = |c: char| format!("[{}{}]", c.to_ascii_uppercase(), c.to_ascii_lowercase());
+    let of_name = |name: &&str| name.chars().map(of_letter).collect::<String>();
+    names.iter().map(of_name).collect::<Vec<_>>().join("|")
+}
+
+/// The identifiers that are no name of an FMU, as a schema.
+pub fn is_no_name() -> serde_json::Value {
+    let [devices, ports] = [any_case(&DEVICES), any_case(&PORTS)];
+    let keywords = KEYWORDS.split_whitespace().collect::<Vec<_>>();
+    serde_json::json!({ "anyOf": [{ "pattern": format!("^(?:{devices}|(?:{ports})[0-9])$") }, { "enum": keywords }] })
 }
 
 /// The keywords of C and C++, which are no identifiers. FMI asks for one of C, since importers may compile the name of an FMU into
@@ -36,6 +54,9 @@ const KEYWORDS: &str = "
     dynamic_cast explicit export friend mutable namespace new noexcept operator private protected public reinterpret_cast requires
     static_cast template this throw try typeid typename using virtual wchar_t
     and and_eq bitand bitor compl not not_eq or or_eq xor xor_eq";
+
+/// What [`check_identifier`] allows, as a pattern of JSON Schema.
+pub const IDENTIFIER: &str = "^[A-Za-z_][A-Za-z0-9_]{0,99}$";
 
 /// Text that is a C identifier, or a keyword.
 pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
@@ -57,7 +78,7 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
 #[cfg(test)]
 mod tests {
     use super::{KEYWORDS, check_identifier, check_name};
-    use toml::Spanned;
+    use crate::mistake::Spanned;
 
     #[test]
     fn a_keyword_is_no_name_of_an_fmu_and_what_resembles_one_is() {

@@ -7,10 +7,11 @@ use super::file::{BodyTable, PowerLawTable, SceneFile, TensileTestTable};
 use super::shared_bodies::number_in;
 use crate::layout::shortened;
 use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::numbers::{plain, quantity};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
-use toml::{Spanned, Value};
+use toml::Value;
 
 /// The plausible range of a number of a contact.
 struct Expected<'a> {

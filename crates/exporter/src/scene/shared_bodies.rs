@@ -3,33 +3,21 @@
 use super::file::{ContactTable, FrictionTable, SceneFile, SharedBodyTable};
 use super::inverse_masses::{self, End, FreeBody, Inertia, InverseMasses, Vector};
 use super::names::check_identifier;
+use super::quantities::{PRODUCT, quantity_of};
 use crate::layout::shortened;
+use crate::mistake::Spanned;
 use crate::mistake::{Mistake, check_range};
 use crate::nearest::unknown;
 use crate::numbers::{in_message, out_of_range};
-use crate::table;
 use std::collections::{HashMap, HashSet};
-use std::ops::{Range, RangeInclusive};
-use toml::{Spanned, Value};
+use std::ops::Range;
+use toml::Value;
 
 /// The body that never moves. Every scene has it.
-const GROUND: &str = "ground";
+pub const GROUND: &str = "ground";
 
 /// Largest number of contacts of a unit whose bodies are shared. The matrix of the inverse masses grows with its square.
 const MOST_SHARING: usize = 256;
-
-/// Allowed moments of inertia \[kg m^2\], and sizes of the products of inertia.
-const INERTIAS: RangeInclusive<f64> = 1e-60..=1e60;
-const PRODUCTS: RangeInclusive<f64> = -1e60..=1e60;
-
-/// Allowed coordinates of a contact on its body \[m\].
-const ARMS: RangeInclusive<f64> = -1e6..=1e6;
-
-/// Allowed masses \[kg\]: those of the parameter `effective_mass`.
-fn masses() -> RangeInclusive<f64> {
-    let limits = table::variable("effective_mass");
-    limits.minimum.unwrap_or(f64::MIN_POSITIVE)..=limits.maximum.unwrap_or(f64::MAX)
-}
 
 /// The inverse effective masses of the scene `file`, if its contacts share bodies. `damped` is the name of a law whose force
 /// depends on the rate.
@@ -194,7 +182,7 @@ impl<'a> Bodies<'a> {
             if bodies.index.insert(text, Some(bodies.free.len())).is_some() {
                 return Err(Mistake(name.span(), format!("name = {text:?} is taken by another body")));
             }
-            check_range(("mass", "kg"), &format!("body `{text}`: "), mass, masses())?;
+            check_range(("mass", "kg"), &format!("body `{text}`: "), mass, quantity_of("body", "mass").allowed)?;
             let inertia = inertia.as_ref().map(|inertia| check_inertia(text, inertia)).transpose()?;
             bodies.names.push(text);
             bodies.free.push(FreeBody { mass: *mass.get_ref(), inertia });
@@ -274,7 +262,7 @@ fn check_inertia(name: &str, given: &Spanned<Value>) -> Result<Inertia, Mistake>
         _ => return Err(no(format!(" = {} has {} numbers: {FORMS}", numbers_in_message(&numbers), numbers.len()))),
     };
     for (index, number) in numbers.iter().enumerate() {
-        let allowed = if index < 3 { INERTIAS } else { PRODUCTS };
+        let allowed = quantity_of("body", if index < 3 { "inertia" } else { PRODUCT }).allowed;
         if !allowed.contains(number) {
             return Err(no(format!("{} {}", place(index), out_of_range(*number, &allowed, "kg m^2"))));
         }
@@ -321,7 +309,7 @@ fn of_bodies(
     }
     let rows = all.concat();
     let matrix = InverseMasses::Constant(inverse_masses::triangle(&bodies.free, &rows));
-    let allowed = masses();
+    let allowed = quantity_of("body", "mass").allowed;
     for row in 0..rows.len() {
         let contact = &contacts[row % contacts.len()];
         let mass = matrix.effective_mass(row, rows.len()).expect("the matrix is constant");
@@ -449,7 +437,9 @@ fn arms_of(contact: &ContactTable, between: [Option<usize>; 2]) -> Result<[Vecto
         let said = || format!("arms[{}] = {}", place + 1, numbers_in_message(numbers));
         *vector = match numbers.as_slice() {
             [] => [0.0; 3],
-            &[x, y, z] if [x, y, z].iter().all(|part| ARMS.contains(part)) => [x, y, z],
+            &[x, y, z] if [x, y, z].iter().all(|part| quantity_of("contact", "arms").allowed.contains(part)) => {
+                [x, y, z]
+            }
             _ => {
                 let message = format!("{} is no arm: allowed are three numbers from -1e6 to 1e6 m, or none", said());
                 return Err(wrong(contact, arm.span(), &message));

@@ -3,11 +3,13 @@
 use super::Scene;
 use super::bodies::{Body, Both};
 use super::file::{BodyTable, PowerLawTable, RateTable, TensileTestTable};
+use super::quantities::{check_quantity, quantity_of};
 use crate::layout::shortened;
-use crate::mistake::{Mistake, check_range};
+use crate::mistake::Mistake;
+use crate::mistake::Spanned;
 use crate::model::paired;
 use crate::nearest::unknown;
-use crate::numbers::{cell, in_message, quantity};
+use crate::numbers::{cell, in_message, in_range, quantity};
 use crate::table::{Class, Material};
 use crate::tension::{self, Curve};
 use brinell_contact::hardening::{Hardening, StraightLine, modulus_of_tangent};
@@ -18,7 +20,6 @@ use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Model, OtherBody, Pair, TwoBodies};
 use serde::Serialize;
 use std::ops::Range;
-use toml::Spanned;
 
 use crate::measured::{self, MeasuredStrength, Metal, STEEL_RATE, TEST_RATE};
 pub use brinell_contact::hardening::PowerLaw;
@@ -118,7 +119,7 @@ impl BodyTable {
             return Err(wrong(format!(" needs {name}.youngs_modulus and {name}.poissons_ratio, or a material")));
         };
         if let Some(exponent) = &self.hardening_exponent {
-            check_range(("hardening_exponent", ""), &format!("{name}."), exponent, 0.0..=0.6)?;
+            check_quantity("hardening_exponent", &format!("{name}."), exponent)?;
         }
         let found = match (&self.hardness, &self.tensile_strength) {
             (Some(hardness), _) => match hardness.get_ref() {
@@ -132,7 +133,7 @@ impl BodyTable {
                 }
             },
             (None, Some(strength)) => {
-                check_range(("tensile_strength", "Pa"), &format!("{name}."), strength, 1e-6..=1e18)?;
+                check_quantity("tensile_strength", &format!("{name}."), strength)?;
                 measured::of_tensile_strength(*strength.get_ref(), &metal).map_err(|why| wrong(format!(": {why}")))?
             }
             (None, None) => {
@@ -234,7 +235,7 @@ impl TensileTestTable {
                 true_stress: None,
             } => {
                 for (key, value) in [("proof_stress", proof), ("tensile_strength", strength)] {
-                    check_range((key, "Pa"), &format!("{name}."), value, 1e-6..=1e18)
+                    check_quantity(key, &format!("{name}."), value)
                         .map_err(|Mistake(span, why)| TestMistake(Some(span), why))?;
                 }
                 let [proof, strength] = [*proof.get_ref(), *strength.get_ref()];
@@ -258,13 +259,15 @@ impl TensileTestTable {
                     return Err(wrong(message));
                 }
                 let points: Vec<_> = strain.iter().copied().zip(stress.iter().copied()).collect();
-                let is_one =
-                    |(strain, stress): &(f64, f64)| (1e-9..=10.0).contains(strain) && (1e-6..=1e18).contains(stress);
+                let [strains, stresses] =
+                    ["true_strain", "true_stress"].map(|key| quantity_of("tensile_test", key).allowed);
+                let is_one = |(strain, stress): &(f64, f64)| strains.contains(strain) && stresses.contains(stress);
                 if let Some((strain, stress)) = points.iter().find(|point| !is_one(point)) {
                     let [strain, stress] = [*strain, *stress].map(in_message);
                     return Err(wrong(format!(
-                        "the point with a strain of {strain} and a stress of {stress} Pa is out of range: allowed are 1e-9 to 10, and \
-                         1e-6 to 1e18 Pa"
+                        "the point with a strain of {strain} and a stress of {stress} Pa is out of range: allowed are {}, and {} Pa",
+                        in_range(&strains),
+                        in_range(&stresses)
                     )));
                 }
                 let curve = Curve { points, is_plastic };
@@ -285,14 +288,14 @@ impl TensileTestTable {
 /// The power law of a `body` of the scene.
 pub fn check_power_law(body: Body, table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
     let PowerLawTable { coefficient, exponent } = table.get_ref();
-    let owner = format!("{}.power_law.", body.name());
-    check_range(("coefficient", "Pa"), &owner, coefficient, 1e-6..=1e18)?;
-    check_range(("exponent", ""), &owner, exponent, 0.0..=0.9)?;
+    let owner = format!("{}.", body.name());
+    check_quantity("power_law.coefficient", &owner, coefficient)?;
+    check_quantity("power_law.exponent", &owner, exponent)?;
     Ok(PowerLaw { coefficient: *coefficient.get_ref(), exponent: *exponent.get_ref() })
 }
 
 /// The names of the models in scenes.
-const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
+pub const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
 
 /// The rate model of a `body` of the scene.
 pub fn check_rate(
@@ -335,19 +338,16 @@ pub fn check_rate(
         );
         return Err(Mistake(value.span(), message));
     }
-    let number = |name: &str, unit, allowed| {
+    let number = |name: &str| {
         let value = keys.iter().find(|(known, _)| *known == name).and_then(|(_, value)| value.as_ref());
         let missing = || Mistake(table.span(), format!("{owner} with model = \"{}\" needs {name}", model.get_ref()));
         let value = value.ok_or_else(missing)?;
-        check_range((name, unit), &format!("{owner}."), value, allowed)?;
+        check_quantity(&format!("rate.{name}"), &format!("{}.", body.name()), value)?;
         Ok(*value.get_ref())
     };
     let rate = match own[0] {
-        "c" => Rate::JohnsonCook {
-            c: number("c", "", 0.0..=1.0)?,
-            reference_rate: number("reference_rate", "1/s", 1e-9..=1e9)?,
-        },
-        _ => Rate::CowperSymonds { d: number("d", "1/s", 1e-9..=1e15)?, q: number("q", "", 0.5..=100.0)? },
+        "c" => Rate::JohnsonCook { c: number("c")?, reference_rate: number("reference_rate")? },
+        _ => Rate::CowperSymonds { d: number("d")?, q: number("q")? },
     };
     Ok(Spanned::new(table.span(), rate))
 }

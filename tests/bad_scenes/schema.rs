@@ -1,0 +1,77 @@
+//! What the JSON Schema says of bad scenes.
+
+use brinell_testing::schema::mistakes;
+
+/// Mistakes that no schema can express, by a part of their message, and why.
+const OF_NO_SCHEMA: &[(&str, &str)] = &[
+    ("NaN", "JSON has no such number"),
+    ("impact.mass = inf", "JSON has no such number"),
+    ("impact.speed = inf", "JSON has no such number"),
+    ("normal = [0, inf, 1]", "JSON has no such number"),
+    ("has several conditions", "a material of one's own may have any name"),
+    ("unknown material `", "a material of one's own may have any name"),
+    ("must be the same in law.loading_parameters", "it compares two numbers"),
+    ("is before the end of the first step", "it compares two numbers"),
+    ("must be below", "it compares two numbers"),
+    ("does not fit impactor.radius", "it compares two numbers"),
+    ("HRC is out of range", "the number is part of a text"),
+    ("HRB is out of range", "the number is part of a text"),
+    ("HBW is out of range", "the number is part of a text"),
+    ("HV is out of range", "the number is part of a text"),
+    ("\"1e400 m/s\": the number is too large", "the number is part of a text"),
+    ("the dent's diameter would be", "it is computed"),
+    ("HRB is converted by a table for steel", "it depends on the numbers of a material"),
+    ("the hardness of a soft metal depends on the load", "it depends on the numbers of a material"),
+    ("how it changes to that of an impact is known for steel", "it depends on the numbers of a material"),
+    ("the law can be evaluated", "it is computed"),
+    ("it can't be computed with", "it is computed"),
+    ("with these parameters the", "it is computed"),
+    ("unknown parameter `effective_mass`", "which parameters a scene has depends on its materials and contacts"),
+    (
+        "unknown parameter `impactor.youngs_modulus`",
+        "which parameters a scene has depends on its materials and contacts",
+    ),
+    ("unknown parameter `target.radius`", "which parameters a scene has depends on its materials and contacts"),
+    ("unknown parameter `initial_gap`", "which parameters a scene has depends on its materials and contacts"),
+    ("unknown parameter `restitution`", "which parameters a scene has depends on its materials and contacts"),
+    ("unknown parameter `left.impactor.radius`", "which parameters a scene has depends on its materials and contacts"),
+    (
+        "unknown parameter `right.target.yield_strength`",
+        "which parameters a scene has depends on its materials and contacts",
+    ),
+    ("contact `left`: an elastic impactor needs both", "another table may give what a contact leaves out"),
+    ("contact `left`: impactor.length = 0.1 needs", "another table may give what a contact leaves out"),
+    ("contact `left`: target.length = 0.1 needs", "another table may give what a contact leaves out"),
+    ("contact `left`: the target needs", "another table may give what a contact leaves out"),
+    ("impactor.radius is missing: neither the contact", "another table may give what a contact leaves out"),
+    ("for every contact", "another table may give what a contact leaves out"),
+    ("is not positive definite", "it is computed"),
+    ("isn't parallel to", "it is computed"),
+    ("tangent = [0, 0, 1] is no direction", "it is computed"),
+    ("tangent = [1, 0, 0.001] is no direction", "it is computed"),
+    ("the effective mass of its bodies", "it is computed"),
+    ("contacts in all: allowed", "it is a sum"),
+    ("there are 257 contacts", "it is a sum"),
+    ("values per contact: allowed", "it is a sum"),
+    ("is in no contact", "it compares names in two lists"),
+    ("is taken by another", "it compares names in two lists"),
+    ("unknown body", "it compares names in two lists"),
+    ("never moves and takes no arm", "it compares names in two lists"),
+];
+
+/// Checks that the schema refuses the `text` of a scene that the program has refused with this `message`, unless no schema can.
+#[track_caller]
+pub fn agrees(text: &str, message: &str) {
+    // what is no TOML is no matter of a schema
+    let Some(found) = mistakes(text) else { return };
+    match OF_NO_SCHEMA.iter().find(|(part, _)| message.contains(part)) {
+        None => assert!(!found.is_empty(), "the schema accepts what is refused: {message}"),
+        Some((_, why)) => assert!(found.is_empty(), "{why}, but the schema says {found:?} of: {message}"),
+    }
+}
+
+/// Checks that the schema accepts the `text` of a valid scene.
+#[track_caller]
+pub fn accepts(text: &str) {
+    assert_eq!(mistakes(text), Some(Vec::new()), "the schema refuses {text}");
+}
