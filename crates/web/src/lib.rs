@@ -89,6 +89,7 @@ fn dispatch(question: &[u8]) -> Result<(Value, Vec<u8>), Refused> {
     let method = asked["method"].as_str().unwrap_or_default();
     let value = match method {
         "about" => lists::about(),
+        "schema" => brinell_exporter::schema::schema(),
         "check" => text::check(&read(&asked)?),
         "edit" => text::edit(&read(&asked)?)?,
         "new" => text::new(&read(&asked)?)?,
