@@ -1,0 +1,146 @@
+// What the exporter in the wasm is asked, and what it answers. Field names are those of its JSON.
+
+export type Path = readonly (string | number)[];
+export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+export type Table = { [key: string]: Json };
+
+export interface Mistake {
+  line: number;
+  column: number;
+  from: number;
+  to: number;
+  message: string;
+}
+
+export interface Check {
+  values: Table | null;
+  mistakes: Mistake[];
+  doubts: Mistake[];
+  files: string[];
+}
+
+export interface Edit {
+  path: Path;
+  value: Json;
+}
+
+export interface Material {
+  name: string;
+  aliases: string[];
+  source: string | null;
+  density: number | null;
+  youngs_modulus: number | null;
+  poissons_ratio: number | null;
+  yield_strength: number | null;
+}
+
+export interface LawEntry {
+  name: string;
+  title: string;
+  says: string;
+  validity: string;
+  recommended?: boolean;
+}
+
+export interface About {
+  version: string;
+  laws: { loading: LawEntry[]; unloading: LawEntry[]; damped: LawEntry[] };
+  materials: Material[];
+  outputs: { name: string; unit: string; description: string }[];
+  parameters: string[];
+  tools: { name: string; title: string }[];
+  platforms: { folder: string; title?: string; targets: string[] }[];
+}
+
+export interface Prediction {
+  law: string;
+  regime: number;
+  regime_name: string;
+  largest_force: number;
+  largest_indentation: number;
+  largest_contact_radius: number;
+  dent: number;
+  restitution: number;
+  kinetic_energy: number;
+  energy_lost: number;
+  loading_time: number;
+  unloading_time: number;
+  rebound_speed: number;
+  onsets: { regime_name: string; speed: number }[];
+  warnings: string[];
+}
+
+export interface Predict {
+  mass: number;
+  speed: number;
+  drop_height: number | null;
+  laws: Prediction[];
+  notes: string[];
+  strength: { yield_strength: number } | null;
+  text: string;
+}
+
+/** Columns of numbers of several laws: a curve, a history or a sweep. */
+export interface Columns {
+  columns: { name: string; unit: string }[];
+  laws: ({ law: string } & { [column: string]: number[] | string })[];
+}
+
+export interface Way {
+  name: string;
+  what: string;
+  master: "serial" | "parallel";
+  scene_lines: string[];
+}
+
+export interface Rebound {
+  time: number;
+  speed_in: number;
+  speed_out: number;
+  restitution: number;
+  exact: number;
+}
+
+export interface Bounce {
+  time: number[];
+  heights: number[][];
+  force: number[];
+  energy: number[];
+  rebounds: Rebound[];
+  steps_per_contact: number;
+  messages: string[];
+}
+
+export interface Translate {
+  translation: { title: string; reference: string; versions: string; ways: { name: string; title: string; block: string }[] };
+  text: string;
+}
+
+export interface Exported {
+  name: string;
+  guid: string;
+}
+
+/** Each method with its answer. */
+export interface Methods {
+  about: About;
+  schema: Table;
+  check: Check;
+  edit: { text: string };
+  predict: Predict;
+  curve: Columns;
+  history: Columns;
+  sweep: Columns;
+  libraries: Table;
+  export: Exported;
+  scene_of: { text: string };
+  picture: { svg: string };
+  csv: { csv: string };
+  translate: Translate;
+  new: { text: string };
+  ways: Way[];
+  bounce: Bounce;
+}
+
+export type Method = keyof Methods;
+export type Question = { [key: string]: Json | Path | Edit[] | undefined };

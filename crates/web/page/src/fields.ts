@@ -1,0 +1,325 @@
+// Fields of the form. Each shows one key of the scene (or a choice between keys) and edits it; labels and help come from the schema.
+import type { About, Edit, Json, Material, Path } from "./contract";
+import { h, id, options } from "./dom";
+import { key, type Scene } from "./scene";
+import { help, type Schema, words } from "./schema";
+import { bare, inUnit, offered, pretty, type Quantity, si, split, tidy, factor } from "./units";
+
+export interface Context {
+  scene: Scene;
+  schema: Schema;
+  about: About;
+}
+
+export interface Field {
+  element: HTMLElement;
+  paths: Path[];
+  update(): void;
+  mark(path: string, message: string | null): void;
+}
+
+export interface Look {
+  label?: string;
+  help?: string;
+  /** What an empty field means: a number of SI units, or words. */
+  empty?: () => number | string | null;
+}
+
+/** Label, control and place for a mistake. */
+function shell(context: Context, path: Path, look: Look, control: HTMLElement, labelled: HTMLElement): { element: HTMLElement; mark: Field["mark"] } {
+  const info = context.schema.info(path);
+  const test = key(path);
+  const wrong = h("p", { class: "wrong", id: id(), "data-test": `${test}.wrong`, role: "alert" });
+  labelled.id ||= id();
+  labelled.dataset.test ??= test;
+  const says = look.help ?? (info ? help(info) : "");
+  if (says) labelled.setAttribute("aria-description", says);
+  const element = h("div", { class: "field", "data-help": says }, h("label", { for: labelled.id }, look.label ?? info?.label ?? words(String(path.at(-1)))), control, wrong);
+  const mark: Field["mark"] = (at, message) => {
+    const mine = message !== null && (at === test || at.startsWith(`${test}.`));
+    wrong.textContent = mine ? message : "";
+    labelled.setAttribute("aria-invalid", String(mine));
+    labelled.setAttribute("aria-errormessage", wrong.id);
+  };
+  return { element, mark };
+}
+
+const focused = (element: HTMLElement): boolean => element.contains(document.activeElement);
+
+/** A number with its unit. A bare number of the scene stays bare where that is exact. */
+export function quantity(context: Context, path: Path, look: Look = {}): Field {
+  const { scene } = context;
+  const base = context.schema.info(path)?.unit ?? "";
+  const input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", oninput: send, onblur: () => field.update() });
+  const units = h("select", { "aria-label": "unit", "data-test": `${key(path)}.unit`, onchange: convert }, ...options(offered(base).map((unit) => [unit, pretty(unit)])));
+  const { element, mark } = shell(context, path, look, h("div", { class: "control" }, input, base ? units : null), input);
+  let wanted: string | null = null;
+
+  function send(): void {
+    const raw = input.value.trim();
+    const typed = split(raw);
+    if (typed?.unit && factor(typed.unit)) setUnit((wanted = typed.unit));
+    if (raw === "") return scene.edit({ path, value: null });
+    if (!typed) return scene.edit({ path, value: raw });
+    if (!base) return scene.edit({ path, value: typed.unit ? raw : Number(typed.digits) });
+    scene.edit({ path, value: written({ digits: typed.digits, unit: typed.unit || units.value }, typeof scene.value(...path) === "number") });
+  }
+  function convert(): void {
+    wanted = units.value;
+    const now = si(scene.value(...path));
+    if (now === null) return field.update();
+    scene.edit({ path, value: written(inUnit(now, base, wanted), typeof scene.value(...path) === "number") });
+  }
+  function setUnit(unit: string): void {
+    if (![...units.options].some(({ value }) => value === unit)) units.append(...options([[unit, pretty(unit)]]));
+    units.value = unit;
+  }
+  const field: Field = {
+    element,
+    mark,
+    paths: [path],
+    update() {
+      if (focused(input) && scene.busy) return;
+      const value = scene.value(...path);
+      let shown: Quantity | null = null;
+      if (typeof value === "number") shown = inUnit(value, base, wanted ?? undefined);
+      else if (typeof value === "string") shown = split(value) ?? { digits: value, unit: "" };
+      const empty = look.empty?.();
+      const fallback = typeof empty === "number" ? inUnit(empty, base, wanted ?? undefined) : null;
+      input.placeholder = fallback ? fallback.digits : String(empty ?? "");
+      const unit = shown?.unit || fallback?.unit;
+      if (unit && base) setUnit(unit);
+      const text = shown?.digits ?? "";
+      const typed = split(input.value);
+      const same = focused(input) && typed && shown && Number(typed.digits) === Number(text) && (!typed.unit || typed.unit === shown.unit);
+      if (!same && input.value !== text && !(focused(input) && value === input.value)) input.value = text;
+    },
+  };
+  return field;
+}
+
+/** How a scene writes a quantity. */
+function written(quantity: Quantity, asNumber: boolean): Json {
+  const number = asNumber ? bare(quantity) : null;
+  return number !== null && Number.isFinite(number) ? number : `${quantity.digits} ${quantity.unit}`.trim();
+}
+
+export function textField(context: Context, path: Path, look: Look = {}): Field {
+  const input = h("input", { type: "text", autocomplete: "off", oninput: () => context.scene.edit({ path, value: input.value || null }) });
+  const { element, mark } = shell(context, path, look, input, input);
+  const update = (): void => {
+    const value = context.scene.value(...path);
+    const shown = typeof value === "string" ? value : value === undefined ? "" : JSON.stringify(value);
+    if (!(focused(input) && context.scene.busy) && input.value !== shown) input.value = shown;
+    input.readOnly = value !== undefined && typeof value !== "string";
+    input.placeholder = String(look.empty?.() ?? "");
+  };
+  return { element, mark, paths: [path], update };
+}
+
+/** One of several values; the first stands for a key that is absent. */
+export function choice(context: Context, path: Path, choices: [value: Json, label: string][], look: Look = {}): Field {
+  const select = h("select", { onchange: () => context.scene.edit({ path, value: (choices[select.selectedIndex] ?? [null])[0] }) }, ...options(choices.map(([value, label]) => [String(value ?? ""), label])));
+  const { element, mark } = shell(context, path, look, select, select);
+  const update = (): void => {
+    const value = context.scene.value(...path) ?? null;
+    const shown = value === null ? String(choices[0]?.[0] ?? "") : typeof value === "object" ? JSON.stringify(value) : String(value);
+    if (![...select.options].some((option) => option.value === shown)) {
+      choices.push([value, shown]);
+      select.append(...options([[shown, shown]]));
+    }
+    select.value = shown;
+  };
+  return { element, mark, paths: [path], update };
+}
+
+/** Several of a list, as checkboxes. */
+export function several(context: Context, path: Path, names: readonly (readonly [name: string, title: string])[], look: Look = {}): Field {
+  const boxes = names.map(([name, title]) => {
+    const box = h("input", { type: "checkbox", value: name, "data-test": `${key(path)}.${name}`, onchange: send });
+    return { box, label: h("label", { class: "check", title }, box, ` ${name}`) };
+  });
+  const set = h("fieldset", {}, h("legend", {}, look.label ?? words(String(path.at(-1)))), ...boxes.map(({ label }) => label));
+  const wrong = h("p", { class: "wrong", role: "alert" });
+  function send(): void {
+    const chosen = boxes.filter(({ box }) => box.checked).map(({ box }) => box.value);
+    context.scene.edit({ path, value: chosen.length ? chosen : null });
+  }
+  return {
+    element: h("div", { class: "field wide" }, set, wrong),
+    paths: [path],
+    update() {
+      const value = context.scene.value(...path);
+      for (const { box } of boxes) box.checked = Array.isArray(value) && value.includes(box.value);
+    },
+    mark(at, message) {
+      wrong.textContent = at === key(path) || at.startsWith(`${key(path)}.`) ? message : "";
+    },
+  };
+}
+
+/** A number and a scale, such as a hardness. */
+export function withScale(context: Context, path: Path, scales: string[], look: Look = {}): Field {
+  const input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", oninput: send });
+  const select = h("select", { "aria-label": "scale", "data-test": `${key(path)}.scale`, onchange: send }, ...options(scales.map((scale) => [scale, scale])));
+  const { element, mark } = shell(context, path, look, h("div", { class: "control" }, input, select), input);
+  function send(): void {
+    const typed = split(input.value);
+    context.scene.edit({ path, value: input.value.trim() === "" ? null : typed?.unit ? input.value.trim() : `${input.value.trim()} ${select.value}` });
+  }
+  const update = (): void => {
+    if (focused(input) && context.scene.busy) return;
+    const value = context.scene.value(...path);
+    const shown = typeof value === "string" ? split(value) : null;
+    if (shown) {
+      if (![...select.options].some((option) => option.value === shown.unit)) select.append(...options([[shown.unit, shown.unit]]));
+      select.value = shown.unit;
+    }
+    const digits = shown?.digits ?? (typeof value === "string" ? value : "");
+    if (!(focused(input) && split(input.value)?.unit) && input.value !== digits) input.value = digits;
+  };
+  return { element, mark, paths: [path], update };
+}
+
+export interface Alternative {
+  label: string;
+  /** The keys that only this choice has: it is the one chosen if one of them is there. */
+  keys: Path[];
+  /** The edits that begin it. */
+  start?: () => Edit[];
+  field?: Field;
+}
+
+/** A choice between keys of which one is given; choosing another one removes those of the others. */
+export function oneOf({ scene }: Context, test: string, label: string, alternatives: Alternative[], help = ""): Field {
+  const select = h("select", { "data-test": test, id: id(), onchange: change }, ...options(alternatives.map((alternative, index) => [String(index), alternative.label])));
+  const fields = alternatives.flatMap(({ field }) => field ?? []);
+  const given = (path: Path): boolean => scene.value(...path) !== undefined;
+  function change(): void {
+    const chosen = alternatives[select.selectedIndex];
+    const others = alternatives.flatMap((alternative) => (alternative === chosen ? [] : alternative.keys));
+    scene.edit(...others.filter(given).map((path) => ({ path, value: null })), ...(chosen?.start?.() ?? []));
+    show();
+  }
+  function show(): void {
+    alternatives.forEach(({ field }, at) => field && (field.element.hidden = at !== select.selectedIndex));
+  }
+  return {
+    element: h("div", { class: "oneof" }, h("div", { class: "field", "data-help": help }, h("label", { for: select.id }, label), select), ...fields.map(({ element }) => element)),
+    paths: fields.flatMap(({ paths }) => paths),
+    update() {
+      const found = alternatives.findIndex(({ keys }) => keys.some(given));
+      if (!scene.busy) select.selectedIndex = found >= 0 ? found : alternatives.findIndex(({ keys }) => keys.length === 0);
+      show();
+      for (const field of fields) field.update();
+    },
+    mark: (path, message) => fields.forEach((field) => field.mark(path, message)),
+  };
+}
+
+/** Several fields as one. */
+export function group(...fields: (Field | null)[]): Field {
+  const present = fields.filter((field) => field !== null);
+  return {
+    element: h("div", { class: "group" }, ...present.map(({ element }) => element)),
+    paths: present.flatMap(({ paths }) => paths),
+    update: () => present.forEach((field) => field.update()),
+    mark: (path, message) => present.forEach((field) => field.mark(path, message)),
+  };
+}
+
+/** The materials of the scene itself, then the built-in ones. */
+export function materials({ scene, about }: Context): Material[] {
+  const own = scene.value("material");
+  const missing = { aliases: [], source: null, density: null, youngs_modulus: null, poissons_ratio: null, yield_strength: null };
+  return [...(Array.isArray(own) ? own.map((entry) => ({ ...missing, ...(entry as unknown as Material), source: "of this scene" })) : []), ...about.materials];
+}
+
+export function materialOf(context: Context, path: Path): Material | undefined {
+  const name = String(context.scene.value(...path) ?? "").toLowerCase();
+  return name ? materials(context).find((material) => [material.name, ...(material.aliases ?? [])].some((one) => one.toLowerCase() === name)) : undefined;
+}
+
+/** A material by name, searched by any of its names. */
+export function material(context: Context, path: Path, look: Look = {}): Field {
+  const list = h("ul", { role: "listbox", id: id(), "aria-label": "materials", popover: "manual", class: "choices", "data-test": `${key(path)}.list` });
+  const input = h("input", {
+    type: "text", role: "combobox", "aria-autocomplete": "list", "aria-expanded": "false", "aria-controls": list.id, autocomplete: "off", placeholder: "name, number or grade",
+    onfocus: () => (input.select(), open("")), onclick: () => open(""), oninput: () => open(input.value), onblur: () => (close(), field.update()), onkeydown: keys,
+  });
+  const source = h("p", { class: "source", "data-test": `${key(path)}.source` });
+  const { element, mark } = shell(context, path, look, h("div", {}, input, list, source), input);
+  let active = -1;
+
+  function open(search: string): void {
+    const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+    const hits = materials(context).filter((one) => words.every((word) => [one.name, ...(one.aliases ?? []), one.source ?? ""].join(" ").toLowerCase().includes(word)));
+    list.replaceChildren(
+      ...hits.map((one) =>
+        h("li", { role: "option", id: id(), "aria-selected": "false", "data-value": one.name, onmousedown: (event: Event) => (event.preventDefault(), take(one.name)) },
+          h("b", {}, one.name), h("small", {}, [one.youngs_modulus && `${tidy(one.youngs_modulus / 1e9)} GPa`, ...(one.aliases ?? []).slice(0, 3)].filter(Boolean).join(" · "))),
+      ),
+    );
+    active = -1;
+    const box = input.getBoundingClientRect();
+    const below = innerHeight - box.bottom > 260 || box.top < 260;
+    Object.assign(list.style, {
+      left: `${box.left}px`, width: `${box.width}px`, maxHeight: `${Math.min(340, (below ? innerHeight - box.bottom : box.top) - 12)}px`,
+      top: below ? `${box.bottom + 2}px` : "auto", bottom: below ? "auto" : `${innerHeight - box.top + 2}px`,
+    });
+    list.showPopover();
+    input.setAttribute("aria-expanded", "true");
+  }
+  function close(): void {
+    list.hidePopover();
+    input.setAttribute("aria-expanded", "false");
+    input.removeAttribute("aria-activedescendant");
+  }
+  function take(name: string): void {
+    context.scene.edit({ path, value: name || null });
+    input.value = name;
+    close();
+  }
+  function keys(event: KeyboardEvent): void {
+    const rows = [...list.children] as HTMLElement[];
+    const shown = list.matches(":popover-open");
+    if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+      event.preventDefault();
+      if (!shown) return open("");
+      active = (active + (event.key === "ArrowDown" ? 1 : -1) + rows.length) % rows.length;
+      rows.forEach((row, index) => row.setAttribute("aria-selected", String(index === active)));
+      rows[active]?.scrollIntoView({ block: "nearest" });
+      input.setAttribute("aria-activedescendant", rows[active]?.id ?? "");
+    } else if (event.key === "Enter") {
+      take(shown ? (rows[active]?.dataset.value ?? (input.value === "" ? "" : rows.length === 1 ? rows[0]?.dataset.value : undefined) ?? input.value) : input.value);
+    } else if (event.key === "Escape") close();
+  }
+  const field: Field = {
+    element,
+    mark,
+    paths: [path],
+    update() {
+      const value = context.scene.value(...path);
+      if (!focused(input)) input.value = typeof value === "string" ? value : "";
+      const found = materialOf(context, path);
+      source.textContent = found?.source ? `Source: ${found.source}` : "";
+    },
+  };
+  return field;
+}
+
+/** A field for any key, by what the schema says of it; null where a form can't show it. */
+export function anyField(context: Context, path: Path, look: Look = {}): Field | null {
+  const info = context.schema.info(path);
+  if (!info) return null;
+  if (info.types.has("boolean") && info.types.size === 1) {
+    const standard = info.default === true;
+    return choice(context, path, [[null, standard ? "yes (default)" : "no (default)"], [!standard, standard ? "no" : "yes"]], look);
+  }
+  if (info.choices.length && !info.types.has("number") && !info.types.has("array")) {
+    const first = info.default !== undefined && info.default !== null ? `${String(info.default)} (default)` : "default";
+    return choice(context, path, [[null, first], ...info.choices.filter(({ value }) => value !== info.default).map(({ value }): [Json, string] => [value, String(value)])], look);
+  }
+  if (info.types.has("number") || info.types.has("integer")) return quantity(context, path, look);
+  return info.types.has("string") ? textField(context, path, look) : null;
+}

@@ -1,0 +1,244 @@
+// Bodies and impact as a form: what people know about them, in the units that they use. What is rare is folded.
+import type { Edit, Json, LawEntry, Path } from "./contract";
+import { fold, h, id } from "./dom";
+import { type Alternative, anyField, choice, type Context, type Field, group, material, materialOf, oneOf, quantity, several, textField, withScale } from "./fields";
+import { placeAt } from "./places";
+import { key } from "./scene";
+import { si } from "./units";
+
+const SCALES = ["HBW 10/3000", "HBW 2.5/187.5", "HV10", "HV1", "HRC", "HRB", "HLD"];
+/** Keys that only an elastic body has. */
+const ELASTIC = ["material", "youngs_modulus", "poissons_ratio"];
+const STRENGTH = ["yield_strength", "hardness", "tensile_strength", "power_law", "tensile_test"];
+
+type Body = "impactor" | "target";
+const set = (path: Path, value: Json): Edit => ({ path, value });
+
+/** The strength of a body by what is known of it. */
+function strength(context: Context, body: Body): Field {
+  const at = (name: string): Path => [body, name];
+  const known = (): number => materialOf(context, at("material"))?.yield_strength ?? 300e6;
+  const megapascals = (value: number): string => `${Math.round(value / 1e6)} MPa`;
+  const powerLaw = ["coefficient", "exponent"].map((name) => quantity(context, [body, "power_law", name]));
+  const test = ["proof_stress", "tensile_strength"].map((name) => quantity(context, [body, "tensile_test", name]));
+  return oneOf(context, `${body}.strength`, "Strength", [
+    { label: "as the material", keys: [] },
+    { label: "yield strength", keys: [at("yield_strength")], start: () => [set(at("yield_strength"), megapascals(known()))], field: quantity(context, at("yield_strength")) },
+    { label: "hardness", keys: [at("hardness")], start: () => [set(at("hardness"), "200 HV10")], field: withScale(context, at("hardness"), SCALES) },
+    { label: "tensile strength", keys: [at("tensile_strength")], start: () => [set(at("tensile_strength"), "500 MPa")], field: quantity(context, at("tensile_strength")) },
+    { label: "tensile test", keys: [at("tensile_test")], start: () => [set(at("tensile_test"), { proof_stress: "240 MPa", tensile_strength: "480 MPa" })], field: group(...test) },
+    { label: "power law K εⁿ", keys: [at("power_law")], start: () => [set(at("power_law"), { coefficient: "600 MPa", exponent: 0.2 })], field: group(...powerLaw) },
+  ], "What you know of the strength. A hardness or a tensile strength becomes the yield strength at the strain of this impact.");
+}
+
+const moduli = (context: Context, body: Body): Field[] => {
+  const of = (name: "youngs_modulus" | "poissons_ratio" | "density") => ({ empty: () => materialOf(context, [body, "material"])?.[name] ?? null });
+  return [
+    quantity(context, [body, "youngs_modulus"], of("youngs_modulus")),
+    quantity(context, [body, "poissons_ratio"], of("poissons_ratio")),
+    quantity(context, [body, "density"], of("density")),
+  ];
+};
+
+function elasticity(context: Context, body: Body): Field {
+  const [young, poisson] = moduli(context, body);
+  const at = (name: string): Path => [body, name];
+  const rigid: Alternative[] = body === "impactor" ? [{ label: "rigid", keys: [] }] : [];
+  const start = body === "impactor" ? "bearing steel 52100, hardened" : "mild steel";
+  return oneOf(context, `${body}.body`, "Body", [
+    { label: "elastic: a material", keys: [at("material")], start: () => [set(at("material"), start)], field: material(context, at("material")) },
+    { label: "elastic: own moduli", keys: [at("youngs_modulus"), at("poissons_ratio")], start: () => [set(at("youngs_modulus"), "206 GPa"), set(at("poissons_ratio"), 0.3)], field: group(young!, poisson!) },
+    ...rigid,
+  ], body === "impactor" ? "A rigid body doesn't deform; an elastic one does, and the softer of the two yields." : "");
+}
+
+function laws(context: Context): { element: HTMLElement; update(): void } {
+  const { about, scene } = context;
+  const chosen = h("p", { class: "chosen", "data-test": "law.chosen" });
+  const name = id();
+  const loadings = about.laws.loading.toSorted((a, b) => Number(b.recommended ?? false) - Number(a.recommended ?? false));
+  const radio = (law: LawEntry, damped: boolean): HTMLLabelElement =>
+    h("label", { class: "law", "data-help": law.says }, h("input", { type: "radio", name, value: law.name, "data-test": `law.${law.name}`, onchange: () => take(law.name, damped) }),
+      h("span", {}, h("b", {}, law.title), law.recommended ? h("em", {}, "recommended") : null, h("small", {}, law.validity)));
+  const first = loadings.filter((law) => law.recommended).map((law) => radio(law, false));
+  const others = loadings.filter((law) => !law.recommended).map((law) => radio(law, false));
+  const damped = about.laws.damped.map((law) => radio(law, true));
+  const unloading = choice(context, ["law", "unloading"], [[null, "that of the law"], ...about.laws.unloading.map((law): [Json, string] => [law.name, law.title])]);
+  const details = group(unloading, anyField(context, ["law", "passivity_guard"]));
+  const damping = group(anyField(context, ["law", "restitution"]));
+  function take(loading: string, rateDependent: boolean): void {
+    const [law, factor] = loading.split("/");
+    const given = (keys: string[]): Edit[] => keys.filter((one) => scene.value("law", one) !== undefined).map((one) => set(["law", one], null));
+    const restitution = rateDependent && !/kuwabara|adams/.test(loading);
+    scene.edit(
+      ...given(["unloading", "loading_parameters", "unloading_parameters", "damping_parameters", "passivity_guard", "elastic_restitution", ...(factor ? [] : ["damping"]), ...(restitution ? [] : ["restitution"])]),
+      set(["law", "loading"], law ?? loading),
+      ...(factor ? [set(["law", "damping"], factor)] : []),
+      ...(restitution && scene.value("law", "restitution") === undefined ? [set(["law", "restitution"], 0.7)] : []),
+    );
+  }
+  const folded = fold("Other laws", "law.others", ...others, h("h4", {}, "Rate-dependent, without dents"), ...damped);
+  return {
+    element: h("div", {}, chosen, ...first, damping.element, details.element, folded),
+    update() {
+      const loading = String(scene.value("law", "loading") ?? "");
+      const factor = scene.value("law", "damping");
+      const now = loading ? (typeof factor === "string" ? `${loading}/${factor}` : loading) : (loadings[0]?.name ?? "");
+      const boxes = [...first, ...others, ...damped].map((label) => label.querySelector("input")!);
+      const found = boxes.find(({ value }) => value === now) ?? boxes.find(({ value }) => value.split("/")[0] === now);
+      for (const box of boxes) box.checked = box === found;
+      const isDamped = damped.some((label) => label.contains(found ?? null));
+      const entry = [...about.laws.loading, ...about.laws.damped].find((law) => law.name === found?.value);
+      chosen.textContent = entry && !entry.recommended ? `Law: ${entry.title}` : "";
+      chosen.hidden = !chosen.textContent;
+      damping.element.hidden = !isDamped;
+      details.element.hidden = isDamped;
+      damping.update();
+      details.update();
+    },
+  };
+}
+
+/** The contacts and the bodies that they share: what a list can show; the rest is in the scene's text. */
+function contacts(context: Context): { element: HTMLElement; fields: () => Field[]; update(): void } {
+  const { scene } = context;
+  const lists = h("div", {});
+  let fields: Field[] = [];
+  let shape = "";
+  const length = (name: string): number => ((list) => (Array.isArray(list) ? list.length : 0))(scene.value(name));
+  const entry = (name: string, index: number, ...inside: (Field | null)[]): HTMLElement => {
+    const one = group(...inside);
+    fields.push(one);
+    return h("div", { class: "entry", "data-test": `${name}.${index}` }, one.element, h("button", { type: "button", class: "quiet", "data-test": `${name}.${index}.remove`, onclick: () => scene.edit(set(length(name) > 1 ? [name, index] : [name], null)) }, "Remove"));
+  };
+  const names = (): string[] => ["ground", ...((scene.value("body") ?? []) as { name?: string }[]).map(({ name }) => name ?? "")];
+  const between = (index: number, side: number, label: string): Field => choice(context, ["contact", index, "between", side], names().map((name): [Json, string] => [name, name]), { label });
+  const add = (name: string, more: Edit["value"] = null): void => {
+    const index = length(name);
+    const value = { name: `${name}_${index + 1}`, ...(more as object | null) };
+    scene.edit(...Object.entries(value).map(([one, given]) => set([name, index, one], given as Json)));
+  };
+  return {
+    element: h("div", {}, h("p", { class: "note" }, "Without an entry, the scene has one contact. What differs from the scene goes here; normals and arms of shared bodies into the scene's text."), lists,
+      h("div", { class: "row" }, h("button", { type: "button", "data-test": "contact.add", onclick: () => add("contact", length("body") ? { between: [names().at(-1) ?? "ground", "ground"] } : null) }, "Add a contact"),
+        h("button", { type: "button", "data-test": "body.add", onclick: () => add("body", { mass: "10 g" }) }, "Add a shared body"))),
+    fields: () => fields,
+    update() {
+      const now = [length("contact"), length("body"), names().join()].join(";");
+      if (now !== shape) {
+        shape = now;
+        fields = [];
+        const any = (name: string, index: number, ...rest: string[]): Field | null => anyField(context, [name, index, ...rest]);
+        lists.replaceChildren(
+          ...Array.from({ length: length("body") }, (_, index) => entry("body", index, any("body", index, "name"), any("body", index, "mass"))),
+          ...Array.from({ length: length("contact") }, (_, index) =>
+            entry("contact", index, any("contact", index, "name"), any("contact", index, "count"), any("contact", index, "initial_gap"),
+              ...(length("body") ? [between(index, 0, "Between"), between(index, 1, "and")] : []),
+              anyField(context, ["contact", index, "impactor", "radius"], { label: "Radius, if it differs" }),
+              anyField(context, ["contact", index, "target", "yield_strength"], { label: "Yield strength, if it differs" }))),
+        );
+      }
+      for (const field of fields) field.update();
+    },
+  };
+}
+
+export class Form {
+  readonly element: HTMLElement;
+  readonly #fields: Field[];
+  readonly #rest: { update(): void }[];
+  readonly #contacts: ReturnType<typeof contacts>;
+  readonly #banner = h("div", { class: "banner", role: "alert", "data-test": "mistake", hidden: true });
+
+  constructor(readonly context: Context, readonly show: () => void) {
+    const { scene, about } = context;
+    const any = (...path: Path): Field | null => anyField(context, path);
+    const fields: Field[] = [];
+    const put = (...some: (Field | null)[]): HTMLElement[] => some.flatMap((field) => (field ? (fields.push(field), field.element) : []));
+    const diameter = h("p", { class: "source" });
+    const impactorStrength = strength(context, "impactor");
+    const law = laws(context);
+    const own = contacts(context);
+    const gravity = 9.80665;
+    const speed = (): number => si(scene.value("impact", "speed")) ?? 1;
+    const height = (): number => si(scene.value("impact", "drop_height")) ?? 0.5;
+    const mass = (): Json => scene.value("impact", "mass") ?? "4 g";
+    const round = (value: number): number => Number(value.toPrecision(3));
+    const impact = oneOf(context, "impact.by", "Comes with", [
+      { label: "a drop height", keys: [["impact", "drop_height"]], start: () => [set(["impact", "drop_height"], `${round((100 * speed() ** 2) / (2 * gravity))} cm`)], field: quantity(context, ["impact", "drop_height"], { label: "Drop height" }) },
+      { label: "a speed", keys: [["impact", "speed"]], start: () => [set(["impact", "speed"], `${round(Math.sqrt(2 * gravity * height()))} m/s`)], field: quantity(context, ["impact", "speed"], { label: "Speed" }) },
+    ]);
+    const friction = oneOf(context, "friction.kind", "Friction", [
+      { label: "none", keys: [] },
+      { label: "Coulomb", keys: [["friction"]], start: () => [set(["friction", "coefficient"], 0.1)], field: group(any("friction", "coefficient"), any("friction", "directions")) },
+    ]);
+    const loss = oneOf(context, "law.loss", "Loss below yield", [
+      { label: "none", keys: [] },
+      { label: "a restitution, or waves", keys: [["law", "elastic_restitution"]], start: () => [set(["law", "elastic_restitution"], 0.98)], field: quantity(context, ["law", "elastic_restitution"]) },
+    ]);
+    const rate = (model: string, ...names: string[]): Field => group(choice(context, ["target", "rate", "model"], [[model, model]]), ...names.map((name) => quantity(context, ["target", "rate", name])));
+    const rates = oneOf(context, "target.rate.kind", "Strain rate of the target", [
+      { label: "as the strength says", keys: [] },
+      { label: "Johnson and Cook", keys: [["target", "rate", "c"]], start: () => [set(["target", "rate"], { model: "johnson-cook", c: 0.014, reference_rate: 1 })], field: rate("johnson-cook", "c", "reference_rate") },
+      { label: "Cowper and Symonds", keys: [["target", "rate", "d"]], start: () => [set(["target", "rate"], { model: "cowper-symonds", d: 40.4, q: 5 })], field: rate("cowper-symonds", "d", "q") },
+    ]);
+    const coupling = oneOf(context, "coupling.kind", "The bodies are moved by", [
+      { label: "the importer", keys: [] },
+      { label: "the FMU, in its own steps", keys: [["coupling"]], start: () => [set(["coupling", "effective_mass"], mass())],
+        field: group(any("coupling", "effective_mass"), any("coupling", "master"), several(context, ["coupling", "inputs"], [["external_acceleration", ""], ["effective_mass", ""]])) },
+    ], "With a mass, the FMU is right at any step of the importer.");
+    const section = (title: string, test: string, ...children: (HTMLElement | null)[]): HTMLElement => h("section", { "data-test": test }, h("h3", {}, title), ...children);
+
+    this.element = h("form", { class: "form", "aria-label": "Bodies and impact", onsubmit: (event: Event) => event.preventDefault() },
+      this.#banner,
+      section("Ball", "section.impactor", ...put(quantity(context, ["impactor", "radius"])), diameter, ...put(elasticity(context, "impactor"), impactorStrength),
+        fold("Own numbers, hardening, rod", "impactor.more", ...put(...moduli(context, "impactor"), any("impactor", "hardening_modulus"), any("impactor", "hardening_exponent"), any("impactor", "length"), any("impactor", "area")))),
+      section("Target", "section.target", ...put(elasticity(context, "target"), strength(context, "target"), any("target", "surface")),
+        fold("Own numbers, hardening, shape", "target.more", ...put(...moduli(context, "target"), any("target", "hardening_modulus"), any("target", "hardening_exponent"), quantity(context, ["target", "radius"], { empty: () => "flat" }), any("target", "length"), any("target", "area")))),
+      section("Impact", "section.impact", ...put(impact, quantity(context, ["impact", "mass"], { empty: () => "that of the ball" }))),
+      section("Law", "section.law", law.element),
+      h("div", { class: "folds" },
+        fold("Friction", "fold.friction", ...put(friction)),
+        fold("Losses", "fold.losses", ...put(loss, quantity(context, ["target", "plate_thickness"], { empty: () => "thick" }))),
+        fold("Strain rate", "fold.rate", ...put(rates)),
+        fold("Coupling", "fold.coupling", ...put(coupling)),
+        fold("Outputs and FMU", "fold.fmu", ...put(textField(context, ["name"]), textField(context, ["description"]), textField(context, ["author"]),
+          several(context, ["fmu", "outputs"], about.outputs.filter(({ name }) => name !== "force").map(({ name, description }) => [name, description]), { label: "Outputs beside force" }),
+          any("fmu", "initial_gap"), any("fmu", "step_size"), any("fmu", "stop_time"), any("fmu", "names"), any("fmu", "input_derivatives"), any("fmu", "standalone"), any("impact", "watch"))),
+        fold("Several contacts", "fold.contacts", own.element)),
+    );
+    this.#fields = fields;
+    this.#contacts = own;
+    this.#rest = [law, own, {
+      update: () => {
+        const radius = si(scene.value("impactor", "radius"));
+        diameter.textContent = radius ? `Diameter ${Number((2e3 * radius).toPrecision(6))} mm` : "";
+        impactorStrength.element.hidden = [...ELASTIC, ...STRENGTH].every((name) => scene.value("impactor", name) === undefined);
+      },
+    }];
+    const hint = "Numbers take any unit: 5 mm, 0.2 in, 1.5 kN/mm^2. Help for the field in use appears here.";
+    const strip = h("p", { class: "help", "aria-hidden": "true", "data-test": "help" }, hint);
+    const explain = (event: Event): void => void (strip.textContent = (event.target as HTMLElement).closest<HTMLElement>("[data-help]")?.dataset.help || hint);
+    this.element.addEventListener("focusin", explain);
+    this.element.addEventListener("mouseover", explain);
+    this.element.append(strip);
+    scene.onCheck(() => this.update());
+  }
+
+  update(): void {
+    const { scene } = this.context;
+    for (const part of [...this.#fields, ...this.#rest]) part.update();
+    const mistake = scene.check.mistakes[0];
+    const place = mistake && placeAt(scene.places, mistake.from);
+    const at = place ? key(place.path) : "";
+    const all = [...this.#fields, ...this.#contacts.fields()];
+    for (const field of all) field.mark(at, mistake ? mistake.message : null);
+    this.#banner.hidden = !mistake;
+    if (mistake) this.#banner.replaceChildren(h("span", {}, mistake.message), h("button", { type: "button", "data-test": "mistake.show", onclick: () => this.show() }, `Line ${mistake.line}`));
+    this.element.classList.toggle("stale", scene.check.values === null);
+    for (const { element } of all) {
+      const folded = element.closest("details");
+      if (folded && mistake && element.querySelector('[aria-invalid="true"]')) folded.open = true;
+    }
+  }
+}

@@ -1,0 +1,77 @@
+// A scene by link, by file, and by dropping a file anywhere.
+import { describe, h, toast } from "./dom";
+import { copy } from "./download";
+import { type Engine, through } from "./engine";
+import type { Scene } from "./scene";
+
+/** The scene in an address: deflated, in the alphabet of addresses. */
+export async function packed(text: string): Promise<string> {
+  const bytes = new Uint8Array(await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw")));
+  return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+}
+
+export async function unpacked(fragment: string): Promise<string> {
+  const binary = atob(fragment.replaceAll("-", "+").replaceAll("_", "/"));
+  const bytes = await through(Uint8Array.from(binary, (character) => character.charCodeAt(0)), new DecompressionStream("deflate-raw"));
+  return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+}
+
+/** The scene that the page's address has, if any. */
+export async function linked(): Promise<string | null> {
+  const fragment = /^#scene=(.+)$/.exec(location.hash)?.[1];
+  if (!fragment) return null;
+  try {
+    return await unpacked(fragment);
+  } catch {
+    toast("The scene in this link is damaged: was it cut?");
+    return null;
+  }
+}
+
+export class Share {
+  readonly element: HTMLElement;
+  readonly #link = h("textarea", { readonly: true, rows: 4, "aria-label": "link to this scene", "data-test": "link", onfocus: () => this.#link.select() });
+
+  constructor(scene: Scene) {
+    this.element = h("div", { class: "share" },
+      h("p", {}, "This link holds the whole scene. Whoever opens it sees what you see."), this.#link,
+      h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "link.copy", onclick: () => void copy(this.#link.value) }, "Copy link")),
+      h("p", { class: "note" }, "Nothing is ever sent anywhere: a browser keeps what stands behind the # to itself, and this page forbids itself every connection (its content security policy says default-src 'none'). It works without a network; save it and keep it."));
+    scene.onCheck(async () => {
+      const text = scene.text;
+      const fragment = await packed(text);
+      if (text === scene.text) this.#link.value = `${location.href.replace(/#.*/, "")}#scene=${fragment}`;
+    });
+  }
+}
+
+async function sceneIn(file: File, engine: Engine): Promise<string> {
+  if (/\.fmu$/i.test(file.name)) return (await engine.ask("scene_of", {}, new Uint8Array(await file.arrayBuffer()))).ok.text;
+  return file.text();
+}
+
+/** Opens files that are dropped or chosen. */
+export function files(engine: Engine, open: (text: string, name: string) => void): { choose(): void } {
+  const take = async (file: File | undefined): Promise<void> => {
+    if (!file) return;
+    try {
+      open(await sceneIn(file, engine), file.name);
+    } catch (error) {
+      toast(`${file.name}: ${describe(error)}`);
+    }
+  };
+  const input = h("input", { type: "file", accept: ".toml,.fmu", hidden: true, "data-test": "file", onchange: () => (void take(input.files?.[0]), (input.value = "")) });
+  const shade = h("div", { class: "drop", hidden: true, "data-test": "drop" }, h("p", {}, "Drop a scene (.toml) or an FMU"));
+  document.body.append(input, shade);
+  addEventListener("dragover", (event) => (event.preventDefault(), (shade.hidden = false)));
+  addEventListener("dragleave", (event) => event.relatedTarget === null && (shade.hidden = true));
+  const drop = (event: DragEvent): void => {
+    if (!event.dataTransfer?.files.length) return;
+    event.preventDefault();
+    event.stopPropagation(); // before the editor takes the file's text
+    shade.hidden = true;
+    void take(event.dataTransfer.files[0]);
+  };
+  addEventListener("drop", drop, true);
+  return { choose: () => input.click() };
+}
