@@ -5,7 +5,9 @@ import { h } from "./dom";
 import { digits, pretty, scaled } from "./units";
 
 export interface Line {
-  label: string;
+  law: string;
+  /** What it is, if that of its chart is not enough. */
+  what?: string;
   /** Colour, by the law's place in the list. */
   colour: number;
   x: number[];
@@ -21,6 +23,7 @@ export interface Axes {
   x: { label: string; unit: string; logarithmic?: boolean };
   y: { label: string; unit: string };
   right?: { label: string; unit: string };
+  dashed: string;
 }
 
 const css = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -76,7 +79,7 @@ export class Chart {
     const scales = sides.map((side, index) => scaled(Math.max(...side.map((line) => largest(line.y))), (index ? right?.unit : y.unit) ?? ""));
     const points = lines.length ? grid(lines) : [];
     const data = [points.map((point) => point / horizontal.factor), ...lines.map((line) => points.map((point) => ((value) => value === null ? null : value / scales[line.right ? 1 : 0]!.factor)(read(line, point))))] as uPlot.AlignedData;
-    const shape = JSON.stringify([horizontal, scales, lines.map(({ label, colour, thin, dashed }) => [label, colour, thin, dashed])]);
+    const shape = JSON.stringify([horizontal, scales, lines.map(({ law, what, colour }) => [law, what, colour])]);
     if (shape === this.#shape && this.#uplot) {
       this.#uplot.setData(data);
       this.#read(this.#uplot.cursor.idx ?? null);
@@ -86,7 +89,7 @@ export class Chart {
     this.#uplot?.destroy();
     const axis = (label: string, unit: string, side: number, grid: boolean, scale: string): uPlot.Axis => ({
       label: unit ? `${label} [${pretty(unit)}]` : label, side, scale, stroke: css("--muted"), font: "11px system-ui", labelFont: "11px system-ui", labelSize: 16, labelGap: 0,
-      size: side === 2 ? 26 : 44, gap: 2, grid: { show: grid, stroke: css("--line"), width: 1 }, ticks: { show: false }, space: side === 2 ? 56 : 32,
+      size: side === 2 ? 26 : 44, gap: 2, grid: { show: grid, stroke: css("--line"), width: 1 }, ticks: { show: false }, space: side === 2 ? 44 : 32,
       values: (_, splits) => splits.map((split) => (split === null ? "" : digits(split, 3))),
     });
     this.#uplot = new uPlot({
@@ -94,7 +97,7 @@ export class Chart {
       padding: [8, right ? 4 : 12, 0, 0],
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
-      scales: { x: { time: false, distr: x.logarithmic ? 3 : 1 }, y: { range: (_, low, high) => [Math.min(0, low), (high || 1) * 1.05] }, right: { range: (_, _low, high) => [0, (high || 1) * 1.05] } },
+      scales: { x: { time: false, distr: x.logarithmic ? 3 : 1, range: (_, low, high) => [low, high] }, y: { range: (_, low, high) => [Math.min(0, low), (high || 1) * 1.05] }, right: { range: (_, _low, high) => [0, (high || 1) * 1.05] } },
       axes: [axis(x.label, horizontal.unit, 2, true, "x"), axis(y.label, scales[0]!.unit, 3, true, "y"), ...(right ? [axis(right.label, scales[1]!.unit, 1, false, "right")] : [])],
       series: [{}, ...lines.map((line): uPlot.Series => ({
         scale: line.right ? "right" : "y", stroke: css(`--series-${line.colour % 6}`), width: line.thin ? 1 : 2, dash: line.dashed ? [5, 4] : undefined, points: { show: false }, pxAlign: 0,
@@ -126,14 +129,15 @@ export class Chart {
     const inside = index !== null && (plot.cursor.left ?? -1) >= 0;
     const parts = this.#lines.flatMap((line, at) => {
       const value = inside ? plot.data[at + 1]?.[index] : undefined;
-      if (inside ? value === null || value === undefined : line.thin) return [];
+      if (inside ? value === null || value === undefined : line.dashed) return [];
       const side = line.right ? right : y;
       const number = typeof value === "number" ? value * scaledBy(this.#lines, line.right ?? false, side?.unit ?? "") : null;
       const swatch = h("i", { style: `--c: var(--series-${line.colour % 6})`, class: line.dashed ? "dashed" : "" });
-      return [h("span", {}, swatch, number === null ? line.label : `${line.label} `, number === null ? null : h("b", {}, spoken(number, side?.unit ?? "")))];
+      if (number === null) return [h("span", {}, swatch, line.law)];
+      return [h("span", {}, swatch, `${[line.law, line.what].filter(Boolean).join(", ")} `, h("b", {}, spoken(number, side?.unit ?? "")))];
     });
     const place = inside ? spoken(plot.data[0][index]! * (x.logarithmic ? 1 : scaled(Math.max(...this.#lines.map((line) => largest(line.x))), x.unit).factor), x.unit) : "";
-    this.#readout.replaceChildren(...(place ? [h("span", { class: "at" }, `${x.label} `, h("b", {}, place))] : []), ...parts);
+    this.#readout.replaceChildren(h("span", { class: "at" }, ...(place ? [`${x.label} `, h("b", {}, place)] : [this.axes.dashed])), ...parts);
   }
 }
 

@@ -8,7 +8,7 @@ import type { Scene } from "./scene";
 type Platform = About["platforms"][number];
 
 const TITLES: { [folder: string]: string } = {
-  win64: "Windows", linux64: "Linux, Intel and AMD", darwin64: "macOS", "aarch64-linux": "Linux, ARM", c_code: "C code",
+  win64: "Windows", linux64: "Linux, Intel and AMD", darwin64: "macOS", "aarch64-linux": "Linux, ARM", "aarch64-darwin": "macOS, Apple silicon only", "c-code": "C code",
 };
 
 /** The folder of the visitor's own system. */
@@ -87,8 +87,8 @@ export class Download {
     const mass = prediction?.mass ?? 1;
     const law = prediction?.laws[0];
     const step = Number((((law?.loading_time ?? 1e-5) + (law?.unloading_time ?? 1e-5)) / 200).toPrecision(2));
-    const first = Array.isArray(this.scene.value("contact"));
-    return first ? this.#several() : `from fmpy import extract, read_model_description
+    const force = this.scene.value("coupling") === undefined ? "force" : "mean_force";
+    return this.scene.value("contact") !== undefined ? this.#several() : `from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
 description = read_model_description("${this.#name()}.fmu")
@@ -105,7 +105,7 @@ largest = 0.0
 while True:
     unit.setReal([variables["indentation_rate"]], [speed])
     unit.doStep(currentCommunicationPoint=time, communicationStepSize=step)
-    [force] = unit.getReal([variables["force"]])
+    [force] = unit.getReal([variables["${force}"]])
     largest = max(largest, force)
     speed -= force / mass * step
     time += step

@@ -20,19 +20,16 @@ const colours = HighlightStyle.define([
   { tag: [tags.propertyName, tags.definition(tags.propertyName)], color: "var(--key)" },
 ]);
 
-/** The names that a key's value may be: of the schema, and materials, outputs and laws by their lists. */
+/** What a key's value may be: by the schema, and materials with their sources. */
 function valuesOf(path: Path, schema: Schema, about: About): Completion[] {
   const quoted = (value: Json, detail?: string): Completion => ({ label: JSON.stringify(value), detail, type: "enum" });
   const keys = path.filter((step) => typeof step === "string");
   const name = keys.at(-1);
   if (name === "material") return about.materials.map((material) => quoted(material.name, material.source ?? undefined));
-  if (name === "outputs") return about.outputs.map((output) => quoted(output.name, output.description));
-  if (keys[0] === "law" && name === "loading") return [...about.laws.loading, ...about.laws.damped].map((law) => quoted(law.name, law.title));
-  if (keys[0] === "law" && name === "unloading") return about.laws.unloading.map((law) => quoted(law.name, law.title));
-  const info = schema.info(path);
+  const info = schema.info(name === "outputs" ? [...path, 0] : path);
   if (!info) return [];
-  const choices = info.types.has("boolean") ? [true, false] : info.choices.map(({ value }) => value);
-  return [...new Set(choices), ...info.examples].map((value) => quoted(value));
+  if (info.types.has("boolean")) return [quoted(true), quoted(false)];
+  return [...info.choices.map(({ value, description }) => quoted(value, description)), ...info.examples.map((value) => quoted(value))];
 }
 
 function complete(context: CompletionContext, schema: Schema, about: About): CompletionResult | null {

@@ -3,7 +3,7 @@ import type { About, Edit, Json, Material, Path } from "./contract";
 import { h, id, options } from "./dom";
 import { key, type Scene } from "./scene";
 import { help, type Schema, words } from "./schema";
-import { bare, inUnit, offered, pretty, type Quantity, si, split, tidy, factor } from "./units";
+import { bare, factor, inUnit, pretty, type Quantity, si, split, tidy, usual } from "./units";
 
 export interface Context {
   scene: Scene;
@@ -49,11 +49,14 @@ const focused = (element: HTMLElement): boolean => element.contains(document.act
 /** A number with its unit. A bare number of the scene stays bare where that is exact. */
 export function quantity(context: Context, path: Path, look: Look = {}): Field {
   const { scene } = context;
-  const base = context.schema.info(path)?.unit ?? "";
+  const info = context.schema.info(path);
+  const base = info?.unit ?? "";
+  const offered = info?.units.length ? info.units : [base];
   const input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", oninput: send, onblur: () => field.update() });
-  const units = h("select", { "aria-label": "unit", "data-test": `${key(path)}.unit`, onchange: convert }, ...options(offered(base).map((unit) => [unit, pretty(unit)])));
+  const units = h("select", { "aria-label": "unit", "data-test": `${key(path)}.unit`, onchange: convert }, ...options(offered.map((unit) => [unit, pretty(unit)])));
   const { element, mark } = shell(context, path, look, h("div", { class: "control" }, input, base ? units : null), input);
   let wanted: string | null = null;
+  if (base) setUnit(usual(base));
 
   function send(): void {
     const raw = input.value.trim();
@@ -68,7 +71,7 @@ export function quantity(context: Context, path: Path, look: Look = {}): Field {
     wanted = units.value;
     const now = si(scene.value(...path));
     if (now === null) return field.update();
-    scene.edit({ path, value: written(inUnit(now, base, wanted), typeof scene.value(...path) === "number") });
+    scene.edit({ path, value: written(inUnit(now, base, offered, wanted), typeof scene.value(...path) === "number") });
   }
   function setUnit(unit: string): void {
     if (![...units.options].some(({ value }) => value === unit)) units.append(...options([[unit, pretty(unit)]]));
@@ -82,10 +85,11 @@ export function quantity(context: Context, path: Path, look: Look = {}): Field {
       if (focused(input) && scene.busy) return;
       const value = scene.value(...path);
       let shown: Quantity | null = null;
-      if (typeof value === "number") shown = inUnit(value, base, wanted ?? undefined);
+      if (typeof value === "number") shown = inUnit(value, base, offered, wanted ?? undefined);
       else if (typeof value === "string") shown = split(value) ?? { digits: value, unit: "" };
-      const empty = look.empty?.();
-      const fallback = typeof empty === "number" ? inUnit(empty, base, wanted ?? undefined) : null;
+      const standard = info?.absent || (info?.default ?? "");
+      const empty = look.empty ? look.empty() : typeof standard === "number" || typeof standard === "string" ? standard : null;
+      const fallback = typeof empty === "number" ? inUnit(empty, base, offered, wanted ?? undefined) : null;
       input.placeholder = fallback ? fallback.digits : String(empty ?? "");
       const unit = shown?.unit || fallback?.unit;
       if (unit && base) setUnit(unit);
@@ -264,7 +268,7 @@ export function material(context: Context, path: Path, look: Look = {}): Field {
     const box = input.getBoundingClientRect();
     const below = innerHeight - box.bottom > 260 || box.top < 260;
     Object.assign(list.style, {
-      left: `${box.left}px`, width: `${box.width}px`, maxHeight: `${Math.min(340, (below ? innerHeight - box.bottom : box.top) - 12)}px`,
+      left: `${box.left}px`, width: `${Math.min(340, innerWidth - box.left - 8)}px`, maxHeight: `${Math.min(340, (below ? innerHeight - box.bottom : box.top) - 12)}px`,
       top: below ? `${box.bottom + 2}px` : "auto", bottom: below ? "auto" : `${innerHeight - box.top + 2}px`,
     });
     list.showPopover();
@@ -317,7 +321,7 @@ export function anyField(context: Context, path: Path, look: Look = {}): Field |
     return choice(context, path, [[null, standard ? "yes (default)" : "no (default)"], [!standard, standard ? "no" : "yes"]], look);
   }
   if (info.choices.length && !info.types.has("number") && !info.types.has("array")) {
-    const first = info.default !== undefined && info.default !== null ? `${String(info.default)} (default)` : "default";
+    const first = info.default !== undefined && info.default !== null ? `${String(info.default)} (default)` : info.absent || "default";
     return choice(context, path, [[null, first], ...info.choices.filter(({ value }) => value !== info.default).map(({ value }): [Json, string] => [value, String(value)])], look);
   }
   if (info.types.has("number") || info.types.has("integer")) return quantity(context, path, look);

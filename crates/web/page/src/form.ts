@@ -1,5 +1,5 @@
 // Bodies and impact as a form: what people know about them, in the units that they use. What is rare is folded.
-import type { Edit, Json, LawEntry, Path } from "./contract";
+import type { Edit, Json, LawEntry, Mistake, Path } from "./contract";
 import { fold, h, id } from "./dom";
 import { type Alternative, anyField, choice, type Context, type Field, group, material, materialOf, oneOf, quantity, several, textField, withScale } from "./fields";
 import { placeAt } from "./places";
@@ -59,21 +59,19 @@ function laws(context: Context): { element: HTMLElement; update(): void } {
   const loadings = about.laws.loading.toSorted((a, b) => Number(b.recommended ?? false) - Number(a.recommended ?? false));
   const radio = (law: LawEntry, damped: boolean): HTMLLabelElement =>
     h("label", { class: "law", "data-help": law.says }, h("input", { type: "radio", name, value: law.name, "data-test": `law.${law.name}`, onchange: () => take(law.name, damped) }),
-      h("span", {}, h("b", {}, law.title), law.recommended ? h("em", {}, "recommended") : null, h("small", {}, law.validity)));
+      h("span", {}, h("b", {}, law.title), law.recommended ? h("em", {}, "recommended") : null, law.recommended ? null : h("small", {}, law.validity)));
   const first = loadings.filter((law) => law.recommended).map((law) => radio(law, false));
   const others = loadings.filter((law) => !law.recommended).map((law) => radio(law, false));
   const damped = about.laws.damped.map((law) => radio(law, true));
   const unloading = choice(context, ["law", "unloading"], [[null, "that of the law"], ...about.laws.unloading.map((law): [Json, string] => [law.name, law.title])]);
   const details = group(unloading, anyField(context, ["law", "passivity_guard"]));
-  const damping = group(anyField(context, ["law", "restitution"]));
+  const damping = group(anyField(context, ["law", "restitution"]), anyField(context, ["law", "damping"]));
   function take(loading: string, rateDependent: boolean): void {
-    const [law, factor] = loading.split("/");
     const given = (keys: string[]): Edit[] => keys.filter((one) => scene.value("law", one) !== undefined).map((one) => set(["law", one], null));
     const restitution = rateDependent && !/kuwabara|adams/.test(loading);
     scene.edit(
-      ...given(["unloading", "loading_parameters", "unloading_parameters", "damping_parameters", "passivity_guard", "elastic_restitution", ...(factor ? [] : ["damping"]), ...(restitution ? [] : ["restitution"])]),
-      set(["law", "loading"], law ?? loading),
-      ...(factor ? [set(["law", "damping"], factor)] : []),
+      ...given(["unloading", "loading_parameters", "unloading_parameters", "damping_parameters", "passivity_guard", "elastic_restitution", "damping", ...(restitution ? [] : ["restitution"])]),
+      set(["law", "loading"], loading),
       ...(restitution && scene.value("law", "restitution") === undefined ? [set(["law", "restitution"], 0.7)] : []),
     );
   }
@@ -81,11 +79,9 @@ function laws(context: Context): { element: HTMLElement; update(): void } {
   return {
     element: h("div", {}, chosen, ...first, damping.element, details.element, folded),
     update() {
-      const loading = String(scene.value("law", "loading") ?? "");
-      const factor = scene.value("law", "damping");
-      const now = loading ? (typeof factor === "string" ? `${loading}/${factor}` : loading) : (loadings[0]?.name ?? "");
+      const now = scene.value("law", "loading") ?? loadings[0]?.name;
       const boxes = [...first, ...others, ...damped].map((label) => label.querySelector("input")!);
-      const found = boxes.find(({ value }) => value === now) ?? boxes.find(({ value }) => value.split("/")[0] === now);
+      const found = boxes.find(({ value }) => value === now);
       for (const box of boxes) box.checked = box === found;
       const isDamped = damped.some((label) => label.contains(found ?? null));
       const entry = [...about.laws.loading, ...about.laws.damped].find((law) => law.name === found?.value);
@@ -150,7 +146,7 @@ export class Form {
   readonly #contacts: ReturnType<typeof contacts>;
   readonly #banner = h("div", { class: "banner", role: "alert", "data-test": "mistake", hidden: true });
 
-  constructor(readonly context: Context, readonly show: () => void) {
+  constructor(readonly context: Context, readonly show: (mistake: Mistake) => void) {
     const { scene, about } = context;
     const any = (...path: Path): Field | null => anyField(context, path);
     const fields: Field[] = [];
@@ -233,8 +229,9 @@ export class Form {
     const at = place ? key(place.path) : "";
     const all = [...this.#fields, ...this.#contacts.fields()];
     for (const field of all) field.mark(at, mistake ? mistake.message : null);
-    this.#banner.hidden = !mistake;
-    if (mistake) this.#banner.replaceChildren(h("span", {}, mistake.message), h("button", { type: "button", "data-test": "mistake.show", onclick: () => this.show() }, `Line ${mistake.line}`));
+    const marked = all.some(({ element }) => element.querySelector('[aria-invalid="true"], .wrong:not(:empty)'));
+    this.#banner.hidden = !mistake || marked;
+    if (mistake) this.#banner.replaceChildren(h("span", {}, mistake.message), h("button", { type: "button", "data-test": "mistake.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`));
     this.element.classList.toggle("stale", scene.check.values === null);
     for (const { element } of all) {
       const folded = element.closest("details");

@@ -7,19 +7,20 @@
 //   target.material.list            the list of materials, with `data-value` on each entry
 //   law.NAME, compare.NAME          a law of the scene; one to compare
 //   contact.add, contact.0.remove   entries of several contacts, and body.* of shared bodies
-//   fold.*, *.more, law.others      folded parts; mistake, mistake.show: the banner of a wrong scene
+//   fold.*, *.more, law.others      folded parts; mistake, mistake.show: a message that belongs to no field
 //   editor                          the text of the scene
-//   headline, card.*, problem, warnings, notes, words, comparison, regimes       what will happen
+//   headline, summary, card.*, problem, problem.show, warnings, notes, words, comparison, regimes       what will happen
 //   chart.curve, chart.history, chart.sweep with .plot and .readout; slider.speed, slider.radius, slider.strength
 //   tab.NAME, panel.NAME            result, try, download, tools, link; on a phone also form and text
 //   undo, redo, open, new, file, export       the head of the page; file is the hidden input
 //   platform.FOLDER, download.*     fmu, toml, python, copy, csv, history, svg, state
 //   try.*, way.NAME, tools.*, link, link.copy, toast
-import { type Context } from "./fields";
+import type { Mistake } from "./contract";
 import { describe, h, toast } from "./dom";
 import { Download } from "./download";
 import { Editor } from "./editor";
 import { compiled, Engine } from "./engine";
+import type { Context } from "./fields";
 import { Form } from "./form";
 import { Results } from "./results";
 import { Scene } from "./scene";
@@ -45,6 +46,8 @@ outputs = ["indentation", "residual_indentation", "dissipated_energy"]
 [impact]
 drop_height = "50 cm"
 `;
+
+const phone = matchMedia("(max-width: 760px)");
 
 interface Tab {
   name: string;
@@ -93,12 +96,12 @@ async function start(): Promise<void> {
   const context: Context = { scene, schema: new Schema(root.ok), about: about.ok };
 
   const text = h("section", { "aria-label": "scene file" });
-  const results = new Results(context);
-  const form = new Form(context, () => {
-    select("text");
-    const mistake = scene.check.mistakes[0];
-    if (mistake) editor.show(mistake);
-  });
+  const show = (mistake: Mistake): void => {
+    if (phone.matches) select("text");
+    editor.show(mistake);
+  };
+  const results = new Results(context, show);
+  const form = new Form(context, show);
   const download = new Download(scene, results, workshop, about.ok);
   const tryit = new TryIt(scene, results, module);
   const tools = new Tools(scene, workshop, about.ok);
@@ -123,7 +126,7 @@ async function start(): Promise<void> {
     h("div", { class: "row" }, undo, redo, button("new", "New", "Start with a commented scene", async () => editor.open((await engine.ask("new", { name: "ball" })).ok.text)),
       button("open", "Open", "Open a scene (.toml) or an FMU; or drop one anywhere", () => chooser.choose()), button("export", "FMU", "Make the FMU and download it", () => (select("download"), void download.fmu()), "primary")));
   const [formPart, textPart, ...others] = parts.map(({ panel }) => panel);
-  document.body.append(head, bar, h("main", {}, formPart!, h("div", { class: "middle" }, ...others), textPart!), h("pre", { class: "printed", "aria-hidden": "true" }));
+  document.body.append(head, results.summary, bar, h("main", {}, formPart!, h("div", { class: "middle" }, ...others), textPart!), h("pre", { class: "printed", "aria-hidden": "true" }));
   const editor = new Editor(text, scene, context.schema, about.ok, link ?? FIRST);
   select("result");
 

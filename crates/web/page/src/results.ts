@@ -1,11 +1,12 @@
 // What will happen: the impact in words and numbers, its curves, and sliders to play with it. Every answer is of the newest text.
-import type { About, Columns, Predict, Prediction } from "./contract";
+import type { About, Columns, Mistake, Predict, Prediction } from "./contract";
 import { Chart, type Line } from "./charts";
 import { describe, fold, h } from "./dom";
 import type { Context } from "./fields";
 import { materialOf } from "./fields";
+import { Refusal } from "./engine";
 import type { Scene } from "./scene";
-import { bare, format, inUnit, pretty, si, split } from "./units";
+import { bare, digits, format, inUnit, pretty, si, split } from "./units";
 
 const percent = (part: number): string => `${Number((100 * part).toPrecision(3))} %`;
 
@@ -43,7 +44,7 @@ function knob(scene: Scene, test: string, label: string, target: () => { path: (
     const value = Number((middle * 10 ** Number(slider.value)).toPrecision(3));
     const before = scene.value(...now.path);
     const unit = typeof before === "string" ? split(before)?.unit : undefined;
-    const quantity = now.scale === undefined ? inUnit(value, now.unit, typeof before === "string" ? unit : undefined) : { digits: String(value), unit: now.scale };
+    const quantity = now.scale === undefined ? inUnit(value, now.unit, ["um", "mm", "m", "MPa", "GPa", "mm/s", "m/s"], unit) : { digits: String(value), unit: now.scale };
     quantity.digits = String(Number(Number(quantity.digits).toPrecision(3)));
     scene.edit({ path: now.path, value: typeof before === "number" ? (bare(quantity) ?? value) : `${quantity.digits} ${quantity.unit}`.trim() });
     show(value, now);
@@ -58,7 +59,7 @@ function knob(scene: Scene, test: string, label: string, target: () => { path: (
       slider.disabled = !now;
       if (!now) return void (output.textContent = "–");
       const written = scene.value(...now.path);
-      if (typeof written === "string") output.textContent = pretty(written);
+      if (typeof written === "string") output.textContent = written.replace(/ .*/, (unit) => ` ${pretty(unit.trim())}`);
       else show(now.value, now);
       name.textContent = now.path.at(-1) === "drop_height" ? "Drop height" : label;
       const fits = middle && Math.abs(Math.log10(now.value / middle)) <= 1;
@@ -97,7 +98,7 @@ function sentence(law: Prediction): string {
 }
 
 function card(test: string, label: string, value: string, more: string): HTMLElement {
-  const [number = "", ...unit] = value.split(" ");
+  const [number = "", ...unit] = /^\d/.test(value) ? value.split(" ") : [value];
   return h("div", { class: "card", "data-test": `card.${test}` }, h("dt", {}, label), h("dd", {}, h("b", {}, number), h("span", {}, unit.join(" ")), h("small", {}, more)));
 }
 
@@ -109,7 +110,7 @@ function cards(law: Prediction): HTMLElement[] {
     card("restitution", "Restitution", String(Number(law.restitution.toPrecision(4))), `leaves with ${format(law.rebound_speed, "m/s", 3)}`),
     card("time", "Contact time", format(time, "s"), `${format(law.loading_time, "s", 3)} in, ${format(law.unloading_time, "s", 3)} out`),
     card("energy", "Energy lost", format(law.energy_lost, "J"), `${percent(law.energy_lost / law.kinetic_energy)} of ${format(law.kinetic_energy, "J", 3)}`),
-    card("regime", "Regime", law.regime_name.replace(" (", " ("), law.onsets.length ? "" : "at any speed"),
+    card("regime", "Regime", law.regime_name.replace(/ \(.*/, ""), /\((.*)\)/.exec(law.regime_name)?.[1] ?? (law.onsets.length ? "" : "at any speed")),
   ];
 }
 
@@ -140,13 +141,12 @@ function cycle(answer: Columns, from: number): Line[] {
         piece.y.reverse();
       }
       const last = end === x.length;
-      const label = `${law.law}${rises ? "" : ", unloading"}`;
       if (rises) {
         const beyond = piece.x.findIndex((one) => one > deepest);
-        if (deepest > 0) lines.push({ label: `${law.law}, again`, colour: from + index, thin: true, dashed: true, x: piece.x.slice(0, beyond), y: piece.y.slice(0, beyond) });
-        lines.push({ label, colour: from + index, x: piece.x.slice(Math.max(0, beyond - 1)), y: piece.y.slice(Math.max(0, beyond - 1)), thin: deepest > 0 && !last && end < x.length ? false : undefined });
+        if (deepest > 0) lines.push({ law: law.law, what: "again", colour: from + index, thin: true, dashed: true, x: piece.x.slice(0, beyond), y: piece.y.slice(0, beyond) });
+        lines.push({ law: law.law, colour: from + index, x: piece.x.slice(Math.max(0, beyond - 1)), y: piece.y.slice(Math.max(0, beyond - 1)) });
         deepest = piece.x.at(-1) ?? deepest;
-      } else lines.push({ label, colour: from + index, dashed: true, thin: !last, ...piece });
+      } else lines.push({ law: law.law, what: "unloading", colour: from + index, dashed: true, thin: !last, ...piece });
       start = end - 1;
     }
     return joined(lines);
@@ -161,11 +161,13 @@ function joined(lines: Line[]): Line[] {
   return [{ ...first, x: loading.flatMap(({ x }) => x), y: loading.flatMap(({ y }) => y) }, ...lines.filter((line) => !more.includes(line) && line !== first)];
 }
 
-const plain = (answer: Columns, x: string, y: string, from: number, more: Partial<Line> = {}, label = ""): Line[] =>
-  answer.laws.map((law, index) => ({ label: law.law + label, colour: from + index, x: law[x] as number[], y: law[y] as number[], ...more }));
+const plain = (answer: Columns, x: string, y: string, from: number, more: Partial<Line> = {}): Line[] =>
+  answer.laws.map((law, index) => ({ law: law.law, colour: from + index, x: law[x] as number[], y: law[y] as number[], ...more }));
 
 export class Results {
   readonly element: HTMLElement;
+  /** The impact in one line, for a phone. */
+  readonly summary = h("p", { class: "summary", "data-test": "summary" });
   readonly #head = h("p", { class: "headline", "data-test": "headline", "aria-live": "polite" }, "…");
   readonly #problem = h("p", { class: "problem", "data-test": "problem", hidden: true });
   readonly #cards = h("dl", { class: "cards" });
@@ -174,15 +176,15 @@ export class Results {
   readonly #notes = h("ul", { class: "notes", "data-test": "notes" });
   readonly #table = h("div", { class: "table" });
   readonly #words = h("pre", { tabindex: 0, "data-test": "words" });
-  readonly #curve = new Chart({ title: "Force over indentation", test: "chart.curve", x: { label: "indentation", unit: "m" }, y: { label: "force", unit: "N" } });
-  readonly #history = new Chart({ title: "Force over time", test: "chart.history", x: { label: "time", unit: "s" }, y: { label: "force", unit: "N" } });
-  readonly #sweep = new Chart({ title: "Over speed", test: "chart.sweep", x: { label: "speed", unit: "m/s", logarithmic: true }, y: { label: "restitution", unit: "" }, right: { label: "dent", unit: "m" } });
+  readonly #curve = new Chart({ title: "Force over indentation", test: "chart.curve", x: { label: "indentation", unit: "m" }, y: { label: "force", unit: "N" }, dashed: "dashed: unloading" });
+  readonly #history = new Chart({ title: "Force over time", test: "chart.history", x: { label: "time", unit: "s" }, y: { label: "force", unit: "N" }, dashed: "" });
+  readonly #sweep = new Chart({ title: "Over speed", test: "chart.sweep", x: { label: "speed", unit: "m/s", logarithmic: true }, y: { label: "restitution", unit: "" }, right: { label: "dent", unit: "m" }, dashed: "dashed: dent" });
   readonly #comparison: Comparison;
   readonly #knobs: Knob[];
   /** The last prediction, for others to read. */
   prediction: Predict | null = null;
 
-  constructor(readonly context: Context) {
+  constructor(readonly context: Context, readonly show: (mistake: Mistake) => void) {
     this.#comparison = new Comparison(context.about, () => void this.update());
     this.#knobs = knobs(context);
     this.element = h("div", { class: "results" },
@@ -210,15 +212,15 @@ export class Results {
     try {
       const prediction = await scene.engine.newest("predict", "predict", { text });
       if (!prediction) return;
-      this.#show(prediction);
+      this.#tell(prediction);
       const range = `${Number((prediction.speed / 30).toPrecision(3))}:${Number((prediction.speed * 10).toPrecision(3))}:60`;
       void this.#draw("curve", { text }, laws, (answer, from) => cycle(answer, from), this.#curve);
       void this.#draw("history", { text }, laws, (answer, from) => plain(answer, "time", "force", from), this.#history);
-      void this.#draw("sweep", { text, sweep: [`speed=${range}`] }, laws, (answer, from) => [...plain(answer, "speed", "restitution", from, {}, ", restitution"), ...plain(answer, "speed", "dent", from, { right: true, dashed: true }, ", dent")], this.#sweep);
+      void this.#draw("sweep", { text, sweep: [`speed=${range}`] }, laws, (answer, from) => [...plain(answer, "speed", "restitution", from, { what: "restitution" }), ...plain(answer, "speed", "dent", from, { what: "dent", right: true, dashed: true })], this.#sweep);
       const others = laws.length ? await scene.engine.newest("compare", "predict", { text, laws }) : null;
       this.#compare([...prediction.laws, ...(others?.laws ?? [])]);
     } catch (error) {
-      this.#refuse(describe(error));
+      this.#refuse((error instanceof Refusal && error.mistakes[0]?.message) || describe(error));
     }
   }
 
@@ -236,13 +238,14 @@ export class Results {
     }
   }
 
-  #show(prediction: Predict): void {
+  #tell(prediction: Predict): void {
     const law = prediction.laws[0];
     if (!law) return;
     this.prediction = prediction;
     this.element.classList.remove("stale");
     this.#problem.hidden = true;
     this.#head.textContent = sentence(law);
+    this.summary.textContent = [format(law.largest_force, "N", 3), law.dent > 0 ? `dent ${format(law.dent, "m", 3)}` : "no dent", `restitution ${digits(law.restitution, 3)}`].join(" · ");
     this.#cards.replaceChildren(...cards(law));
     this.#regimes.replaceChildren(...[regimes(law, prediction.speed)].filter((one) => one !== null));
     this.#warnings.replaceChildren(...law.warnings.map((text) => h("li", {}, text)));
@@ -252,8 +255,10 @@ export class Results {
 
   #refuse(message: string): void {
     this.element.classList.add("stale");
+    this.summary.textContent = message;
     this.#problem.hidden = false;
-    this.#problem.textContent = message;
+    const mistake = this.context.scene.check.mistakes[0];
+    this.#problem.replaceChildren(h("span", {}, message), mistake ? h("button", { type: "button", "data-test": "problem.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`) : "");
   }
 
   #compare(laws: Prediction[]): void {

@@ -25,6 +25,7 @@ export class Scene {
   readonly #checked: (() => void)[] = [];
   readonly #edits = new Map<string, Edit>();
   #editing = false;
+  #looked = "";
 
   constructor(readonly engine: Engine) {}
 
@@ -77,7 +78,7 @@ export class Scene {
       }
     }
     this.#editing = false;
-    for (const listener of this.#checked) listener();
+    if (this.#looked === this.text) this.#tell();
   }
 
   async #look(): Promise<void> {
@@ -87,6 +88,11 @@ export class Scene {
     this.check = check;
     this.values = check.values ?? this.values;
     this.places = places(text);
+    this.#looked = text;
+    this.#tell();
+  }
+
+  #tell(): void {
     for (const listener of this.#checked) listener();
   }
 }

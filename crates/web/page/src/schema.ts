@@ -12,8 +12,12 @@ export interface KeyInfo {
   label: string;
   description: string;
   unit: string | null;
+  /** Units in which it is usually given. */
+  units: string[];
   range: string;
   default: Json | undefined;
+  /** What an absent key means, in words. */
+  absent: string;
   examples: Json[];
   choices: Choice[];
   types: Set<string>;
@@ -24,6 +28,11 @@ export interface KeyInfo {
 const isTable = (json: Json | undefined): json is Table => typeof json === "object" && json !== null && !Array.isArray(json);
 const text = (json: Json | undefined): string => (typeof json === "string" ? json : "");
 const list = (json: Json | undefined): Json[] => (Array.isArray(json) ? json : []);
+/** What the schema says of one of the values of an `enum`. */
+function said(part: Table, index: number): string {
+  const docs = isTable(part["x-taplo"]) ? part["x-taplo"].docs : undefined;
+  return isTable(docs) ? text(list(docs.enumValues)[index]) : "";
+}
 
 export const words = (key: string): string =>
   (key.charAt(0).toUpperCase() + key.slice(1).replaceAll("_", " ")).replace("Youngs", "Young's").replace("Poissons", "Poisson's");
@@ -60,11 +69,13 @@ export class Schema {
       label: words(name),
       description: text(first("description")),
       unit: unit && unit !== "1" ? unit : null,
+      units: list(first("x-units")).map(text),
       range: range(first("minimum"), first("exclusiveMinimum"), first("maximum"), first("exclusiveMaximum"), unit),
       default: first("default"),
+      absent: text(first("x-default")).replaceAll("`", ""),
       examples: list(first("examples")),
       choices: parts.flatMap((part) => [
-        ...list(part.enum).map((value) => ({ value, description: "" })),
+        ...list(part.enum).map((value, index) => ({ value, description: said(part, index) })),
         ...(part.const === undefined ? [] : [{ value: part.const, description: text(part.description) }]),
       ]),
       types: new Set(parts.flatMap((part) => (Array.isArray(part.type) ? part.type.map(text) : text(part.type) ? [text(part.type)] : []))),
@@ -75,15 +86,16 @@ export class Schema {
 }
 
 function range(least: Json | undefined, above: Json | undefined, most: Json | undefined, below: Json | undefined, unit: string): string {
+  const short = (value: number): string => (Math.abs(value) >= 1e5 ? value.toExponential().replace("+", "") : String(value));
   const ends = [
-    typeof above === "number" ? `more than ${above}` : typeof least === "number" ? `from ${least}` : "",
-    typeof below === "number" ? `less than ${below}` : typeof most === "number" ? `to ${most}` : "",
+    typeof above === "number" ? `more than ${short(above)}` : typeof least === "number" ? `from ${short(least)}` : "",
+    typeof below === "number" ? `less than ${short(below)}` : typeof most === "number" ? `to ${short(most)}` : "",
   ].filter(Boolean);
   return ends.length ? `${ends.join(" ")}${unit && unit !== "1" ? " " + pretty(unit) : ""}` : "";
 }
 
 /** What a key is, in one line: its description and its range. */
 export const help = (info: KeyInfo): string =>
-  [info.description.replace(/\s+/g, " "), info.range && `Range: ${info.range}.`, info.default !== undefined && info.default !== null ? `Default: ${JSON.stringify(info.default)}.` : ""]
+  [info.description.replace(/\s+/g, " "), info.range && `Range: ${info.range}.`, info.absent === "required" ? "Required." : info.absent ? `Without: ${info.absent}.` : info.default !== undefined && info.default !== null ? `Default: ${JSON.stringify(info.default)}.` : ""]
     .filter(Boolean)
     .join(" ");

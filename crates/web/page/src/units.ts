@@ -8,21 +8,8 @@ const PLAIN: { [symbol: string]: number } = {
   deg: Math.PI / 180, rpm: Math.PI / 30,
 };
 
-/** Units in which a quantity is entered, by its SI unit; the first is where an empty field begins. */
-const OFFERED: { [si: string]: string[] } = {
-  m: ["mm", "um", "cm", "m", "in"],
-  kg: ["g", "mg", "kg", "t", "lb"],
-  "m/s": ["m/s", "mm/s", "km/h", "mph"],
-  Pa: ["MPa", "GPa", "Pa", "ksi"],
-  "kg/m^3": ["kg/m^3", "g/cm^3"],
-  s: ["us", "ms", "s", "ns"],
-  "m^2": ["mm^2", "cm^2", "m^2"],
-  "kg m^2": ["g mm^2", "g cm^2", "kg m^2"],
-  "1/s": ["1/s", "1/ms"],
-};
-
-const normal = (si: string): string => si.replaceAll(".", " ").replace(/([a-z])(\d)/gi, "$1^$2");
-export const offered = (si: string): string[] => OFFERED[normal(si)] ?? [si];
+/** The unit in which an empty field begins, by the SI unit. */
+const USUAL: { [si: string]: string } = { m: "mm", kg: "g", Pa: "MPa", s: "us", "m^2": "mm^2" };
 
 /** Shown instead of the letters that scenes use. */
 export const pretty = (unit: string): string =>
@@ -69,15 +56,16 @@ export function split(text: string): Quantity | null {
 /** A number without the dust of binary fractions. */
 export const tidy = (value: number): string => String(Number(value.toPrecision(12)));
 
-/** `value` SI units in the offered unit that needs the fewest zeros. */
-export function inUnit(value: number, si: string, unit?: string): Quantity {
-  const units = offered(si);
+/** `value` SI units in a unit: the one given, else that of `units` that needs the fewest zeros. */
+export function inUnit(value: number, si: string, units: string[], given?: string): Quantity {
   const size = (of: string): number => Math.abs(value) / (factor(of) ?? 1);
-  const metric = units.filter((of) => !["in", "lb", "ksi", "mph", "km/h", "t"].includes(of));
-  const chosen =
-    unit ?? metric.find((of) => size(of) >= 1 && size(of) < 1000) ?? (value === 0 ? units[0] : metric.reduce((a, b) => (Math.abs(Math.log10(size(a)) - 1) < Math.abs(Math.log10(size(b)) - 1) ? a : b))) ?? si;
-  return { digits: tidy(value / (factor(chosen) ?? 1)), unit: chosen };
+  const metric = units.filter((of) => of === si || /^[numkMG]?(m|g|s|Pa|N|J)(\/s)?$/.test(of));
+  const fits = metric.find((of) => size(of) >= 1 && size(of) < 1000);
+  const unit = given ?? fits ?? (si in USUAL ? USUAL[si]! : si);
+  return { digits: tidy(value / (factor(unit) ?? 1)), unit };
 }
+
+export const usual = (si: string): string => USUAL[si] ?? si;
 
 /** The SI number of what a scene holds: a bare number or a text with a unit. */
 export function si(value: unknown): number | null {
