@@ -64,7 +64,7 @@ export class Chart {
   #shape = "";
 
   constructor(readonly axes: Axes) {
-    this.#plot = h("div", { class: "plot", tabindex: 0, role: "img", "data-test": `${axes.test}.plot`, onkeydown: (event: KeyboardEvent) => this.#keys(event) });
+    this.#plot = h("div", { class: "plot", tabindex: 0, role: "img", "aria-label": `${axes.title}: arrow keys read values`, "data-test": `${axes.test}.plot`, onkeydown: (event: KeyboardEvent) => this.#keys(event) });
     this.#readout = h("p", { class: "readout", "data-test": `${axes.test}.readout` });
     this.element = h("figure", { class: "chart", "data-test": axes.test }, h("figcaption", {}, axes.title), this.#plot, this.#readout);
     new ResizeObserver(() => this.#uplot?.setSize(this.#size())).observe(this.#plot);
@@ -100,7 +100,7 @@ export class Chart {
       scales: { x: { time: false, distr: x.logarithmic ? 3 : 1, range: (_, low, high) => [low, high] }, y: { range: (_, low, high) => [Math.min(0, low), (high || 1) * 1.05] }, right: { range: (_, _low, high) => [0, (high || 1) * 1.05] } },
       axes: [axis(x.label, horizontal.unit, 2, true, "x"), axis(y.label, scales[0]!.unit, 3, true, "y"), ...(right ? [axis(right.label, scales[1]!.unit, 1, false, "right")] : [])],
       series: [{}, ...lines.map((line): uPlot.Series => ({
-        scale: line.right ? "right" : "y", stroke: css(`--series-${line.colour % 6}`), width: line.thin ? 1 : 2, dash: line.dashed ? [5, 4] : undefined, points: { show: false }, pxAlign: 0,
+        scale: line.right ? "right" : "y", stroke: css(`--series-${line.colour % 8}`), width: line.thin ? 1 : 2, dash: line.dashed ? [5, 4] : undefined, points: { show: false }, pxAlign: 0,
       }))],
       hooks: { setCursor: [(plot) => this.#read(plot.cursor.idx ?? null)] },
     }, data, this.#plot);
@@ -132,7 +132,7 @@ export class Chart {
       if (inside ? value === null || value === undefined : line.dashed) return [];
       const side = line.right ? right : y;
       const number = typeof value === "number" ? value * scaledBy(this.#lines, line.right ?? false, side?.unit ?? "") : null;
-      const swatch = h("i", { style: `--c: var(--series-${line.colour % 6})`, class: line.dashed ? "dashed" : "" });
+      const swatch = h("i", { style: `--c: var(--series-${line.colour % 8})`, class: line.dashed ? "dashed" : "" });
       if (number === null) return [h("span", {}, swatch, line.law)];
       return [h("span", {}, swatch, `${[line.law, line.what].filter(Boolean).join(", ")} `, h("b", {}, spoken(number, side?.unit ?? "")))];
     });

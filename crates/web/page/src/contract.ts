@@ -89,26 +89,29 @@ export interface Columns {
 export interface Way {
   name: string;
   what: string;
-  master: "serial" | "parallel";
-  scene_lines: string[];
+  master: string;
+  /** Whether FMU and importer fit. */
+  right: boolean;
+  knows_mass: boolean;
 }
 
 export interface Rebound {
+  contact: number;
   time: number;
   speed_in: number;
   speed_out: number;
   restitution: number;
-  exact: number;
+  steps: number;
 }
 
 export interface Bounce {
-  time: number[];
-  heights: number[][];
-  force: number[];
-  energy: number[];
-  rebounds: Rebound[];
-  steps_per_contact: number;
-  messages: string[];
+  seen: {
+    time: number[];
+    /** Of each contact; negative where the bodies press. */
+    gaps: number[][];
+    rebounds: Rebound[];
+    messages: string[];
+  };
 }
 
 export interface Translate {

@@ -33,11 +33,11 @@ export class Download {
     this.#boxes = labels.map((label) => label.querySelector("input")!);
     const button = (test: string, label: string, act: () => void): HTMLElement => h("button", { type: "button", "data-test": `download.${test}`, onclick: act }, label);
     this.element = h("div", { class: "download" },
-      h("h3", {}, "FMU"), h("p", { class: "note" }, "FMI 2.0 for co-simulation. It is made here, in your browser, and is the same to the last byte as that of the command line."),
+      h("h2", {}, "FMU"), h("p", { class: "note" }, "FMI 2.0 for co-simulation. It is made here, in your browser, and is the same to the last byte as that of the command line."),
       h("div", { class: "checks" }, ...labels), h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "download.fmu", onclick: () => void this.fmu() }, "Download FMU")), this.#state,
-      h("h3", {}, "Run it in Python"), h("p", { class: "note" }, "The ball hits and leaves. Needs fmpy: pip install fmpy"), this.#python,
+      h("h2", {}, "Run it in Python"), h("p", { class: "note" }, "The ball hits and leaves. Needs fmpy: pip install fmpy"), this.#python,
       h("div", { class: "row" }, button("python", "Download .py", () => save(`${this.#name()}.py`, this.#python.textContent ?? "", "text/x-python")), button("copy", "Copy", () => void copy(this.#python.textContent ?? ""))),
-      h("h3", {}, "Scene and curves"),
+      h("h2", {}, "Scene and curves"),
       h("div", { class: "row" },
         button("toml", "Scene .toml", () => save(`${this.#name()}.toml`, scene.text, "application/toml")),
         button("csv", "Curve .csv", () => void this.#file("csv", "curve")), button("history", "History .csv", () => void this.#file("csv", "history")), button("svg", "Picture .svg", () => void this.#file("picture", "curve"))));

@@ -75,7 +75,7 @@ function laws(context: Context): { element: HTMLElement; update(): void } {
       ...(restitution && scene.value("law", "restitution") === undefined ? [set(["law", "restitution"], 0.7)] : []),
     );
   }
-  const folded = fold("Other laws", "law.others", ...others, h("h4", {}, "Rate-dependent, without dents"), ...damped);
+  const folded = fold("Other laws", "law.others", ...others, h("h3", {}, "Rate-dependent, without dents"), ...damped);
   return {
     element: h("div", {}, chosen, ...first, damping.element, details.element, folded),
     update() {
@@ -183,7 +183,7 @@ export class Form {
       { label: "the FMU, in its own steps", keys: [["coupling"]], start: () => [set(["coupling", "effective_mass"], mass())],
         field: group(any("coupling", "effective_mass"), any("coupling", "master"), several(context, ["coupling", "inputs"], [["external_acceleration", ""], ["effective_mass", ""]])) },
     ], "With a mass, the FMU is right at any step of the importer.");
-    const section = (title: string, test: string, ...children: (HTMLElement | null)[]): HTMLElement => h("section", { "data-test": test }, h("h3", {}, title), ...children);
+    const section = (title: string, test: string, ...children: (HTMLElement | null)[]): HTMLElement => h("section", { "data-test": test }, h("h2", {}, title), ...children);
 
     this.element = h("form", { class: "form", "aria-label": "Bodies and impact", onsubmit: (event: Event) => event.preventDefault() },
       this.#banner,

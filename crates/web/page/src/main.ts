@@ -126,7 +126,7 @@ async function start(): Promise<void> {
     h("div", { class: "row" }, undo, redo, button("new", "New", "Start with a commented scene", async () => editor.open((await engine.ask("new", { name: "ball" })).ok.text)),
       button("open", "Open", "Open a scene (.toml) or an FMU; or drop one anywhere", () => chooser.choose()), button("export", "FMU", "Make the FMU and download it", () => (select("download"), void download.fmu()), "primary")));
   const [formPart, textPart, ...others] = parts.map(({ panel }) => panel);
-  document.body.append(head, results.summary, bar, h("main", {}, formPart!, h("div", { class: "middle" }, ...others), textPart!), h("pre", { class: "printed", "aria-hidden": "true" }));
+  document.body.append(head, results.summary, h("nav", { "aria-label": "parts of the page" }, bar), h("main", {}, formPart!, h("div", { class: "middle" }, ...others), textPart!), h("pre", { class: "printed", "aria-hidden": "true" }));
   const editor = new Editor(text, scene, context.schema, about.ok, link ?? FIRST);
   select("result");
 

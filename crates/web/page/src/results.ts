@@ -167,14 +167,14 @@ const plain = (answer: Columns, x: string, y: string, from: number, more: Partia
 export class Results {
   readonly element: HTMLElement;
   /** The impact in one line, for a phone. */
-  readonly summary = h("p", { class: "summary", "data-test": "summary" });
+  readonly summary = h("section", { class: "summary", "aria-label": "the impact in short", "data-test": "summary" });
   readonly #head = h("p", { class: "headline", "data-test": "headline", "aria-live": "polite" }, "…");
   readonly #problem = h("p", { class: "problem", "data-test": "problem", hidden: true });
   readonly #cards = h("dl", { class: "cards" });
   readonly #regimes = h("div", {});
   readonly #warnings = h("ul", { class: "warnings", "data-test": "warnings" });
   readonly #notes = h("ul", { class: "notes", "data-test": "notes" });
-  readonly #table = h("div", { class: "table" });
+  readonly #table = h("div", { class: "table", tabindex: 0 });
   readonly #words = h("pre", { tabindex: 0, "data-test": "words" });
   readonly #curve = new Chart({ title: "Force over indentation", test: "chart.curve", x: { label: "indentation", unit: "m" }, y: { label: "force", unit: "N" }, dashed: "dashed: unloading" });
   readonly #history = new Chart({ title: "Force over time", test: "chart.history", x: { label: "time", unit: "s" }, y: { label: "force", unit: "N" }, dashed: "" });
@@ -268,7 +268,7 @@ export class Results {
     ];
     this.#table.replaceChildren(...(laws.length > 1 ? [h("table", { "data-test": "comparison" },
       h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "law"), ...columns.map(([title]) => h("th", { scope: "col" }, title)))),
-      h("tbody", {}, ...laws.map((law, index) => h("tr", {}, h("th", { scope: "row" }, h("i", { style: `--c: var(--series-${index % 6})` }), law.law), ...columns.map(([, show]) => h("td", {}, show(law)))))))] : []));
+      h("tbody", {}, ...laws.map((law, index) => h("tr", {}, h("th", { scope: "row" }, h("i", { style: `--c: var(--series-${index % 8})` }), law.law), ...columns.map(([, show]) => h("td", {}, show(law)))))))] : []));
   }
 }
 

@@ -23,7 +23,7 @@ export class Tools {
     this.element = h("div", { class: "tools" },
       h("p", { class: "note" }, "For a tool that imports no FMU: the numbers of its own contact model that fit this scene best, and how far they are off."),
       h("div", { class: "row asked" }, h("label", {}, "Tool ", this.#tool), h("label", {}, "Units ", this.#units), h("label", {}, "Its step ", this.#step)),
-      this.#state, this.#blocks, h("h3", {}, "How far it is off"), this.#words);
+      this.#state, this.#blocks, h("h2", {}, "How far it is off"), this.#words);
     scene.onCheck(ask);
   }
 
@@ -47,7 +47,7 @@ export class Tools {
   #show({ translation, text }: Translate): void {
     this.#blocks.replaceChildren(
       ...translation.ways.map(({ title, block, name }) =>
-        h("section", {}, h("h3", {}, `${translation.title}: ${title}`), h("pre", { tabindex: 0, "data-test": `tools.block.${name}` }, block), h("button", { type: "button", "data-test": `tools.copy.${name}`, onclick: () => void copy(block) }, "Copy"))),
+        h("section", {}, h("h2", {}, `${translation.title}: ${title}`), h("pre", { tabindex: 0, "data-test": `tools.block.${name}` }, block), h("button", { type: "button", "data-test": `tools.copy.${name}`, onclick: () => void copy(block) }, "Copy"))),
       h("p", { class: "note" }, `True for ${translation.versions}. Documented at ${translation.reference}`));
     this.#words.textContent = text;
   }

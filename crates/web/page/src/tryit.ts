@@ -1,5 +1,5 @@
 // The FMU in the hands of an importer: choose its step and how it couples, and see what the ball does.
-import type { Bounce, Way } from "./contract";
+import type { Bounce, Rebound, Way } from "./contract";
 import { describe, h } from "./dom";
 import { Engine } from "./engine";
 import type { Results } from "./results";
@@ -9,34 +9,35 @@ import { digits, format } from "./units";
 interface Run {
   way: Way;
   colour: number;
-  bounce: Bounce;
+  seen: Bounce["seen"];
 }
 
 const css = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const GRAVITY = 9.81;
+/** Steps that a page takes at most. */
+const MOST = 1e6;
 
 export class TryIt {
   readonly element: HTMLElement;
   readonly #canvas = h("canvas", { "data-test": "try.canvas", role: "img", "aria-label": "height of the ball over time" });
-  readonly #boxes: { way: Way; box: HTMLInputElement }[] = [];
+  readonly #boxes: { way: Way; colour: number; box: HTMLInputElement }[] = [];
   readonly #ways = h("fieldset", { class: "ways" }, h("legend", {}, "How it is coupled"));
-  readonly #step = h("input", { type: "range", min: -3, max: 3, step: 0.05, value: -1.5, "data-test": "try.step", "aria-label": "step of the importer", oninput: () => this.#plan() });
+  readonly #step = h("input", { type: "range", min: -2.5, max: 2.5, step: 0.05, value: -1, "data-test": "try.step", "aria-label": "step of the importer", oninput: () => this.#plan() });
   readonly #stepText = h("output", { "data-test": "try.step.value" });
-  readonly #table = h("div", { class: "table", "data-test": "try.table" });
+  readonly #table = h("div", { class: "table", tabindex: 0, "data-test": "try.table" });
   readonly #messages = h("ul", { class: "warnings", "data-test": "try.messages" });
   readonly #state = h("p", { class: "note", role: "status", "data-test": "try.state" });
   #runs: Run[] = [];
   #frame = 0;
   #timer = 0;
   #asked = 0;
-  #text = "";
 
   constructor(readonly scene: Scene, readonly results: Results, readonly module: WebAssembly.Module) {
     this.element = h("div", { class: "tryit" },
       h("p", { class: "note" }, "Here the FMU itself runs, step by step, as in your simulator. A step too long, or a force that comes late, changes the rebound."),
       h("div", { class: "row asked" }, h("label", { class: "knob" }, h("span", { class: "knob-label" }, "Step of the importer", this.#stepText), this.#step),
         h("button", { type: "button", class: "primary", "data-test": "try.run", onclick: () => void this.run() }, "Let it bounce")),
-      this.#ways, this.#state, this.#canvas, this.#table, this.#messages);
+      this.#ways, this.#canvas, this.#state, this.#table, this.#messages);
     new ResizeObserver(() => this.#draw(Infinity)).observe(this.#canvas);
     scene.onCheck(() => this.#plan());
   }
@@ -68,65 +69,72 @@ export class TryIt {
   }
 
   async #list(): Promise<void> {
-    if (this.#boxes.length && this.#text === this.scene.text) return;
-    this.#text = this.scene.text;
-    const { ok } = await this.scene.engine.ask("ways", { text: this.scene.text });
-    const before = new Map(this.#boxes.map(({ way, box }) => [way.name, box.checked]));
-    const ways = ok ?? [];
-    if (ways.length === before.size && ways.every(({ name }) => before.has(name))) return;
-    this.#boxes.splice(0, Infinity, ...ways.map((way, index) => ({ way, box: h("input", { type: "checkbox", checked: before.get(way.name) ?? index < 3, "data-test": `way.${way.name}`, onchange: () => this.#plan() }) })));
-    this.#ways.replaceChildren(this.#ways.firstElementChild!, ...this.#boxes.map(({ way, box }, index) =>
-      h("label", { class: "law" }, box, h("span", {}, h("b", {}, h("i", { style: `--c: var(--series-${index % 6})` }), way.name), h("small", {}, `${way.what}${way.scene_lines.length ? ` Scene: ${way.scene_lines.join("; ")}` : ""}`)))));
+    if (this.#boxes.length) return;
+    const { ok: ways } = await this.scene.engine.ask("ways", { text: this.scene.text });
+    const exact = ways.find(({ right, knows_mass }) => right && knows_mass);
+    const chosen = [ways[0], exact, ways.find(({ right }) => !right)];
+    ways.forEach((way, colour) => {
+      const box = h("input", { type: "checkbox", checked: chosen.includes(way), "data-test": `way.${way.name}`, onchange: () => this.#plan() });
+      this.#boxes.push({ way, colour, box });
+      this.#ways.append(h("label", { class: "law" }, box, h("span", {}, h("b", {}, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name), way.right ? null : h("em", { class: "mistaken" }, "wrong"), h("small", {}, way.what))));
+    });
   }
 
   async run(): Promise<void> {
     const asked = ++this.#asked;
     const prediction = this.results.prediction;
-    if (!prediction) return;
+    const law = prediction?.laws[0];
+    if (!prediction || !law) return;
     const height = prediction.speed ** 2 / (2 * GRAVITY);
-    const law = prediction.laws[0];
-    const time = Math.sqrt((2 * height) / GRAVITY) * (1 + 2 * (law?.restitution ?? 1) * 3);
+    const time = Math.sqrt((2 * height) / GRAVITY) * (1 + 5 * law.restitution);
+    const step = Math.max(this.#seconds, Number((time / MOST).toPrecision(2)));
     const { text } = this.scene;
-    const step = this.#seconds;
     this.#state.textContent = "Computing …";
     try {
       await this.#list();
-      const runs: Run[] = [];
-      for (const [colour, { way, box }] of this.#boxes.entries()) {
-        if (!box.checked) continue;
+      const bounce = async (way: Way): Promise<Bounce["seen"]> => {
         const engine = new Engine(this.module); // a bounce needs an instance of its own
         try {
-          const { ok } = await engine.ask("bounce", { text, way: way.name, step, height, time, gravity: GRAVITY });
-          runs.push({ way, colour, bounce: ok });
+          return (await engine.ask("bounce", { text, way: way.name, step, height, time, gravity: GRAVITY })).ok.seen;
         } finally {
           engine.end();
         }
-        if (asked !== this.#asked) return;
-      }
-      this.#state.textContent = "";
-      this.#runs = runs;
-      this.#tell();
+      };
+      const exact = this.#boxes.find(({ way }) => way.right && way.knows_mass);
+      const chosen = this.#boxes.filter((one) => one.box.checked || one === exact);
+      const seen = await Promise.all(chosen.map(({ way }) => bounce(way)));
+      if (asked !== this.#asked) return;
+      this.#state.textContent = step > this.#seconds ? `The step is ${format(step, "s", 2)}: shorter ones take a page too long.` : "";
+      const runs = chosen.map(({ way, colour, box }, index) => ({ way, colour, shown: box.checked, seen: seen[index]! }));
+      this.#runs = runs.filter(({ shown }) => shown);
+      this.#tell(runs.find(({ way }) => way === exact?.way)?.seen.rebounds ?? []);
       this.#play();
     } catch (error) {
       if (asked === this.#asked) this.#state.textContent = describe(error);
     }
   }
 
-  #tell(): void {
-    const rows = this.#runs.flatMap(({ way, colour, bounce }) => bounce.rebounds.slice(0, 4).map((rebound, index) => {
-      const off = rebound.restitution / rebound.exact - 1;
-      return h("tr", { class: Math.abs(off) > 0.01 ? "bad" : "" },
-        h("th", { scope: "row" }, index ? "" : h("i", { style: `--c: var(--series-${colour % 6})` }), index ? "" : way.name),
-        ...[String(index + 1), format(rebound.time, "s"), format(rebound.speed_in, "m/s"), format(rebound.speed_out, "m/s"), digits(rebound.restitution), digits(rebound.exact), Math.abs(off) < 5e-7 ? "0" : `${digits(100 * off, 2)} %`].map((cell) => h("td", {}, cell)));
-    }));
-    this.#table.replaceChildren(h("table", {}, h("thead", {}, h("tr", {}, ...["way", "rebound", "at", "in", "out", "restitution", "exact", "off by"].map((title) => h("th", { scope: "col" }, title)))), h("tbody", {}, ...rows)));
-    this.#messages.replaceChildren(...this.#runs.flatMap(({ way, bounce }) => bounce.messages.map((message) => h("li", {}, `${way.name}: ${message}`))));
+  /** The rebounds, beside those of an FMU that knows the mass: it is exact at any step. */
+  #tell(exact: Rebound[]): void {
+    const rows = this.#runs.flatMap(({ way, colour, seen }) => {
+      const first = seen.rebounds.slice(0, 3);
+      if (first.length === 0) return [h("tr", {}, h("th", { scope: "row" }, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name), h("td", { colspan: 7 }, "no rebound"))];
+      return first.map((rebound, index) => {
+        const reference = exact.filter(({ contact }) => contact === rebound.contact)[seen.rebounds.slice(0, index).filter(({ contact }) => contact === rebound.contact).length];
+        const off = reference ? rebound.restitution / reference.restitution - 1 : null;
+        const cells = [String(rebound.steps), format(rebound.time, "s"), format(rebound.speed_in, "m/s"), format(rebound.speed_out, "m/s"), digits(rebound.restitution), reference ? digits(reference.restitution) : "–", off === null ? "–" : Math.abs(off) < 1e-9 ? "0" : `${digits(100 * off, 2)} %`];
+        return h("tr", { class: off !== null && Math.abs(off) > 0.01 ? "bad" : "" }, index ? null : h("th", { scope: "row", rowspan: first.length }, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name), ...cells.map((cell) => h("td", {}, cell)));
+      });
+    });
+    const head = ["way", "steps", "at", "in", "out", "restitution", "exact", "off by"];
+    this.#table.replaceChildren(h("table", {}, h("thead", {}, h("tr", {}, ...head.map((title) => h("th", { scope: "col" }, title)))), h("tbody", {}, ...rows)));
+    this.#messages.replaceChildren(...this.#runs.flatMap(({ way, seen }) => seen.messages.map((message) => h("li", {}, `${way.name}: ${message}`))));
   }
 
   #play(): void {
     cancelAnimationFrame(this.#frame);
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return this.#draw(Infinity);
-    const end = Math.max(...this.#runs.map(({ bounce }) => bounce.time.at(-1) ?? 0));
+    const end = Math.max(...this.#runs.map(({ seen }) => seen.time.at(-1) ?? 0));
     const began = performance.now();
     const tick = (now: number): void => {
       const part = (now - began) / 5000;
@@ -145,8 +153,8 @@ export class TryIt {
     if (this.#canvas.width !== Math.round(width * scale)) Object.assign(this.#canvas, { width: Math.round(width * scale), height: Math.round(height * scale) });
     pen.setTransform(scale, 0, 0, scale, 0, 0);
     pen.clearRect(0, 0, width, height);
-    const tracks = this.#runs.flatMap((run) => run.bounce.heights.map((heights) => ({ ...run, heights })));
-    const end = Math.max(...this.#runs.map(({ bounce }) => bounce.time.at(-1) ?? 0), 1e-9);
+    const tracks = this.#runs.flatMap((run) => run.seen.gaps.slice(0, 4).map((heights) => ({ ...run, heights })));
+    const end = Math.max(...this.#runs.map(({ seen }) => seen.time.at(-1) ?? 0), 1e-9);
     const top = Math.max(...tracks.map(({ heights }) => heights[0] ?? 0), 1e-9) * 1.15;
     const [radius, floor] = [9, height - 26];
     const stage = 28 * Math.max(1, tracks.length) + 16;
@@ -160,12 +168,12 @@ export class TryIt {
     pen.textAlign = "right";
     pen.fillText(format(end, "s", 3), width - 10, height - 4);
     pen.textAlign = "left";
-    tracks.forEach(({ bounce, heights, colour }, track) => {
-      pen.strokeStyle = pen.fillStyle = css(`--series-${colour % 6}`);
+    tracks.forEach(({ seen, heights, colour }, track) => {
+      pen.strokeStyle = pen.fillStyle = css(`--series-${colour % 8}`);
       pen.lineWidth = 1.5;
       pen.beginPath();
       let last = 0;
-      for (; last < bounce.time.length && bounce.time[last]! <= now; last++) pen.lineTo(x(bounce.time[last]!), Math.max(-50, y(heights[last]!)));
+      for (; last < seen.time.length && seen.time[last]! <= now; last++) pen.lineTo(x(seen.time[last]!), Math.max(-50, y(heights[last]!)));
       pen.stroke();
       const at = Math.max(0, Math.min(last, heights.length) - 1);
       pen.beginPath();
