@@ -71,6 +71,7 @@ export interface Prediction {
 }
 
 export interface Predict {
+  contacts: number;
   mass: number;
   speed: number;
   drop_height: number | null;

@@ -41,7 +41,7 @@ export class Download {
       h("div", { class: "row" },
         button("toml", "Scene .toml", () => save(`${this.#name()}.toml`, scene.text, "application/toml")),
         button("csv", "Curve .csv", () => void this.#file("csv", "curve")), button("history", "History .csv", () => void this.#file("csv", "history")), button("svg", "Picture .svg", () => void this.#file("picture", "curve"))));
-    scene.onCheck(() => (this.#python.textContent = this.#snippet()));
+    results.onPrediction(() => (this.#python.textContent = this.#snippet()));
   }
 
   #name = (): string => String(this.scene.value("name") ?? "scene");

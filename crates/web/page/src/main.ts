@@ -90,7 +90,8 @@ function tabs(list: Tab[]): { bar: HTMLElement; select(name: string): void } {
 
 async function start(): Promise<void> {
   const module = await compiled();
-  const [engine, workshop] = [new Engine(module), new Engine(module)];
+  // one for each change, one for curves, one for what takes longer: none waits for another
+  const [engine, drawing, workshop] = [new Engine(module), new Engine(module), new Engine(module)];
   const [about, root, link] = await Promise.all([engine.ask("about"), engine.ask("schema"), linked()]);
   const scene = new Scene(engine);
   const context: Context = { scene, schema: new Schema(root.ok), about: about.ok };
@@ -100,7 +101,7 @@ async function start(): Promise<void> {
     if (phone.matches) select("text");
     editor.show(mistake);
   };
-  const results = new Results(context, show);
+  const results = new Results(context, drawing, show);
   const form = new Form(context, show);
   const download = new Download(scene, results, workshop, about.ok);
   const tryit = new TryIt(scene, results, module);

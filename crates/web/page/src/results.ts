@@ -4,7 +4,7 @@ import { Chart, type Line } from "./charts";
 import { describe, fold, h } from "./dom";
 import type { Context } from "./fields";
 import { materialOf } from "./fields";
-import { Refusal } from "./engine";
+import { type Engine, Refusal } from "./engine";
 import type { Scene } from "./scene";
 import { bare, digits, format, inUnit, pretty, si, split } from "./units";
 
@@ -183,8 +183,9 @@ export class Results {
   readonly #knobs: Knob[];
   /** The last prediction, for others to read. */
   prediction: Predict | null = null;
+  readonly #listeners: (() => void)[] = [];
 
-  constructor(readonly context: Context, readonly show: (mistake: Mistake) => void) {
+  constructor(readonly context: Context, readonly drawing: Engine, readonly show: (mistake: Mistake) => void) {
     this.#comparison = new Comparison(context.about, () => void this.update());
     this.#knobs = knobs(context);
     this.element = h("div", { class: "results" },
@@ -195,6 +196,10 @@ export class Results {
       fold("Notes on this prediction", "fold.notes", this.#notes),
       fold("As the command line prints it", "fold.words", this.#words));
     context.scene.onCheck(() => void this.update());
+  }
+
+  onPrediction(listener: () => void): void {
+    this.#listeners.push(listener);
   }
 
   /** The laws compared, for pictures and tables that are downloaded; undefined if none. */
@@ -217,7 +222,7 @@ export class Results {
       void this.#draw("curve", { text }, laws, (answer, from) => cycle(answer, from), this.#curve);
       void this.#draw("history", { text }, laws, (answer, from) => plain(answer, "time", "force", from), this.#history);
       void this.#draw("sweep", { text, sweep: [`speed=${range}`] }, laws, (answer, from) => [...plain(answer, "speed", "restitution", from, { what: "restitution" }), ...plain(answer, "speed", "dent", from, { what: "dent", right: true, dashed: true })], this.#sweep);
-      const others = laws.length ? await scene.engine.newest("compare", "predict", { text, laws }) : null;
+      const others = laws.length ? await this.drawing.newest("compare", "predict", { text, laws }) : null;
       this.#compare([...prediction.laws, ...(others?.laws ?? [])]);
     } catch (error) {
       this.#refuse((error instanceof Refusal && error.mistakes[0]?.message) || describe(error));
@@ -226,7 +231,7 @@ export class Results {
 
   /** Draws the scene's own law, then those beside it. */
   async #draw(method: "curve" | "history" | "sweep", question: { text: string; sweep?: string[] }, laws: string[], lines: (answer: Columns, from: number) => Line[], chart: Chart): Promise<void> {
-    const { engine } = this.context.scene;
+    const engine = this.drawing;
     try {
       const own = engine.newest(method, method, question);
       const others = laws.length ? engine.newest(`${method} of others`, method, { ...question, laws }) : Promise.resolve(null);
@@ -251,6 +256,7 @@ export class Results {
     this.#warnings.replaceChildren(...law.warnings.map((text) => h("li", {}, text)));
     this.#notes.replaceChildren(...prediction.notes.map((text) => h("li", {}, text)));
     this.#words.textContent = prediction.text;
+    for (const listener of this.#listeners) listener();
   }
 
   #refuse(message: string): void {

@@ -28,6 +28,7 @@ export class TryIt {
   readonly #messages = h("ul", { class: "warnings", "data-test": "try.messages" });
   readonly #state = h("p", { class: "note", role: "status", "data-test": "try.state" });
   #runs: Run[] = [];
+  #engines: Engine[] = [];
   #frame = 0;
   #timer = 0;
   #asked = 0;
@@ -39,7 +40,7 @@ export class TryIt {
         h("button", { type: "button", class: "primary", "data-test": "try.run", onclick: () => void this.run() }, "Let it bounce")),
       this.#ways, this.#canvas, this.#state, this.#table, this.#messages);
     new ResizeObserver(() => this.#draw(Infinity)).observe(this.#canvas);
-    scene.onCheck(() => this.#plan());
+    results.onPrediction(() => this.#plan());
   }
 
   /** Called when the page shows this part. */
@@ -82,36 +83,44 @@ export class TryIt {
 
   async run(): Promise<void> {
     const asked = ++this.#asked;
+    this.#stop();
     const prediction = this.results.prediction;
     const law = prediction?.laws[0];
     if (!prediction || !law) return;
     const height = prediction.speed ** 2 / (2 * GRAVITY);
     const time = Math.sqrt((2 * height) / GRAVITY) * (1 + 5 * law.restitution);
-    const step = Math.max(this.#seconds, Number((time / MOST).toPrecision(2)));
+    const step = Math.max(this.#seconds, Number(((time * prediction.contacts) / MOST).toPrecision(2)));
     const { text } = this.scene;
     this.#state.textContent = "Computing …";
     try {
       await this.#list();
       const bounce = async (way: Way): Promise<Bounce["seen"]> => {
         const engine = new Engine(this.module); // a bounce needs an instance of its own
-        try {
-          return (await engine.ask("bounce", { text, way: way.name, step, height, time, gravity: GRAVITY })).ok.seen;
-        } finally {
-          engine.end();
-        }
+        this.#engines.push(engine);
+        return (await engine.ask("bounce", { text, way: way.name, step, height, time, gravity: GRAVITY })).ok.seen;
       };
       const exact = this.#boxes.find(({ way }) => way.right && way.knows_mass);
       const chosen = this.#boxes.filter((one) => one.box.checked || one === exact);
       const seen = await Promise.all(chosen.map(({ way }) => bounce(way)));
       if (asked !== this.#asked) return;
+      this.#stop();
       this.#state.textContent = step > this.#seconds ? `The step is ${format(step, "s", 2)}: shorter ones take a page too long.` : "";
       const runs = chosen.map(({ way, colour, box }, index) => ({ way, colour, shown: box.checked, seen: seen[index]! }));
       this.#runs = runs.filter(({ shown }) => shown);
       this.#tell(runs.find(({ way }) => way === exact?.way)?.seen.rebounds ?? []);
       this.#play();
     } catch (error) {
-      if (asked === this.#asked) this.#state.textContent = describe(error);
+      if (asked !== this.#asked) return;
+      this.#stop();
+      this.#runs = [];
+      this.#tell([]);
+      this.#draw(0);
+      this.#state.textContent = describe(error);
     }
+  }
+
+  #stop(): void {
+    for (const engine of this.#engines.splice(0)) engine.end();
   }
 
   /** The rebounds, beside those of an FMU that knows the mass: it is exact at any step. */
