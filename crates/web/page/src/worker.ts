@@ -19,9 +19,44 @@ export interface Reply {
 
 let module: WebAssembly.Module;
 let exports: Exports | null = null;
+/** What the module has printed: the words of a panic. */
+let printed = "";
+
+/** What the standard library asks of a system: nothing but random numbers and a place for the words of a panic. */
+const view = (): DataView => new DataView(exports!.memory.buffer);
+const [SUCCESS, NO_FILE] = [0, 8];
+const system: { [name: string]: (...given: number[]) => number } = {
+  random_get(at = 0, length = 0) {
+    crypto.getRandomValues(new Uint8Array(exports!.memory.buffer, at, length));
+    return SUCCESS;
+  },
+  environ_sizes_get(count = 0, size = 0) {
+    view().setUint32(count, 0, true);
+    view().setUint32(size, 0, true);
+    return SUCCESS;
+  },
+  environ_get: () => SUCCESS,
+  fd_write(_file = 0, parts = 0, count = 0, done = 0) {
+    let total = 0;
+    for (let part = parts; part < parts + 8 * count; part += 8) {
+      const [at, length] = [view().getUint32(part, true), view().getUint32(part + 4, true)];
+      printed += new TextDecoder().decode(new Uint8Array(exports!.memory.buffer, at, length));
+      total += length;
+    }
+    view().setUint32(done, total, true);
+    return SUCCESS;
+  },
+};
+
+/** All imports of the module; what isn't above has no file to work on. */
+function imports(): WebAssembly.Imports {
+  const all: { [from: string]: { [name: string]: WebAssembly.ImportValue } } = {};
+  for (const { module: from, name } of WebAssembly.Module.imports(module)) (all[from] ??= {})[name] = system[name] ?? (() => NO_FILE);
+  return all;
+}
 
 async function answer({ question, bytes }: Message): Promise<Reply> {
-  exports ??= (await WebAssembly.instantiate(module, {})).exports as unknown as Exports;
+  exports ??= (await WebAssembly.instantiate(module, imports())).exports as unknown as Exports;
   const json = new TextEncoder().encode(JSON.stringify(question));
   const length = bytes ? json.length + 1 + bytes.length : json.length;
   const input = exports.reserve(length);
@@ -49,7 +84,8 @@ onmessage = async ({ data }: MessageEvent<Message>): Promise<void> => {
     postMessage(await answer(data));
   } catch (error) {
     exports = null;
-    const message = `the computation stopped: ${error instanceof Error ? error.message : String(error)}`;
+    const message = `the computation stopped: ${printed.trim() || (error instanceof Error ? error.message : String(error))}`;
+    printed = "";
     postMessage({ json: JSON.stringify({ error: { message } }), bytes: new Uint8Array() });
   }
 };
