@@ -101,7 +101,8 @@ export interface Rebound {
   time: number;
   speed_in: number;
   speed_out: number;
-  restitution: number;
+  /** None if the bodies came at no speed. */
+  restitution: number | null;
   steps: number;
 }
 

@@ -1,5 +1,5 @@
 // The scene's text: colours, completion and help from the schema, the exporter's mistakes underlined. Its history is the page's undo.
-import { autocompletion, type Completion, type CompletionContext, type CompletionResult, completionKeymap } from "@codemirror/autocomplete";
+import { autocompletion, type Completion, type CompletionContext, type CompletionResult, completionKeymap, startCompletion } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, redo, redoDepth, undo, undoDepth } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
 import { toml } from "@codemirror/legacy-modes/mode/toml";
@@ -65,7 +65,11 @@ function complete(context: CompletionContext, schema: Schema, about: About): Com
       .filter((option) => !present.has(option))
       .map((option) => {
         const described = schema.info([...table, option]);
-        return { label: option, type: "property", apply: `${option} = `, detail: described?.unit ?? undefined, info: described ? help(described) : undefined };
+        return { label: option, type: "property", apply: (view: EditorView, _: Completion, from: number, to: number) => {
+            const insert = `${option} = `;
+            view.dispatch({ changes: { from, to, insert }, selection: { anchor: from + insert.length }, userEvent: "input.complete" });
+            startCompletion(view);
+          }, detail: described?.unit ?? undefined, info: described ? help(described) : undefined };
       }),
     validFor: /^\w*$/,
   };

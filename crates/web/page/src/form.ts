@@ -43,16 +43,16 @@ const moduli = (context: Context, body: Body): Field[] => {
 function elasticity(context: Context, body: Body): Field {
   const [young, poisson] = moduli(context, body);
   const at = (name: string): Path => [body, name];
-  const rigid: Alternative[] = body === "impactor" ? [{ label: "rigid", keys: [] }] : [];
+  const neither: Alternative = { label: body === "impactor" ? "rigid" : "as each contact says", keys: [] };
   const start = body === "impactor" ? "bearing steel 52100, hardened" : "mild steel";
   return oneOf(context, `${body}.body`, "Body", [
     { label: "elastic: a material", keys: [at("material")], start: () => [set(at("material"), start)], field: material(context, at("material")) },
     { label: "elastic: own moduli", keys: [at("youngs_modulus"), at("poissons_ratio")], start: () => [set(at("youngs_modulus"), "206 GPa"), set(at("poissons_ratio"), 0.3)], field: group(young!, poisson!) },
-    ...rigid,
+    neither,
   ], body === "impactor" ? "A rigid body doesn't deform; an elastic one does, and the softer of the two yields." : "");
 }
 
-function laws(context: Context): { element: HTMLElement; update(): void } {
+function laws(context: Context): Field {
   const { about, scene } = context;
   const chosen = h("p", { class: "chosen", "data-test": "law.chosen" });
   const name = id();
@@ -78,6 +78,8 @@ function laws(context: Context): { element: HTMLElement; update(): void } {
   const folded = fold("Other laws", "law.others", ...others, h("h3", {}, "Rate-dependent, without dents"), ...damped);
   return {
     element: h("div", {}, chosen, ...first, damping.element, details.element, folded),
+    paths: [],
+    mark: (path, message) => [damping, details].forEach((field) => field.mark(path, message)),
     update() {
       const now = scene.value("law", "loading") ?? loadings[0]?.name;
       const boxes = [...first, ...others, ...damped].map((label) => label.querySelector("input")!);
@@ -192,7 +194,7 @@ export class Form {
       section("Target", "section.target", ...put(elasticity(context, "target"), strength(context, "target"), any("target", "surface")),
         fold("Own numbers, hardening, shape", "target.more", ...put(...moduli(context, "target"), any("target", "hardening_modulus"), any("target", "hardening_exponent"), quantity(context, ["target", "radius"], { empty: () => "flat" }), any("target", "length"), any("target", "area")))),
       section("Impact", "section.impact", ...put(impact, quantity(context, ["impact", "mass"], { empty: () => "that of the ball" }))),
-      section("Law", "section.law", law.element),
+      section("Law", "section.law", ...put(law)),
       h("div", { class: "folds" },
         fold("Friction", "fold.friction", ...put(friction)),
         fold("Losses", "fold.losses", ...put(loss, quantity(context, ["target", "plate_thickness"], { empty: () => "thick" }))),
@@ -205,7 +207,7 @@ export class Form {
     );
     this.#fields = fields;
     this.#contacts = own;
-    this.#rest = [law, own, {
+    this.#rest = [own, {
       update: () => {
         const radius = si(scene.value("impactor", "radius"));
         diameter.textContent = radius ? `Diameter ${Number((2e3 * radius).toPrecision(6))} mm` : "";

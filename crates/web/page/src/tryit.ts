@@ -130,8 +130,9 @@ export class TryIt {
       if (first.length === 0) return [h("tr", {}, h("th", { scope: "row" }, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name), h("td", { colspan: 7 }, "no rebound"))];
       return first.map((rebound, index) => {
         const reference = exact.filter(({ contact }) => contact === rebound.contact)[seen.rebounds.slice(0, index).filter(({ contact }) => contact === rebound.contact).length];
-        const off = reference ? rebound.restitution / reference.restitution - 1 : null;
-        const cells = [String(rebound.steps), format(rebound.time, "s"), format(rebound.speed_in, "m/s"), format(rebound.speed_out, "m/s"), digits(rebound.restitution), reference ? digits(reference.restitution) : "–", off === null ? "–" : Math.abs(off) < 1e-9 ? "0" : `${digits(100 * off, 2)} %`];
+        const off = reference?.restitution && rebound.restitution !== null ? rebound.restitution / reference.restitution - 1 : null;
+        const number = (value: number | null | undefined): string => (typeof value === "number" ? digits(value) : "–");
+        const cells = [String(rebound.steps), format(rebound.time, "s"), format(rebound.speed_in, "m/s"), format(rebound.speed_out, "m/s"), number(rebound.restitution), number(reference?.restitution), off === null ? "–" : Math.abs(off) < 1e-9 ? "0" : `${digits(100 * off, 2)} %`];
         return h("tr", { class: off !== null && Math.abs(off) > 0.01 ? "bad" : "" }, index ? null : h("th", { scope: "row", rowspan: first.length }, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name), ...cells.map((cell) => h("td", {}, cell)));
       });
     });
