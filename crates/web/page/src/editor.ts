@@ -100,7 +100,7 @@ export class Editor {
           StreamLanguage.define(toml), syntaxHighlighting(colours), hover,
           autocompletion({ override: [(context) => complete(context, schema, about)], icons: false }),
           keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap]),
-          EditorView.contentAttributes.of({ "aria-label": "The scene as TOML", "data-test": "editor", spellcheck: "false" }),
+          EditorView.contentAttributes.of({ "aria-label": "The scene as TOML", "data-test": "editor", spellcheck: "false", tabindex: "0" }),
           EditorView.updateListener.of((update) => update.docChanged && scene.read(update.state.doc.toString())),
         ],
       }),

@@ -91,8 +91,7 @@ export function quantity(context: Context, path: Path, look: Look = {}): Field {
       const empty = look.empty ? look.empty() : typeof standard === "number" || typeof standard === "string" ? standard : null;
       const fallback = typeof empty === "number" ? inUnit(empty, base, offered, wanted ?? undefined) : null;
       input.placeholder = fallback ? fallback.digits : String(empty ?? "");
-      const unit = shown?.unit || fallback?.unit;
-      if (unit && base) setUnit(unit);
+      if (base) setUnit(shown?.unit || fallback?.unit || wanted || usual(base));
       const text = shown?.digits ?? "";
       const typed = split(input.value);
       const same = focused(input) && typed && shown && Number(typed.digits) === Number(text) && (!typed.unit || typed.unit === shown.unit);

@@ -231,8 +231,7 @@ export class Form {
     const at = place ? key(place.path) : "";
     const all = [...this.#fields, ...this.#contacts.fields()];
     for (const field of all) field.mark(at, mistake ? mistake.message : null);
-    const marked = all.some(({ element }) => element.querySelector('[aria-invalid="true"], .wrong:not(:empty)'));
-    this.#banner.hidden = !mistake || marked;
+    this.#banner.hidden = !mistake;
     if (mistake) this.#banner.replaceChildren(h("span", {}, mistake.message), h("button", { type: "button", "data-test": "mistake.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`));
     this.element.classList.toggle("stale", scene.check.values === null);
     for (const { element } of all) {

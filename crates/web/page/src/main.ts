@@ -7,7 +7,7 @@
 //   target.material.list            the list of materials, with `data-value` on each entry
 //   law.NAME, compare.NAME          a law of the scene; one to compare
 //   contact.add, contact.0.remove   entries of several contacts, and body.* of shared bodies
-//   fold.*, *.more, law.others      folded parts; mistake, mistake.show: a message that belongs to no field
+//   fold.*, *.more, law.others      folded parts; mistake, mistake.show: the message of a wrong scene
 //   editor                          the text of the scene
 //   headline, summary, card.*, problem, problem.show, warnings, notes, words, comparison, regimes       what will happen
 //   chart.curve, chart.history, chart.sweep with .plot and .readout; slider.speed, slider.radius, slider.strength

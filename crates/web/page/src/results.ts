@@ -264,6 +264,7 @@ export class Results {
     this.summary.textContent = message;
     this.#problem.hidden = false;
     const mistake = this.context.scene.check.mistakes[0];
+    this.#problem.classList.toggle("told", mistake !== undefined); // above the form
     this.#problem.replaceChildren(h("span", {}, message), mistake ? h("button", { type: "button", "data-test": "problem.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`) : "");
   }
 
