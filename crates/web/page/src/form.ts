@@ -156,7 +156,7 @@ export class Form {
     const diameter = h("p", { class: "source" });
     const impactorStrength = strength(context, "impactor");
     const law = laws(context);
-    const own = contacts(context);
+    const list = contacts(context);
     const gravity = 9.80665;
     const speed = (): number => si(scene.value("impact", "speed")) ?? 1;
     const height = (): number => si(scene.value("impact", "drop_height")) ?? 0.5;
@@ -185,14 +185,17 @@ export class Form {
       { label: "the FMU, in its own steps", keys: [["coupling"]], start: () => [set(["coupling", "effective_mass"], mass())],
         field: group(any("coupling", "effective_mass"), any("coupling", "master"), several(context, ["coupling", "inputs"], [["external_acceleration", ""], ["effective_mass", ""]])) },
     ], "With a mass, the FMU is right at any step of the importer.");
+    /** Numbers beside a material's own. */
+    const overrides = (["impactor", "target"] as const).map((body) => ({ body, fields: moduli(context, body) }));
+    const own = (body: Body): (Field | null)[] => overrides.find((one) => one.body === body)?.fields ?? [];
     const section = (title: string, test: string, ...children: (HTMLElement | null)[]): HTMLElement => h("section", { "data-test": test }, h("h2", {}, title), ...children);
 
     this.element = h("form", { class: "form", "aria-label": "Bodies and impact", onsubmit: (event: Event) => event.preventDefault() },
       this.#banner,
       section("Ball", "section.impactor", ...put(quantity(context, ["impactor", "radius"])), diameter, ...put(elasticity(context, "impactor"), impactorStrength),
-        fold("Own numbers, hardening, rod", "impactor.more", ...put(...moduli(context, "impactor"), any("impactor", "hardening_modulus"), any("impactor", "hardening_exponent"), any("impactor", "length"), any("impactor", "area")))),
+        fold("Own numbers, hardening, rod", "impactor.more", ...put(...own("impactor"), any("impactor", "hardening_modulus"), any("impactor", "hardening_exponent"), any("impactor", "length"), any("impactor", "area")))),
       section("Target", "section.target", ...put(elasticity(context, "target"), strength(context, "target"), any("target", "surface")),
-        fold("Own numbers, hardening, shape", "target.more", ...put(...moduli(context, "target"), any("target", "hardening_modulus"), any("target", "hardening_exponent"), quantity(context, ["target", "radius"], { empty: () => "flat" }), any("target", "length"), any("target", "area")))),
+        fold("Own numbers, hardening, shape", "target.more", ...put(...own("target"), any("target", "hardening_modulus"), any("target", "hardening_exponent"), quantity(context, ["target", "radius"], { empty: () => "flat" }), any("target", "length"), any("target", "area")))),
       section("Impact", "section.impact", ...put(impact, quantity(context, ["impact", "mass"], { empty: () => "that of the ball" }))),
       section("Law", "section.law", ...put(law)),
       h("div", { class: "folds" },
@@ -203,12 +206,13 @@ export class Form {
         fold("Outputs and FMU", "fold.fmu", ...put(textField(context, ["name"]), textField(context, ["description"]), textField(context, ["author"]),
           several(context, ["fmu", "outputs"], about.outputs.filter(({ name }) => name !== "force").map(({ name, description }) => [name, description]), { label: "Outputs beside force" }),
           any("fmu", "initial_gap"), any("fmu", "step_size"), any("fmu", "stop_time"), any("fmu", "names"), any("fmu", "input_derivatives"), any("fmu", "standalone"), any("impact", "watch"))),
-        fold("Several contacts", "fold.contacts", own.element)),
+        fold("Several contacts", "fold.contacts", list.element)),
     );
     this.#fields = fields;
-    this.#contacts = own;
-    this.#rest = [own, {
+    this.#contacts = list;
+    this.#rest = [list, {
       update: () => {
+        for (const { body, fields } of overrides) for (const field of fields.slice(0, 2)) field.element.hidden = scene.value(body, "material") === undefined;
         const radius = si(scene.value("impactor", "radius"));
         diameter.textContent = radius ? `Diameter ${Number((2e3 * radius).toPrecision(6))} mm` : "";
         impactorStrength.element.hidden = [...ELASTIC, ...STRENGTH].every((name) => scene.value("impactor", name) === undefined);

@@ -113,5 +113,3 @@ export function placeAt(found: Place[], offset: number): Place | null {
     .filter((place) => place.from <= offset && offset <= place.to)
     .reduce<Place | null>((best, place) => (best && best.to - best.from <= place.to - place.from ? best : place), null);
 }
-
-export const placeOf = (found: Place[], path: Path): Place | undefined => found.find((place) => place.path.join("\n") === path.join("\n"));
