@@ -62,6 +62,7 @@ export class Chart {
   #uplot: uPlot | null = null;
   #lines: Line[] = [];
   #shape = "";
+  #mark: number | undefined;
 
   constructor(readonly axes: Axes) {
     this.#plot = h("div", { class: "plot", tabindex: 0, role: "img", "aria-label": `${axes.title}: arrow keys read values`, "data-test": `${axes.test}.plot`, onkeydown: (event: KeyboardEvent) => this.#keys(event) });
@@ -71,8 +72,10 @@ export class Chart {
     scheme.addEventListener("change", () => ((this.#shape = ""), this.draw(this.#lines)));
   }
 
-  draw(lines: Line[]): void {
+  /** Draws lines; a logarithmic axis has a mark where the scene is. */
+  draw(lines: Line[], mark = this.#mark): void {
     this.#lines = lines;
+    this.#mark = mark;
     const { x, y, right } = this.axes;
     const sides = [lines.filter((line) => !line.right), lines.filter((line) => line.right)] as const;
     const horizontal = x.logarithmic ? { factor: 1, unit: x.unit } : scaled(Math.max(...lines.map((line) => largest(line.x))), x.unit);
@@ -102,9 +105,19 @@ export class Chart {
       series: [{}, ...lines.map((line): uPlot.Series => ({
         scale: line.right ? "right" : "y", stroke: css(`--series-${line.colour % 8}`), width: line.thin ? 1 : 2, dash: line.dashed ? [5, 4] : undefined, points: { show: false }, pxAlign: 0,
       }))],
-      hooks: { setCursor: [(plot) => this.#read(plot.cursor.idx ?? null)] },
+      hooks: { setCursor: [(plot) => this.#read(plot.cursor.idx ?? null)], drawAxes: [(plot) => this.#marked(plot)] },
     }, data, this.#plot);
     this.#read(null);
+  }
+
+  #marked({ ctx: pen, bbox, valToPos }: uPlot): void {
+    if (this.#mark === undefined || !this.axes.x.logarithmic) return;
+    const x = valToPos(this.#mark, "x", true);
+    pen.save();
+    pen.fillStyle = css("--series-1");
+    pen.globalAlpha = 0.55;
+    pen.fillRect(x - devicePixelRatio, bbox.top, 2 * devicePixelRatio, bbox.height);
+    pen.restore();
   }
 
   #size(): { width: number; height: number } {

@@ -162,7 +162,7 @@ export class Form {
     const height = (): number => si(scene.value("impact", "drop_height")) ?? 0.5;
     const mass = (): Json => scene.value("impact", "mass") ?? "4 g";
     const round = (value: number): number => Number(value.toPrecision(3));
-    const impact = oneOf(context, "impact.by", "Comes with", [
+    const impact = oneOf(context, "impact.by", "Given by", [
       { label: "a drop height", keys: [["impact", "drop_height"]], start: () => [set(["impact", "drop_height"], `${round((100 * speed() ** 2) / (2 * gravity))} cm`)], field: quantity(context, ["impact", "drop_height"], { label: "Drop height" }) },
       { label: "a speed", keys: [["impact", "speed"]], start: () => [set(["impact", "speed"], `${round(Math.sqrt(2 * gravity * height()))} m/s`)], field: quantity(context, ["impact", "speed"], { label: "Speed" }) },
     ]);

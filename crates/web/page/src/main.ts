@@ -106,7 +106,7 @@ async function start(): Promise<void> {
   const download = new Download(scene, results, workshop, about.ok);
   const tryit = new TryIt(scene, results, module);
   const tools = new Tools(scene, workshop, about.ok);
-  const share = new Share(scene);
+  const share = new Share(scene, about.ok.version);
   const panel = (label: string, child: HTMLElement): HTMLElement => h("section", { role: "tabpanel", "aria-label": label, tabindex: -1 }, child);
   const parts: Tab[] = [
     { name: "form", label: "Bodies", panel: h("section", { "aria-label": "bodies and impact" }, form.element) },

@@ -164,6 +164,8 @@ function joined(lines: Line[]): Line[] {
 const plain = (answer: Columns, x: string, y: string, from: number, more: Partial<Line> = {}): Line[] =>
   answer.laws.map((law, index) => ({ law: law.law, colour: from + index, x: law[x] as number[], y: law[y] as number[], ...more }));
 
+const NONE: Columns = { columns: [], laws: [] };
+
 export class Results {
   readonly element: HTMLElement;
   /** The impact in one line, for a phone. */
@@ -222,8 +224,12 @@ export class Results {
       void this.#draw("curve", { text }, laws, (answer, from) => cycle(answer, from), this.#curve);
       void this.#draw("history", { text }, laws, (answer, from) => plain(answer, "time", "force", from), this.#history);
       void this.#draw("sweep", { text, sweep: [`speed=${range}`] }, laws, (answer, from) => [...plain(answer, "speed", "restitution", from, { what: "restitution" }), ...plain(answer, "speed", "dent", from, { what: "dent", right: true, dashed: true })], this.#sweep);
-      const others = laws.length ? await this.drawing.newest("compare", "predict", { text, laws }) : null;
-      this.#compare([...prediction.laws, ...(others?.laws ?? [])]);
+      try {
+        const others = laws.length ? await this.drawing.newest("compare", "predict", { text, laws }) : null;
+        this.#compare([...prediction.laws, ...(others?.laws ?? [])]);
+      } catch (error) {
+        this.#table.replaceChildren(h("p", { class: "wrong", role: "alert", "data-test": "comparison.wrong" }, describe(error)));
+      }
     } catch (error) {
       this.#refuse((error instanceof Refusal && error.mistakes[0]?.message) || describe(error));
     }
@@ -234,9 +240,10 @@ export class Results {
     const engine = this.drawing;
     try {
       const own = engine.newest(method, method, question);
-      const others = laws.length ? engine.newest(`${method} of others`, method, { ...question, laws }) : Promise.resolve(null);
+      // what the others can't is said below them
+      const others = laws.length ? engine.newest(`${method} of others`, method, { ...question, laws }).catch(() => NONE) : NONE;
       const [first, second] = await Promise.all([own, others]);
-      if (first && (second || !laws.length)) chart.draw([...lines(first, 0), ...(second ? lines(second, 1) : [])]);
+      if (first && second) chart.draw([...lines(first, 0), ...lines(second, 1)], this.prediction?.speed);
       chart.element.hidden = false;
     } catch {
       chart.element.hidden = true; // not every scene has every chart: the prediction says why

@@ -32,15 +32,23 @@ export class Share {
   readonly element: HTMLElement;
   readonly #link = h("textarea", { readonly: true, rows: 4, "aria-label": "link to this scene", "data-test": "link", onfocus: () => this.#link.select() });
 
-  constructor(scene: Scene) {
+  #timer = 0;
+
+  constructor(scene: Scene, version: string) {
     this.element = h("div", { class: "share" },
-      h("p", {}, "This link holds the whole scene. Whoever opens it sees what you see."), this.#link,
+      h("p", {}, "This link holds the whole scene. Whoever opens it sees what you see. The address of this page has it, too, so a reload loses nothing."), this.#link,
       h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "link.copy", onclick: () => void copy(this.#link.value) }, "Copy link")),
-      h("p", { class: "note" }, "Nothing is ever sent anywhere: a browser keeps what stands behind the # to itself, and this page forbids itself every connection (its content security policy says default-src 'none'). It works without a network; save it and keep it."));
+      h("p", { class: "note" }, "Nothing is ever sent anywhere: a browser keeps what stands behind the # to itself, and this page forbids itself every connection (its content security policy says default-src 'none'). It works without a network; save it and keep it."),
+      h("p", { class: "note" }, `Brinell ${version}`));
+    let first: string | null = null;
     scene.onCheck(async () => {
       const text = scene.text;
       const fragment = await packed(text);
-      if (text === scene.text) this.#link.value = `${location.href.replace(/#.*/, "")}#scene=${fragment}`;
+      if (text !== scene.text) return;
+      this.#link.value = `${location.href.replace(/#.*/, "")}#scene=${fragment}`;
+      if (text === (first ??= text)) return;
+      clearTimeout(this.#timer); // browsers allow few changes of the address in a row
+      this.#timer = window.setTimeout(() => history.replaceState(null, "", `#scene=${fragment}`), 500);
     });
   }
 }
