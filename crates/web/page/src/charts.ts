@@ -65,7 +65,8 @@ export class Chart {
   #mark: number | undefined;
 
   constructor(readonly axes: Axes) {
-    this.#plot = h("div", { class: "plot", tabindex: 0, role: "img", "aria-label": `${axes.title}: arrow keys read values`, "data-test": `${axes.test}.plot`, onkeydown: (event: KeyboardEvent) => this.#keys(event) });
+    this.#plot = h("div", { class: "plot", tabindex: 0, role: "img", "aria-label": `${axes.title}: arrow keys read values`,
+      "data-test": `${axes.test}.plot`, onkeydown: (event: KeyboardEvent) => this.#keys(event) });
     this.#readout = h("p", { class: "readout", "data-test": `${axes.test}.readout` });
     this.element = h("figure", { class: "chart", "data-test": axes.test }, h("figcaption", {}, axes.title), this.#plot, this.#readout);
     new ResizeObserver(() => this.#uplot?.setSize(this.#size())).observe(this.#plot);
@@ -81,7 +82,9 @@ export class Chart {
     const horizontal = x.logarithmic ? { factor: 1, unit: x.unit } : scaled(Math.max(...lines.map((line) => largest(line.x))), x.unit);
     const scales = sides.map((side, index) => scaled(Math.max(...side.map((line) => largest(line.y))), (index ? right?.unit : y.unit) ?? ""));
     const points = lines.length ? grid(lines) : [];
-    const data = [points.map((point) => point / horizontal.factor), ...lines.map((line) => points.map((point) => ((value) => value === null ? null : value / scales[line.right ? 1 : 0]!.factor)(read(line, point))))] as uPlot.AlignedData;
+    const data = [points.map((point) => point / horizontal.factor),
+      ...lines.map((line) => points.map((point) =>
+        ((value) => value === null ? null : value / scales[line.right ? 1 : 0]!.factor)(read(line, point))))] as uPlot.AlignedData;
     const shape = JSON.stringify([horizontal, scales, lines.map(({ law, what, colour }) => [law, what, colour])]);
     if (shape === this.#shape && this.#uplot) {
       this.#uplot.setData(data);
@@ -100,10 +103,13 @@ export class Chart {
       padding: [8, right ? 4 : 12, 0, 0],
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
-      scales: { x: { time: false, distr: x.logarithmic ? 3 : 1, range: (_, low, high) => [low, high] }, y: { range: (_, low, high) => [Math.min(0, low), (high || 1) * 1.05] }, right: { range: (_, _low, high) => [0, (high || 1) * 1.05] } },
-      axes: [axis(x.label, horizontal.unit, 2, true, "x"), axis(y.label, scales[0]!.unit, 3, true, "y"), ...(right ? [axis(right.label, scales[1]!.unit, 1, false, "right")] : [])],
+      scales: { x: { time: false, distr: x.logarithmic ? 3 : 1, range: (_, low, high) => [low, high] },
+        y: { range: (_, low, high) => [Math.min(0, low), (high || 1) * 1.05] }, right: { range: (_, _low, high) => [0, (high || 1) * 1.05] } },
+      axes: [axis(x.label, horizontal.unit, 2, true, "x"), axis(y.label, scales[0]!.unit, 3, true, "y"),
+        ...(right ? [axis(right.label, scales[1]!.unit, 1, false, "right")] : [])],
       series: [{}, ...lines.map((line): uPlot.Series => ({
-        scale: line.right ? "right" : "y", stroke: css(`--series-${line.colour % 8}`), width: line.thin ? 1 : 2, dash: line.dashed ? [5, 4] : undefined, points: { show: false }, pxAlign: 0,
+        scale: line.right ? "right" : "y", stroke: css(`--series-${line.colour % 8}`), width: line.thin ? 1 : 2,
+          dash: line.dashed ? [5, 4] : undefined, points: { show: false }, pxAlign: 0,
       }))],
       hooks: { setCursor: [(plot) => this.#read(plot.cursor.idx ?? null)], drawAxes: [(plot) => this.#marked(plot)] },
     }, data, this.#plot);
@@ -149,12 +155,14 @@ export class Chart {
       if (number === null) return [h("span", {}, swatch, line.law)];
       return [h("span", {}, swatch, `${[line.law, line.what].filter(Boolean).join(", ")} `, h("b", {}, spoken(number, side?.unit ?? "")))];
     });
-    const place = inside ? spoken(plot.data[0][index]! * (x.logarithmic ? 1 : scaled(Math.max(...this.#lines.map((line) => largest(line.x))), x.unit).factor), x.unit) : "";
+    const place = inside ? spoken(plot.data[0][index]! * (x.logarithmic ? 1
+      : scaled(Math.max(...this.#lines.map((line) => largest(line.x))), x.unit).factor), x.unit) : "";
     this.#readout.replaceChildren(h("span", { class: "at" }, ...(place ? [`${x.label} `, h("b", {}, place)] : [this.axes.dashed])), ...parts);
   }
 }
 
-const scaledBy = (lines: Line[], right: boolean, unit: string): number => scaled(Math.max(...lines.filter((line) => (line.right ?? false) === right).map((line) => largest(line.y))), unit).factor;
+const scaledBy = (lines: Line[], right: boolean, unit: string): number =>
+  scaled(Math.max(...lines.filter((line) => (line.right ?? false) === right).map((line) => largest(line.y))), unit).factor;
 
 function spoken(value: number, unit: string): string {
   const scale = scaled(Math.abs(value), unit);

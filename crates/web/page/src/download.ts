@@ -29,18 +29,27 @@ export class Download {
     const own = ownFolder();
     const here = about.platforms.filter(({ targets }) => targets.every((triple) => document.getElementById(`library:${triple}.br`)));
     const labels = here.map(({ folder, title }) =>
-      h("label", { class: "check" }, h("input", { type: "checkbox", value: folder, checked: folder === own || folder === "win64", "data-test": `platform.${folder}` }), ` ${title ?? TITLES[folder] ?? folder}`, h("small", {}, folder === own ? ` ${folder}, yours` : ` ${folder}`)));
+      h("label", { class: "check" }, h("input",
+        { type: "checkbox", value: folder, checked: folder === own || folder === "win64", "data-test": `platform.${folder}` }),
+          ` ${title ?? TITLES[folder] ?? folder}`, h("small", {}, folder === own ? ` ${folder}, yours` : ` ${folder}`)));
     this.#boxes = labels.map((label) => label.querySelector("input")!);
-    const button = (test: string, label: string, act: () => void): HTMLElement => h("button", { type: "button", "data-test": `download.${test}`, onclick: act }, label);
+    const button = (test: string, label: string, act: () => void): HTMLElement =>
+      h("button", { type: "button", "data-test": `download.${test}`, onclick: act }, label);
     this.element = h("div", { class: "download" },
-      h("h2", {}, "FMU"), h("p", { class: "note" }, "FMI 2.0 for co-simulation. It is made here, in your browser, and is the same to the last byte as that of the command line."),
-      h("div", { class: "checks" }, ...labels), h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "download.fmu", onclick: () => void this.fmu() }, "Download FMU")), this.#state,
+      h("h2", {}, "FMU"), h("p", { class: "note" },
+        "FMI 2.0 for co-simulation. It is made here, in your browser, and is the same to the last byte as that of the command line."),
+      h("div", { class: "checks" }, ...labels),
+        h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "download.fmu", onclick: () => void this.fmu() },
+          "Download FMU")), this.#state,
       h("h2", {}, "Run it in Python"), h("p", { class: "note" }, "The ball hits and leaves. Needs fmpy: pip install fmpy"), this.#python,
-      h("div", { class: "row" }, button("python", "Download .py", () => save(`${this.#name()}.py`, this.#python.textContent ?? "", "text/x-python")), button("copy", "Copy", () => void copy(this.#python.textContent ?? ""))),
+      h("div", { class: "row" }, button("python", "Download .py", () => save(`${this.#name()}.py`, this.#python.textContent ?? "", "text/x-python")),
+        button("copy", "Copy", () => void copy(this.#python.textContent ?? ""))),
       h("h2", {}, "Scene and curves"),
       h("div", { class: "row" },
         button("toml", "Scene .toml", () => save(`${this.#name()}.toml`, scene.text, "application/toml")),
-        button("csv", "Curve .csv", () => void this.#file("csv", "curve")), button("history", "History .csv", () => void this.#file("csv", "history")), button("svg", "Picture .svg", () => void this.#file("picture", "curve"))));
+        button("csv", "Curve .csv", () => void this.#file("csv", "curve")),
+          button("history", "History .csv", () => void this.#file("csv", "history")),
+            button("svg", "Picture .svg", () => void this.#file("picture", "curve"))));
     results.onPrediction(() => (this.#python.textContent = this.#snippet()));
   }
 
@@ -50,7 +59,8 @@ export class Download {
     try {
       const platforms = this.#boxes.filter(({ checked }) => checked).map(({ value }) => value);
       this.#state.textContent = "Making the FMU …";
-      for (const triple of new Set(platforms.flatMap((folder) => this.about.platforms.find((one) => one.folder === folder)?.targets ?? []))) await this.#give(triple);
+      for (const triple of new Set(platforms.flatMap((folder) =>
+        this.about.platforms.find((one) => one.folder === folder)?.targets ?? []))) await this.#give(triple);
       const { ok, bytes } = await this.engine.ask("export", { text: this.scene.text, platforms });
       save(ok.name, bytes, "application/zip");
       this.#state.textContent = `${ok.name}, ${Math.ceil(bytes.length / 1024)} kB, for ${platforms.join(", ")}.`;

@@ -43,12 +43,14 @@ function complete(context: CompletionContext, schema: Schema, about: About): Com
       const types = schema.info([name])?.types;
       return before.includes("[[") ? types?.has("array") : types?.has("object");
     });
-    return { from: context.pos - (header[1] ?? "").length, options: tables.map((name) => ({ label: name, type: "class", info: schema.info([name])?.description })) };
+    return { from: context.pos - (header[1] ?? "").length,
+      options: tables.map((name) => ({ label: name, type: "class", info: schema.info([name])?.description })) };
   }
   if (/#/.test(before.replace(/"[^"]*"|'[^']*'/g, ""))) return null;
   const inside = placeAt(found, context.pos);
   const place = inside?.kind === "element" ? (found.find((one) => one.path.join() === inside.path.slice(0, -1).join()) ?? inside) : inside;
-  if (place?.kind === "value" && context.pos > place.key && text[text.indexOf("=", place.key) + 1] !== undefined && !/=\s*\{/.test(text.slice(place.key, context.pos))) {
+  if (place?.kind === "value" && context.pos > place.key && text[text.indexOf("=",
+    place.key) + 1] !== undefined && !/=\s*\{/.test(text.slice(place.key, context.pos))) {
     const partial = context.matchBefore(/"[^"\n]*|\w*/);
     if (!partial || (!context.explicit && partial.from === partial.to && !/[=[,]\s*$/.test(before))) return null;
     const close = text[context.pos] === '"' && partial.text.startsWith('"') ? context.pos + 1 : undefined;
@@ -58,7 +60,8 @@ function complete(context: CompletionContext, schema: Schema, about: About): Com
   const name = context.matchBefore(/\w*/);
   if (!name || (!context.explicit && (name.from === name.to || !/(^|[{,])\s*\w*$/.test(before)))) return null;
   const info = schema.info(table);
-  const present = new Set(found.filter(({ path, from }) => path.length === table.length + 1 && path.join().startsWith(table.join()) && from !== name.from).map(({ path }) => path.at(-1)));
+  const present = new Set(found.filter(({ path, from }) =>
+    path.length === table.length + 1 && path.join().startsWith(table.join()) && from !== name.from).map(({ path }) => path.at(-1)));
   return {
     from: name.from,
     options: (info?.keys ?? [])
@@ -129,7 +132,8 @@ export class Editor {
   }
 
   show({ from, to }: Mistake): void {
-    this.view.dispatch({ selection: { anchor: from, head: Math.min(to, this.view.state.doc.length) }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
+    this.view.dispatch({ selection: { anchor: from, head: Math.min(to, this.view.state.doc.length) },
+      effects: EditorView.scrollIntoView(from, { y: "center" }) });
     this.view.focus();
   }
 

@@ -34,7 +34,8 @@ function shell(context: Context, path: Path, look: Look, control: HTMLElement, l
   labelled.dataset.test ??= test;
   const says = look.help ?? (info ? help(info) : "");
   if (says) labelled.setAttribute("aria-description", says);
-  const element = h("div", { class: "field", "data-help": says }, h("label", { for: labelled.id }, look.label ?? info?.label ?? words(String(path.at(-1)))), control, wrong);
+  const element = h("div", { class: "field", "data-help": says },
+    h("label", { for: labelled.id }, look.label ?? info?.label ?? words(String(path.at(-1)))), control, wrong);
   const mark: Field["mark"] = (at, message) => {
     const mine = message !== null && (at === test || at.startsWith(`${test}.`));
     wrong.textContent = mine ? message : "";
@@ -53,7 +54,8 @@ export function quantity(context: Context, path: Path, look: Look = {}): Field {
   const base = info?.unit ?? "";
   const offered = info?.units.length ? info.units : [base];
   const input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", oninput: send, onblur: () => field.update() });
-  const units = h("select", { "aria-label": "unit", "data-test": `${key(path)}.unit`, onchange: convert }, ...options(offered.map((unit) => [unit, pretty(unit)])));
+  const units = h("select", { "aria-label": "unit", "data-test": `${key(path)}.unit`, onchange: convert },
+    ...options(offered.map((unit) => [unit, pretty(unit)])));
   const { element, mark } = shell(context, path, look, h("div", { class: "control" }, input, base ? units : null), input);
   let wanted: string | null = null;
   if (base) setUnit(usual(base));
@@ -122,7 +124,8 @@ export function textField(context: Context, path: Path, look: Look = {}): Field 
 
 /** One of several values; the first stands for a key that is absent. */
 export function choice(context: Context, path: Path, choices: [value: Json, label: string][], look: Look = {}): Field {
-  const select = h("select", { onchange: () => context.scene.edit({ path, value: (choices[select.selectedIndex] ?? [null])[0] }) }, ...options(choices.map(([value, label]) => [String(value ?? ""), label])));
+  const select = h("select", { onchange: () => context.scene.edit({ path, value: (choices[select.selectedIndex] ?? [null])[0] }) },
+    ...options(choices.map(([value, label]) => [String(value ?? ""), label])));
   const { element, mark } = shell(context, path, look, select, select);
   const update = (): void => {
     const value = context.scene.value(...path) ?? null;
@@ -195,7 +198,8 @@ export interface Alternative {
 
 /** A choice between keys of which one is given; choosing another one removes those of the others. */
 export function oneOf({ scene }: Context, test: string, label: string, alternatives: Alternative[], help = ""): Field {
-  const select = h("select", { "data-test": test, id: id(), onchange: change }, ...options(alternatives.map((alternative, index) => [String(index), alternative.label])));
+  const select = h("select", { "data-test": test, id: id(), onchange: change },
+    ...options(alternatives.map((alternative, index) => [String(index), alternative.label])));
   const fields = alternatives.flatMap(({ field }) => field ?? []);
   const given = (path: Path): boolean => scene.value(...path) !== undefined;
   function change(): void {
@@ -208,7 +212,8 @@ export function oneOf({ scene }: Context, test: string, label: string, alternati
     alternatives.forEach(({ field }, at) => field && (field.element.hidden = at !== select.selectedIndex));
   }
   return {
-    element: h("div", { class: "oneof" }, h("div", { class: "field", "data-help": help }, h("label", { for: select.id }, label), select), ...fields.map(({ element }) => element)),
+    element: h("div", { class: "oneof" }, h("div", { class: "field", "data-help": help }, h("label", { for: select.id }, label), select),
+      ...fields.map(({ element }) => element)),
     paths: fields.flatMap(({ paths }) => paths),
     update() {
       const found = alternatives.findIndex(({ keys }) => keys.some(given));
@@ -247,7 +252,8 @@ export function materialOf(context: Context, path: Path): Material | undefined {
 export function material(context: Context, path: Path, look: Look = {}): Field {
   const list = h("ul", { role: "listbox", id: id(), "aria-label": "materials", popover: "manual", class: "choices", "data-test": `${key(path)}.list` });
   const input = h("input", {
-    type: "text", role: "combobox", "aria-autocomplete": "list", "aria-expanded": "false", "aria-controls": list.id, autocomplete: "off", placeholder: "name, number or grade",
+    type: "text", role: "combobox", "aria-autocomplete": "list", "aria-expanded": "false", "aria-controls": list.id, autocomplete: "off",
+      placeholder: "name, number or grade",
     onfocus: () => (input.select(), open("")), onclick: () => open(""), oninput: () => open(input.value), onblur: () => (close(), field.update()), onkeydown: keys,
   });
   const source = h("p", { class: "source", "data-test": `${key(path)}.source` });
@@ -256,18 +262,22 @@ export function material(context: Context, path: Path, look: Look = {}): Field {
 
   function open(search: string): void {
     const words = search.toLowerCase().split(/\s+/).filter(Boolean);
-    const hits = materials(context).filter((one) => words.every((word) => [one.name, ...(one.aliases ?? []), one.source ?? ""].join(" ").toLowerCase().includes(word)));
+    const hits = materials(context).filter((one) =>
+      words.every((word) => [one.name, ...(one.aliases ?? []), one.source ?? ""].join(" ").toLowerCase().includes(word)));
     list.replaceChildren(
       ...hits.map((one) =>
-        h("li", { role: "option", id: id(), "aria-selected": "false", "data-value": one.name, onmousedown: (event: Event) => (event.preventDefault(), take(one.name)) },
-          h("b", {}, one.name), h("small", {}, [one.youngs_modulus && `${tidy(one.youngs_modulus / 1e9)} GPa`, ...(one.aliases ?? []).slice(0, 3)].filter(Boolean).join(" · "))),
+        h("li", { role: "option", id: id(), "aria-selected": "false", "data-value": one.name,
+          onmousedown: (event: Event) => (event.preventDefault(), take(one.name)) },
+          h("b", {}, one.name), h("small", {}, [one.youngs_modulus && `${tidy(one.youngs_modulus / 1e9)} GPa`,
+            ...(one.aliases ?? []).slice(0, 3)].filter(Boolean).join(" · "))),
       ),
     );
     active = -1;
     const box = input.getBoundingClientRect();
     const below = innerHeight - box.bottom > 260 || box.top < 260;
     Object.assign(list.style, {
-      left: `${box.left}px`, width: `${Math.min(340, innerWidth - box.left - 8)}px`, maxHeight: `${Math.min(340, (below ? innerHeight - box.bottom : box.top) - 12)}px`,
+      left: `${box.left}px`, width: `${Math.min(340, innerWidth - box.left - 8)}px`,
+        maxHeight: `${Math.min(340, (below ? innerHeight - box.bottom : box.top) - 12)}px`,
       top: below ? `${box.bottom + 2}px` : "auto", bottom: below ? "auto" : `${innerHeight - box.top + 2}px`,
     });
     list.showPopover();
@@ -321,7 +331,8 @@ export function anyField(context: Context, path: Path, look: Look = {}): Field |
   }
   if (info.choices.length && !info.types.has("number") && !info.types.has("array")) {
     const first = info.default !== undefined && info.default !== null ? `${String(info.default)} (default)` : info.absent || "default";
-    return choice(context, path, [[null, first], ...info.choices.filter(({ value }) => value !== info.default).map(({ value }): [Json, string] => [value, String(value)])], look);
+    return choice(context, path, [[null, first],
+      ...info.choices.filter(({ value }) => value !== info.default).map(({ value }): [Json, string] => [value, String(value)])], look);
   }
   if (info.types.has("number") || info.types.has("integer")) return quantity(context, path, look);
   return info.types.has("string") ? textField(context, path, look) : null;

@@ -23,10 +23,13 @@ function strength(context: Context, body: Body): Field {
   const test = ["proof_stress", "tensile_strength"].map((name) => quantity(context, [body, "tensile_test", name]));
   return oneOf(context, `${body}.strength`, "Strength", [
     { label: "as the material", keys: [] },
-    { label: "yield strength", keys: [at("yield_strength")], start: () => [set(at("yield_strength"), megapascals(known()))], field: quantity(context, at("yield_strength")) },
+    { label: "yield strength", keys: [at("yield_strength")], start: () => [set(at("yield_strength"), megapascals(known()))],
+      field: quantity(context, at("yield_strength")) },
     { label: "hardness", keys: [at("hardness")], start: () => [set(at("hardness"), "200 HV10")], field: withScale(context, at("hardness"), SCALES) },
-    { label: "tensile strength", keys: [at("tensile_strength")], start: () => [set(at("tensile_strength"), "500 MPa")], field: quantity(context, at("tensile_strength")) },
-    { label: "tensile test", keys: [at("tensile_test")], start: () => [set(at("tensile_test"), { proof_stress: "240 MPa", tensile_strength: "480 MPa" })], field: group(...test) },
+    { label: "tensile strength", keys: [at("tensile_strength")], start: () => [set(at("tensile_strength"), "500 MPa")],
+      field: quantity(context, at("tensile_strength")) },
+    { label: "tensile test", keys: [at("tensile_test")],
+      start: () => [set(at("tensile_test"), { proof_stress: "240 MPa", tensile_strength: "480 MPa" })], field: group(...test) },
     { label: "power law K εⁿ", keys: [at("power_law")], start: () => [set(at("power_law"), { coefficient: "600 MPa", exponent: 0.2 })], field: group(...powerLaw) },
   ], "What you know of the strength. A hardness or a tensile strength becomes the yield strength at the strain of this impact.");
 }
@@ -47,7 +50,8 @@ function elasticity(context: Context, body: Body): Field {
   const start = body === "impactor" ? "bearing steel 52100, hardened" : "mild steel";
   return oneOf(context, `${body}.body`, "Body", [
     { label: "elastic: a material", keys: [at("material")], start: () => [set(at("material"), start)], field: material(context, at("material")) },
-    { label: "elastic: own moduli", keys: [at("youngs_modulus"), at("poissons_ratio")], start: () => [set(at("youngs_modulus"), "206 GPa"), set(at("poissons_ratio"), 0.3)], field: group(young!, poisson!) },
+    { label: "elastic: own moduli", keys: [at("youngs_modulus"), at("poissons_ratio")],
+      start: () => [set(at("youngs_modulus"), "206 GPa"), set(at("poissons_ratio"), 0.3)], field: group(young!, poisson!) },
     neither,
   ], body === "impactor" ? "A rigid body doesn't deform; an elastic one does, and the softer of the two yields." : "");
 }
@@ -58,19 +62,22 @@ function laws(context: Context): Field {
   const name = id();
   const loadings = about.laws.loading.toSorted((a, b) => Number(b.recommended ?? false) - Number(a.recommended ?? false));
   const radio = (law: LawEntry, damped: boolean): HTMLLabelElement =>
-    h("label", { class: "law", "data-help": law.says }, h("input", { type: "radio", name, value: law.name, "data-test": `law.${law.name}`, onchange: () => take(law.name, damped) }),
+    h("label", { class: "law", "data-help": law.says },
+      h("input", { type: "radio", name, value: law.name, "data-test": `law.${law.name}`, onchange: () => take(law.name, damped) }),
       h("span", {}, h("b", {}, law.title), law.recommended ? h("em", {}, "recommended") : null, law.recommended ? null : h("small", {}, law.validity)));
   const first = loadings.filter((law) => law.recommended).map((law) => radio(law, false));
   const others = loadings.filter((law) => !law.recommended).map((law) => radio(law, false));
   const damped = about.laws.damped.map((law) => radio(law, true));
-  const unloading = choice(context, ["law", "unloading"], [[null, "that of the law"], ...about.laws.unloading.map((law): [Json, string] => [law.name, law.title])]);
+  const unloading = choice(context, ["law", "unloading"],
+    [[null, "that of the law"], ...about.laws.unloading.map((law): [Json, string] => [law.name, law.title])]);
   const details = group(unloading, anyField(context, ["law", "passivity_guard"]));
   const damping = group(anyField(context, ["law", "restitution"]), anyField(context, ["law", "damping"]));
   function take(loading: string, rateDependent: boolean): void {
     const given = (keys: string[]): Edit[] => keys.filter((one) => scene.value("law", one) !== undefined).map((one) => set(["law", one], null));
     const restitution = rateDependent && !/kuwabara|adams/.test(loading);
     scene.edit(
-      ...given(["unloading", "loading_parameters", "unloading_parameters", "damping_parameters", "passivity_guard", "elastic_restitution", "damping", ...(restitution ? [] : ["restitution"])]),
+      ...given(["unloading", "loading_parameters", "unloading_parameters", "damping_parameters", "passivity_guard", "elastic_restitution", "damping",
+        ...(restitution ? [] : ["restitution"])]),
       set(["law", "loading"], loading),
       ...(restitution && scene.value("law", "restitution") === undefined ? [set(["law", "restitution"], 0.7)] : []),
     );
@@ -107,18 +114,23 @@ function contacts(context: Context): { element: HTMLElement; fields: () => Field
   const entry = (name: string, index: number, ...inside: (Field | null)[]): HTMLElement => {
     const one = group(...inside);
     fields.push(one);
-    return h("div", { class: "entry", "data-test": `${name}.${index}` }, one.element, h("button", { type: "button", class: "quiet", "data-test": `${name}.${index}.remove`, onclick: () => scene.edit(set(length(name) > 1 ? [name, index] : [name], null)) }, "Remove"));
+    return h("div", { class: "entry", "data-test": `${name}.${index}` }, one.element,
+      h("button", { type: "button", class: "quiet", "data-test": `${name}.${index}.remove`,
+        onclick: () => scene.edit(set(length(name) > 1 ? [name, index] : [name], null)) }, "Remove"));
   };
   const names = (): string[] => ["ground", ...((scene.value("body") ?? []) as { name?: string }[]).map(({ name }) => name ?? "")];
-  const between = (index: number, side: number, label: string): Field => choice(context, ["contact", index, "between", side], names().map((name): [Json, string] => [name, name]), { label });
+  const between = (index: number, side: number, label: string): Field =>
+    choice(context, ["contact", index, "between", side], names().map((name): [Json, string] => [name, name]), { label });
   const add = (name: string, more: Edit["value"] = null): void => {
     const index = length(name);
     const value = { name: `${name}_${index + 1}`, ...(more as object | null) };
     scene.edit(...Object.entries(value).map(([one, given]) => set([name, index, one], given as Json)));
   };
   return {
-    element: h("div", {}, h("p", { class: "note" }, "Without an entry, the scene has one contact. What differs from the scene goes here; normals and arms of shared bodies into the scene's text."), lists,
-      h("div", { class: "row" }, h("button", { type: "button", "data-test": "contact.add", onclick: () => add("contact", length("body") ? { between: [names().at(-1) ?? "ground", "ground"] } : null) }, "Add a contact"),
+    element: h("div", {}, h("p", { class: "note" },
+      "Without an entry, the scene has one contact. What differs from the scene goes here; normals and arms of shared bodies into the scene's text."), lists,
+      h("div", { class: "row" }, h("button", { type: "button", "data-test": "contact.add",
+        onclick: () => add("contact", length("body") ? { between: [names().at(-1) ?? "ground", "ground"] } : null) }, "Add a contact"),
         h("button", { type: "button", "data-test": "body.add", onclick: () => add("body", { mass: "10 g" }) }, "Add a shared body"))),
     fields: () => fields,
     update() {
@@ -156,46 +168,61 @@ export class Form {
     const diameter = h("p", { class: "source" });
     const impactorStrength = strength(context, "impactor");
     const law = laws(context);
-    const list = contacts(context);
+    const contactList = contacts(context);
     const gravity = 9.80665;
     const speed = (): number => si(scene.value("impact", "speed")) ?? 1;
     const height = (): number => si(scene.value("impact", "drop_height")) ?? 0.5;
     const mass = (): Json => scene.value("impact", "mass") ?? "4 g";
     const round = (value: number): number => Number(value.toPrecision(3));
     const impact = oneOf(context, "impact.by", "Given by", [
-      { label: "a drop height", keys: [["impact", "drop_height"]], start: () => [set(["impact", "drop_height"], `${round((100 * speed() ** 2) / (2 * gravity))} cm`)], field: quantity(context, ["impact", "drop_height"], { label: "Drop height" }) },
-      { label: "a speed", keys: [["impact", "speed"]], start: () => [set(["impact", "speed"], `${round(Math.sqrt(2 * gravity * height()))} m/s`)], field: quantity(context, ["impact", "speed"], { label: "Speed" }) },
+      { label: "a drop height", keys: [["impact", "drop_height"]],
+        start: () => [set(["impact", "drop_height"], `${round((100 * speed() ** 2) / (2 * gravity))} cm`)],
+          field: quantity(context, ["impact", "drop_height"], { label: "Drop height" }) },
+      { label: "a speed", keys: [["impact", "speed"]], start: () => [set(["impact", "speed"], `${round(Math.sqrt(2 * gravity * height()))} m/s`)],
+        field: quantity(context, ["impact", "speed"], { label: "Speed" }) },
+      { label: `nothing: ${context.schema.info(["impact"])?.absent ?? ""}`, keys: [] },
     ]);
     const friction = oneOf(context, "friction.kind", "Friction", [
       { label: "none", keys: [] },
-      { label: "Coulomb", keys: [["friction"]], start: () => [set(["friction", "coefficient"], 0.1)], field: group(any("friction", "coefficient"), any("friction", "directions")) },
+      { label: "Coulomb", keys: [["friction"]], start: () => [set(["friction", "coefficient"], 0.1)],
+        field: group(any("friction", "coefficient"), any("friction", "directions")) },
     ]);
     const loss = oneOf(context, "law.loss", "Loss below yield", [
       { label: "none", keys: [] },
-      { label: "a restitution, or waves", keys: [["law", "elastic_restitution"]], start: () => [set(["law", "elastic_restitution"], 0.98)], field: quantity(context, ["law", "elastic_restitution"]) },
+      { label: "a restitution, or waves", keys: [["law", "elastic_restitution"]], start: () => [set(["law", "elastic_restitution"], 0.98)],
+        field: quantity(context, ["law", "elastic_restitution"]) },
     ]);
-    const rate = (model: string, ...names: string[]): Field => group(choice(context, ["target", "rate", "model"], [[model, model]]), ...names.map((name) => quantity(context, ["target", "rate", name])));
+    const rate = (model: string, ...names: string[]): Field =>
+      group(choice(context, ["target", "rate", "model"], [[model, model]]), ...names.map((name) => quantity(context, ["target", "rate", name])));
     const rates = oneOf(context, "target.rate.kind", "Strain rate of the target", [
       { label: "as the strength says", keys: [] },
-      { label: "Johnson and Cook", keys: [["target", "rate", "c"]], start: () => [set(["target", "rate"], { model: "johnson-cook", c: 0.014, reference_rate: 1 })], field: rate("johnson-cook", "c", "reference_rate") },
-      { label: "Cowper and Symonds", keys: [["target", "rate", "d"]], start: () => [set(["target", "rate"], { model: "cowper-symonds", d: 40.4, q: 5 })], field: rate("cowper-symonds", "d", "q") },
+      { label: "Johnson and Cook", keys: [["target", "rate", "c"]],
+        start: () => [set(["target", "rate"], { model: "johnson-cook", c: 0.014, reference_rate: 1 })], field: rate("johnson-cook", "c", "reference_rate") },
+      { label: "Cowper and Symonds", keys: [["target", "rate", "d"]],
+        start: () => [set(["target", "rate"], { model: "cowper-symonds", d: 40.4, q: 5 })], field: rate("cowper-symonds", "d", "q") },
     ]);
     const coupling = oneOf(context, "coupling.kind", "The bodies are moved by", [
       { label: "the importer", keys: [] },
       { label: "the FMU, in its own steps", keys: [["coupling"]], start: () => [set(["coupling", "effective_mass"], mass())],
-        field: group(any("coupling", "effective_mass"), any("coupling", "master"), several(context, ["coupling", "inputs"], [["external_acceleration", ""], ["effective_mass", ""]])) },
+        field: group(any("coupling", "effective_mass"), any("coupling", "master"),
+          several(context, ["coupling", "inputs"], [["external_acceleration", ""], ["effective_mass", ""]])) },
     ], "With a mass, the FMU is right at any step of the importer.");
     /** Numbers beside a material's own. */
     const overrides = (["impactor", "target"] as const).map((body) => ({ body, fields: moduli(context, body) }));
     const own = (body: Body): (Field | null)[] => overrides.find((one) => one.body === body)?.fields ?? [];
-    const section = (title: string, test: string, ...children: (HTMLElement | null)[]): HTMLElement => h("section", { "data-test": test }, h("h2", {}, title), ...children);
+    const section = (title: string, test: string, ...children: (HTMLElement | null)[]): HTMLElement =>
+      h("section", { "data-test": test }, h("h2", {}, title), ...children);
 
     this.element = h("form", { class: "form", "aria-label": "Bodies and impact", onsubmit: (event: Event) => event.preventDefault() },
       this.#banner,
-      section("Ball", "section.impactor", ...put(quantity(context, ["impactor", "radius"])), diameter, ...put(elasticity(context, "impactor"), impactorStrength),
-        fold("Own numbers, hardening, rod", "impactor.more", ...put(...own("impactor"), any("impactor", "hardening_modulus"), any("impactor", "hardening_exponent"), any("impactor", "length"), any("impactor", "area")))),
+      section("Ball", "section.impactor", ...put(quantity(context, ["impactor", "radius"])), diameter,
+        ...put(elasticity(context, "impactor"), impactorStrength),
+        fold("Own numbers, hardening, rod", "impactor.more",
+          ...put(...own("impactor"), any("impactor", "hardening_modulus"), any("impactor", "hardening_exponent"), any("impactor", "length"), any("impactor", "area")))),
       section("Target", "section.target", ...put(elasticity(context, "target"), strength(context, "target"), any("target", "surface")),
-        fold("Own numbers, hardening, shape", "target.more", ...put(...own("target"), any("target", "hardening_modulus"), any("target", "hardening_exponent"), quantity(context, ["target", "radius"], { empty: () => "flat" }), any("target", "length"), any("target", "area")))),
+        fold("Own numbers, hardening, shape", "target.more",
+          ...put(...own("target"), any("target", "hardening_modulus"), any("target", "hardening_exponent"),
+            quantity(context, ["target", "radius"], { empty: () => "flat" }), any("target", "length"), any("target", "area")))),
       section("Impact", "section.impact", ...put(impact, quantity(context, ["impact", "mass"], { empty: () => "that of the ball" }))),
       section("Law", "section.law", ...put(law)),
       h("div", { class: "folds" },
@@ -204,13 +231,15 @@ export class Form {
         fold("Strain rate", "fold.rate", ...put(rates)),
         fold("Coupling", "fold.coupling", ...put(coupling)),
         fold("Outputs and FMU", "fold.fmu", ...put(textField(context, ["name"]), textField(context, ["description"]), textField(context, ["author"]),
-          several(context, ["fmu", "outputs"], about.outputs.filter(({ name }) => name !== "force").map(({ name, description }) => [name, description]), { label: "Outputs beside force" }),
-          any("fmu", "initial_gap"), any("fmu", "step_size"), any("fmu", "stop_time"), any("fmu", "names"), any("fmu", "input_derivatives"), any("fmu", "standalone"), any("impact", "watch"))),
-        fold("Several contacts", "fold.contacts", list.element)),
+          several(context, ["fmu", "outputs"], about.outputs.filter(({ name }) => name !== "force").map(({ name, description }) =>
+            [name, description]), { label: "Outputs beside force" }),
+          any("fmu", "initial_gap"), any("fmu", "step_size"), any("fmu", "stop_time"), any("fmu", "names"), any("fmu", "input_derivatives"),
+            any("fmu", "standalone"), any("impact", "watch"))),
+        fold("Several contacts", "fold.contacts", contactList.element)),
     );
     this.#fields = fields;
-    this.#contacts = list;
-    this.#rest = [list, {
+    this.#contacts = contactList;
+    this.#rest = [contactList, {
       update: () => {
         for (const { body, fields } of overrides) for (const field of fields.slice(0, 2)) field.element.hidden = scene.value(body, "material") === undefined;
         const radius = si(scene.value("impactor", "radius"));
@@ -236,7 +265,8 @@ export class Form {
     const all = [...this.#fields, ...this.#contacts.fields()];
     for (const field of all) field.mark(at, mistake ? mistake.message : null);
     this.#banner.hidden = !mistake;
-    if (mistake) this.#banner.replaceChildren(h("span", {}, mistake.message), h("button", { type: "button", "data-test": "mistake.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`));
+    if (mistake) this.#banner.replaceChildren(h("span", {}, mistake.message),
+      h("button", { type: "button", "data-test": "mistake.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`));
     this.element.classList.toggle("stale", scene.check.values === null);
     for (const { element } of all) {
       const folded = element.closest("details");

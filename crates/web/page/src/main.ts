@@ -64,7 +64,8 @@ function tabs(list: Tab[]): { bar: HTMLElement; select(name: string): void } {
     Object.assign(panel, { id: `panel-${name}` });
     panel.dataset.test = `panel.${name}`;
     panel.classList.add("panel");
-    return h("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": panel.id, "data-test": `tab.${name}`, class: `tab-${name}`, onclick: () => select(name) }, h("span", { class: "long" }, label), h("span", { class: "short" }, short ?? label));
+    return h("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": panel.id, "data-test": `tab.${name}`, class: `tab-${name}`,
+      onclick: () => select(name) }, h("span", { class: "long" }, label), h("span", { class: "short" }, short ?? label));
   });
   const bar = h("div", { class: "tabs", role: "tablist", "aria-label": "parts", onkeydown: (event: KeyboardEvent) => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
@@ -118,16 +119,21 @@ async function start(): Promise<void> {
     { name: "link", label: "Link", panel: panel("Link", share.element) },
   ];
   const { bar, select } = tabs(parts);
-  const button = (test: string, label: string, title: string, act: () => void, more = ""): HTMLButtonElement => h("button", { type: "button", "data-test": test, title, class: more, onclick: act }, label);
+  const button = (test: string, label: string, title: string, act: () => void, more = ""): HTMLButtonElement =>
+    h("button", { type: "button", "data-test": test, title, class: more, onclick: act }, label);
   const chooser = files(workshop, (opened, name) => (editor.open(opened), toast(`${name} is open. Undo brings back what was here.`)));
   const undo = button("undo", "Undo", "Undo (Ctrl+Z)", () => editor.undo());
   const redo = button("redo", "Redo", "Redo (Ctrl+Y)", () => editor.redo());
   const head = h("header", {},
-    h("h1", {}, h("span", { class: "mark", "aria-hidden": "true" }), "Brinell"), h("p", { class: "tagline" }, "What an impact does to metal, and its FMU. Nothing leaves this page."),
-    h("div", { class: "row" }, undo, redo, button("new", "New", "Start with a commented scene", async () => editor.open((await engine.ask("new", { name: "ball" })).ok.text)),
-      button("open", "Open", "Open a scene (.toml) or an FMU; or drop one anywhere", () => chooser.choose()), button("export", "FMU", "Make the FMU and download it", () => (select("download"), void download.fmu()), "primary")));
+    h("h1", {}, h("span", { class: "mark", "aria-hidden": "true" }), "Brinell"),
+      h("p", { class: "tagline" }, "What an impact does to metal, and its FMU. Nothing leaves this page."),
+    h("div", { class: "row" }, undo, redo, button("new", "New", "Start with a commented scene",
+      async () => editor.open((await engine.ask("new", { name: "ball" })).ok.text)),
+      button("open", "Open", "Open a scene (.toml) or an FMU; or drop one anywhere", () => chooser.choose()),
+        button("export", "FMU", "Make the FMU and download it", () => (select("download"), void download.fmu()), "primary")));
   const [formPart, textPart, ...others] = parts.map(({ panel }) => panel);
-  document.body.append(head, results.summary, h("nav", { "aria-label": "parts of the page" }, bar), h("main", {}, formPart!, h("div", { class: "middle" }, ...others), textPart!), h("pre", { class: "printed", "aria-hidden": "true" }));
+  document.body.append(head, results.summary, h("nav", { "aria-label": "parts of the page" }, bar),
+    h("main", {}, formPart!, h("div", { class: "middle" }, ...others), textPart!), h("pre", { class: "printed", "aria-hidden": "true" }));
   const editor = new Editor(text, scene, context.schema, about.ok, link ?? FIRST);
   select("result");
 

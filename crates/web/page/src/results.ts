@@ -33,9 +33,11 @@ interface Knob {
 }
 
 /** A slider over a decade to each side of the scene's value. */
-function knob(scene: Scene, test: string, label: string, target: () => { path: (string | number)[]; value: number; unit: string; scale?: string } | null): Knob {
+function knob(scene: Scene, test: string, label: string,
+  target: () => { path: (string | number)[]; value: number; unit: string; scale?: string } | null): Knob {
   const output = h("output", {});
-  const slider = h("input", { type: "range", min: -1, max: 1, step: 0.01, "data-test": `slider.${test}`, "aria-label": label, oninput: move, onchange: () => (middle = 0) });
+  const slider = h("input", { type: "range", min: -1, max: 1, step: 0.01, "data-test": `slider.${test}`, "aria-label": label, oninput: move,
+    onchange: () => (middle = 0) });
   const name = h("span", {}, label);
   let middle = 0;
   function move(): void {
@@ -44,7 +46,8 @@ function knob(scene: Scene, test: string, label: string, target: () => { path: (
     const value = Number((middle * 10 ** Number(slider.value)).toPrecision(3));
     const before = scene.value(...now.path);
     const unit = typeof before === "string" ? split(before)?.unit : undefined;
-    const quantity = now.scale === undefined ? inUnit(value, now.unit, ["um", "mm", "m", "MPa", "GPa", "mm/s", "m/s"], unit) : { digits: String(value), unit: now.scale };
+    const quantity = now.scale === undefined ? inUnit(value, now.unit, ["um", "mm", "m", "MPa", "GPa", "mm/s", "m/s"], unit)
+      : { digits: String(value), unit: now.scale };
     quantity.digits = String(Number(Number(quantity.digits).toPrecision(3)));
     scene.edit({ path: now.path, value: typeof before === "number" ? (bare(quantity) ?? value) : `${quantity.digits} ${quantity.unit}`.trim() });
     show(value, now);
@@ -99,14 +102,16 @@ function sentence(law: Prediction): string {
 
 function card(test: string, label: string, value: string, more: string): HTMLElement {
   const [number = "", ...unit] = /^\d/.test(value) ? value.split(" ") : [value];
-  return h("div", { class: "card", "data-test": `card.${test}` }, h("dt", {}, label), h("dd", {}, h("b", {}, number), h("span", {}, unit.join(" ")), h("small", {}, more)));
+  return h("div", { class: "card", "data-test": `card.${test}` }, h("dt", {}, label),
+    h("dd", {}, h("b", {}, number), h("span", {}, unit.join(" ")), h("small", {}, more)));
 }
 
 function cards(law: Prediction): HTMLElement[] {
   const time = law.loading_time + law.unloading_time;
   return [
     card("force", "Largest force", format(law.largest_force, "N"), `at ${format(law.largest_indentation, "m", 3)} of indentation`),
-    card("dent", "Dent", law.dent > 0 ? format(law.dent, "m") : "none", law.dent > 0 ? `${format(2 * law.largest_contact_radius, "m", 3)} in diameter` : "no yielding"),
+    card("dent", "Dent", law.dent > 0 ? format(law.dent, "m") : "none",
+      law.dent > 0 ? `${format(2 * law.largest_contact_radius, "m", 3)} in diameter` : "no yielding"),
     card("restitution", "Restitution", String(Number(law.restitution.toPrecision(4))), `leaves with ${format(law.rebound_speed, "m/s", 3)}`),
     card("time", "Contact time", format(time, "s"), `${format(law.loading_time, "s", 3)} in, ${format(law.unloading_time, "s", 3)} out`),
     card("energy", "Energy lost", format(law.energy_lost, "J"), `${percent(law.energy_lost / law.kinetic_energy)} of ${format(law.kinetic_energy, "J", 3)}`),
@@ -121,7 +126,8 @@ function regimes(law: Prediction, speed: number): HTMLElement | null {
   const first = format(law.onsets[0]?.speed, "m/s", 3);
   const reached = steps.filter((step) => step.speed <= speed).length - 1;
   return h("ol", { class: "regimes", "data-test": "regimes", "aria-label": "regimes by speed" },
-    ...steps.map((step, index) => h("li", { class: index === reached ? "now" : "", "aria-current": index === reached ? "true" : null }, h("b", {}, step.regime_name), h("small", {}, index ? `from ${format(step.speed, "m/s", 3)}` : `below ${first}`))));
+    ...steps.map((step, index) => h("li", { class: index === reached ? "now" : "", "aria-current": index === reached ? "true" : null },
+      h("b", {}, step.regime_name), h("small", {}, index ? `from ${format(step.speed, "m/s", 3)}` : `below ${first}`))));
 }
 
 /** A curve that turns back, cut where it turns: loading lines, and thin ones for what lies inside. */
@@ -143,7 +149,8 @@ function cycle(answer: Columns, from: number): Line[] {
       const last = end === x.length;
       if (rises) {
         const beyond = piece.x.findIndex((one) => one > deepest);
-        if (deepest > 0) lines.push({ law: law.law, what: "again", colour: from + index, thin: true, dashed: true, x: piece.x.slice(0, beyond), y: piece.y.slice(0, beyond) });
+        if (deepest > 0) lines.push({ law: law.law, what: "again", colour: from + index, thin: true, dashed: true, x: piece.x.slice(0, beyond),
+          y: piece.y.slice(0, beyond) });
         lines.push({ law: law.law, colour: from + index, x: piece.x.slice(Math.max(0, beyond - 1)), y: piece.y.slice(Math.max(0, beyond - 1)) });
         deepest = piece.x.at(-1) ?? deepest;
       } else lines.push({ law: law.law, what: "unloading", colour: from + index, dashed: true, thin: !last, ...piece });
@@ -176,11 +183,14 @@ export class Results {
   readonly #regimes = h("div", {});
   readonly #warnings = h("ul", { class: "warnings", "data-test": "warnings" });
   readonly #notes = h("ul", { class: "notes", "data-test": "notes" });
+  readonly #noteFold = fold("Notes on this prediction", "fold.notes", this.#notes);
   readonly #table = h("div", { class: "table", tabindex: 0 });
   readonly #words = h("pre", { tabindex: 0, "data-test": "words" });
-  readonly #curve = new Chart({ title: "Force over indentation", test: "chart.curve", x: { label: "indentation", unit: "m" }, y: { label: "force", unit: "N" }, dashed: "dashed: unloading" });
+  readonly #curve = new Chart({ title: "Force over indentation", test: "chart.curve", x: { label: "indentation", unit: "m" },
+    y: { label: "force", unit: "N" }, dashed: "dashed: unloading" });
   readonly #history = new Chart({ title: "Force over time", test: "chart.history", x: { label: "time", unit: "s" }, y: { label: "force", unit: "N" }, dashed: "" });
-  readonly #sweep = new Chart({ title: "Over speed", test: "chart.sweep", x: { label: "speed", unit: "m/s", logarithmic: true }, y: { label: "restitution", unit: "" }, right: { label: "dent", unit: "m" }, dashed: "dashed: dent" });
+  readonly #sweep = new Chart({ title: "Over speed", test: "chart.sweep", x: { label: "speed", unit: "m/s", logarithmic: true },
+    y: { label: "restitution", unit: "" }, right: { label: "dent", unit: "m" }, dashed: "dashed: dent" });
   readonly #comparison: Comparison;
   readonly #knobs: Knob[];
   /** The last prediction, for others to read. */
@@ -195,7 +205,7 @@ export class Results {
       h("div", { class: "knobs" }, ...this.#knobs.map(({ element }) => element)),
       h("div", { class: "charts" }, this.#curve.element, this.#history.element, this.#sweep.element),
       this.#comparison.element, this.#table,
-      fold("Notes on this prediction", "fold.notes", this.#notes),
+      this.#noteFold,
       fold("As the command line prints it", "fold.words", this.#words));
     context.scene.onCheck(() => void this.update());
   }
@@ -223,7 +233,9 @@ export class Results {
       const range = `${Number((prediction.speed / 30).toPrecision(3))}:${Number((prediction.speed * 10).toPrecision(3))}:60`;
       void this.#draw("curve", { text }, laws, (answer, from) => cycle(answer, from), this.#curve);
       void this.#draw("history", { text }, laws, (answer, from) => plain(answer, "time", "force", from), this.#history);
-      void this.#draw("sweep", { text, sweep: [`speed=${range}`] }, laws, (answer, from) => [...plain(answer, "speed", "restitution", from, { what: "restitution" }), ...plain(answer, "speed", "dent", from, { what: "dent", right: true, dashed: true })], this.#sweep);
+      void this.#draw("sweep", { text, sweep: [`speed=${range}`] }, laws,
+        (answer, from) => [...plain(answer, "speed", "restitution", from, { what: "restitution" }),
+          ...plain(answer, "speed", "dent", from, { what: "dent", right: true, dashed: true })], this.#sweep);
       try {
         const others = laws.length ? await this.drawing.newest("compare", "predict", { text, laws }) : null;
         this.#compare([...prediction.laws, ...(others?.laws ?? [])]);
@@ -236,7 +248,8 @@ export class Results {
   }
 
   /** Draws the scene's own law, then those beside it. */
-  async #draw(method: "curve" | "history" | "sweep", question: { text: string; sweep?: string[] }, laws: string[], lines: (answer: Columns, from: number) => Line[], chart: Chart): Promise<void> {
+  async #draw(method: "curve" | "history" | "sweep", question: { text: string; sweep?: string[] }, laws: string[],
+    lines: (answer: Columns, from: number) => Line[], chart: Chart): Promise<void> {
     const engine = this.drawing;
     try {
       const own = engine.newest(method, method, question);
@@ -257,10 +270,12 @@ export class Results {
     this.element.classList.remove("stale");
     this.#problem.hidden = true;
     this.#head.textContent = sentence(law);
-    this.summary.textContent = [format(law.largest_force, "N", 3), law.dent > 0 ? `dent ${format(law.dent, "m", 3)}` : "no dent", `restitution ${digits(law.restitution, 3)}`].join(" · ");
+    this.summary.textContent = [format(law.largest_force, "N", 3), law.dent > 0 ? `dent ${format(law.dent, "m", 3)}` : "no dent",
+      `restitution ${digits(law.restitution, 3)}`].join(" · ");
     this.#cards.replaceChildren(...cards(law));
     this.#regimes.replaceChildren(...[regimes(law, prediction.speed)].filter((one) => one !== null));
     this.#warnings.replaceChildren(...law.warnings.map((text) => h("li", {}, text)));
+    this.#noteFold.hidden = prediction.notes.length === 0;
     this.#notes.replaceChildren(...prediction.notes.map((text) => h("li", {}, text)));
     this.#words.textContent = prediction.text;
     for (const listener of this.#listeners) listener();
@@ -272,17 +287,21 @@ export class Results {
     this.#problem.hidden = false;
     const mistake = this.context.scene.check.mistakes[0];
     this.#problem.classList.toggle("told", mistake !== undefined); // above the form
-    this.#problem.replaceChildren(h("span", {}, message), mistake ? h("button", { type: "button", "data-test": "problem.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`) : "");
+    this.#problem.replaceChildren(h("span", {}, message),
+      mistake ? h("button", { type: "button", "data-test": "problem.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`) : "");
   }
 
   #compare(laws: Prediction[]): void {
     const columns: [string, (law: Prediction) => string][] = [
-      ["largest force", (law) => format(law.largest_force, "N")], ["indentation", (law) => format(law.largest_indentation, "m")], ["dent", (law) => format(law.dent, "m")],
+      ["largest force", (law) => format(law.largest_force, "N")], ["indentation", (law) => format(law.largest_indentation, "m")],
+        ["dent", (law) => format(law.dent, "m")],
       ["restitution", (law) => String(Number(law.restitution.toPrecision(4)))], ["contact time", (law) => format(law.loading_time + law.unloading_time, "s")],
     ];
     this.#table.replaceChildren(...(laws.length > 1 ? [h("table", { "data-test": "comparison" },
       h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "law"), ...columns.map(([title]) => h("th", { scope: "col" }, title)))),
-      h("tbody", {}, ...laws.map((law, index) => h("tr", {}, h("th", { scope: "row" }, h("i", { style: `--c: var(--series-${index % 8})` }), law.law), ...columns.map(([, show]) => h("td", {}, show(law)))))))] : []));
+      h("tbody", {}, ...laws.map((law, index) =>
+        h("tr", {}, h("th", { scope: "row" }, h("i", { style: `--c: var(--series-${index % 8})` }), law.law),
+          ...columns.map(([, show]) => h("td", {}, show(law)))))))] : []));
   }
 }
 

@@ -94,8 +94,9 @@ function range(least: Json | undefined, above: Json | undefined, most: Json | un
   return ends.length ? `${ends.join(" ")}${unit && unit !== "1" ? " " + pretty(unit) : ""}` : "";
 }
 
-/** What a key is, in one line: its description and its range. */
-export const help = (info: KeyInfo): string =>
-  [info.description.replace(/\s+/g, " "), info.range && `Range: ${info.range}.`, info.absent === "required" ? "Required." : info.absent ? `Without: ${info.absent}.` : info.default !== undefined && info.default !== null ? `Default: ${JSON.stringify(info.default)}.` : ""]
-    .filter(Boolean)
-    .join(" ");
+/** What a key is, in one line: its description, its range, and what its absence means. */
+export function help(info: KeyInfo): string {
+  const standard = info.default === undefined || info.default === null ? "" : `Default: ${JSON.stringify(info.default)}.`;
+  const absent = info.absent === "required" ? "Required." : info.absent && `Without: ${info.absent}.`;
+  return [info.description.replace(/\s+/g, " "), info.range && `Range: ${info.range}.`, absent || standard].filter(Boolean).join(" ");
+}

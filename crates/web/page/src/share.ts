@@ -37,7 +37,8 @@ export class Share {
   constructor(scene: Scene, version: string) {
     this.element = h("div", { class: "share" },
       h("p", {}, "This link holds the whole scene. Whoever opens it sees what you see. The address of this page has it, too, so a reload loses nothing."), this.#link,
-      h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "link.copy", onclick: () => void copy(this.#link.value) }, "Copy link")),
+      h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "link.copy",
+        onclick: () => void copy(this.#link.value) }, "Copy link")),
       h("p", { class: "note" }, "Nothing is ever sent anywhere: a browser keeps what stands behind the # to itself, and this page forbids itself every connection (its content security policy says default-src 'none'). It works without a network; save it and keep it."),
       h("p", { class: "note" }, `Brinell ${version}`));
     let first: string | null = null;
@@ -68,7 +69,8 @@ export function files(engine: Engine, open: (text: string, name: string) => void
       toast(`${file.name}: ${describe(error)}`);
     }
   };
-  const input = h("input", { type: "file", accept: ".toml,.fmu", hidden: true, "data-test": "file", onchange: () => (void take(input.files?.[0]), (input.value = "")) });
+  const input = h("input", { type: "file", accept: ".toml,.fmu", hidden: true, "data-test": "file",
+    onchange: () => (void take(input.files?.[0]), (input.value = "")) });
   const shade = h("div", { class: "drop", hidden: true, "data-test": "drop" }, h("p", {}, "Drop a scene (.toml) or an FMU"));
   document.body.append(input, shade);
   addEventListener("dragover", (event) => (event.preventDefault(), (shade.hidden = false)));

@@ -47,7 +47,8 @@ export class Tools {
   #show({ translation, text }: Translate): void {
     this.#blocks.replaceChildren(
       ...translation.ways.map(({ title, block, name }) =>
-        h("section", {}, h("h2", {}, `${translation.title}: ${title}`), h("pre", { tabindex: 0, "data-test": `tools.block.${name}` }, block), h("button", { type: "button", "data-test": `tools.copy.${name}`, onclick: () => void copy(block) }, "Copy"))),
+        h("section", {}, h("h2", {}, `${translation.title}: ${title}`), h("pre", { tabindex: 0, "data-test": `tools.block.${name}` }, block),
+          h("button", { type: "button", "data-test": `tools.copy.${name}`, onclick: () => void copy(block) }, "Copy"))),
       h("p", { class: "note" }, `True for ${translation.versions}. Documented at ${translation.reference}`));
     this.#words.textContent = text;
   }

@@ -22,7 +22,8 @@ export class TryIt {
   readonly #canvas = h("canvas", { "data-test": "try.canvas", role: "img", "aria-label": "height of the ball over time" });
   readonly #boxes: { way: Way; colour: number; box: HTMLInputElement }[] = [];
   readonly #ways = h("fieldset", { class: "ways" }, h("legend", {}, "How it is coupled"));
-  readonly #step = h("input", { type: "range", min: -2.5, max: 2.5, step: 0.05, value: -1, "data-test": "try.step", "aria-label": "step of the importer", oninput: () => this.#plan() });
+  readonly #step = h("input", { type: "range", min: -2.5, max: 2.5, step: 0.05, value: -1, "data-test": "try.step",
+    "aria-label": "step of the importer", oninput: () => this.#plan() });
   readonly #stepText = h("output", { "data-test": "try.step.value" });
   readonly #table = h("div", { class: "table", tabindex: 0, "data-test": "try.table" });
   readonly #messages = h("ul", { class: "warnings", "data-test": "try.messages" });
@@ -64,7 +65,8 @@ export class TryIt {
 
   #plan(): void {
     const parts = this.#duration / this.#seconds;
-    this.#stepText.textContent = `${format(this.#seconds, "s", 2)}: ${parts >= 1 ? `${digits(parts, 2)} steps per contact` : `${digits(1 / parts, 2)} contacts in a step`}`;
+    this.#stepText.textContent = `${format(this.#seconds, "s", 2)}: ${parts >= 1 ? `${digits(parts, 2)} steps per contact`
+      : `${digits(1 / parts, 2)} contacts in a step`}`;
     clearTimeout(this.#timer);
     if (this.#visible && this.scene.right) this.#timer = window.setTimeout(() => void this.run(), 150);
   }
@@ -77,7 +79,9 @@ export class TryIt {
     ways.forEach((way, colour) => {
       const box = h("input", { type: "checkbox", checked: chosen.includes(way), "data-test": `way.${way.name}`, onchange: () => this.#plan() });
       this.#boxes.push({ way, colour, box });
-      this.#ways.append(h("label", { class: "law" }, box, h("span", {}, h("b", {}, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name), way.right ? null : h("em", { class: "mistaken" }, "wrong"), h("small", {}, way.what))));
+      this.#ways.append(h("label", { class: "law" }, box,
+        h("span", {}, h("b", {}, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name),
+          way.right ? null : h("em", { class: "mistaken" }, "wrong"), h("small", {}, way.what))));
     });
   }
 
@@ -127,13 +131,18 @@ export class TryIt {
   #tell(exact: Rebound[]): void {
     const rows = this.#runs.flatMap(({ way, colour, seen }) => {
       const first = seen.rebounds.slice(0, 3);
-      if (first.length === 0) return [h("tr", {}, h("th", { scope: "row" }, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name), h("td", { colspan: 7 }, "no rebound"))];
+      if (first.length === 0) return [h("tr", {}, h("th", { scope: "row" }, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name),
+        h("td", { colspan: 7 }, "no rebound"))];
       return first.map((rebound, index) => {
-        const reference = exact.filter(({ contact }) => contact === rebound.contact)[seen.rebounds.slice(0, index).filter(({ contact }) => contact === rebound.contact).length];
+        const reference = exact.filter(({ contact }) =>
+          contact === rebound.contact)[seen.rebounds.slice(0, index).filter(({ contact }) => contact === rebound.contact).length];
         const off = reference?.restitution && rebound.restitution !== null ? rebound.restitution / reference.restitution - 1 : null;
         const number = (value: number | null | undefined): string => (typeof value === "number" ? digits(value) : "–");
-        const cells = [String(rebound.steps), format(rebound.time, "s"), format(rebound.speed_in, "m/s"), format(rebound.speed_out, "m/s"), number(rebound.restitution), number(reference?.restitution), off === null ? "–" : Math.abs(off) < 1e-9 ? "0" : `${digits(100 * off, 2)} %`];
-        return h("tr", { class: off !== null && Math.abs(off) > 0.01 ? "bad" : "" }, index ? null : h("th", { scope: "row", rowspan: first.length }, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name), ...cells.map((cell) => h("td", {}, cell)));
+        const cells = [String(rebound.steps), format(rebound.time, "s"), format(rebound.speed_in, "m/s"), format(rebound.speed_out, "m/s"),
+          number(rebound.restitution), number(reference?.restitution), off === null ? "–" : Math.abs(off) < 1e-9 ? "0" : `${digits(100 * off, 2)} %`];
+        return h("tr", { class: off !== null && Math.abs(off) > 0.01 ? "bad" : "" },
+          index ? null : h("th", { scope: "row", rowspan: first.length }, h("i", { style: `--c: var(--series-${colour % 8})` }), way.name),
+            ...cells.map((cell) => h("td", {}, cell)));
       });
     });
     const head = ["way", "steps", "at", "in", "out", "restitution", "exact", "off by"];
