@@ -46,8 +46,6 @@ export interface About {
   version: string;
   laws: { loading: LawEntry[]; unloading: LawEntry[]; damped: LawEntry[] };
   materials: Material[];
-  outputs: { name: string; unit: string; description: string }[];
-  parameters: string[];
   tools: { name: string; title: string }[];
   platforms: { folder: string; title?: string; targets: string[] }[];
 }

@@ -176,12 +176,14 @@ export function withScale(context: Context, path: Path, scales: string[], look: 
   const update = (): void => {
     if (focused(input) && context.scene.busy) return;
     const value = context.scene.value(...path);
-    const shown = typeof value === "string" ? split(value) : null;
-    if (shown) {
-      if (![...select.options].some((option) => option.value === shown.unit)) select.append(...options([[shown.unit, shown.unit]]));
-      select.value = shown.unit;
+    const text = typeof value === "string" ? value : "";
+    const known = scales.find((one) => text.endsWith(` ${one}`));
+    const scale = known ?? split(text)?.unit;
+    if (scale) {
+      if (![...select.options].some((option) => option.value === scale)) select.append(...options([[scale, scale]]));
+      select.value = scale;
     }
-    const digits = shown?.digits ?? (typeof value === "string" ? value : "");
+    const digits = scale ? text.slice(0, -scale.length).trim() : text;
     if (!(focused(input) && split(input.value)?.unit) && input.value !== digits) input.value = digits;
   };
   return { element, mark, paths: [path], update };

@@ -161,7 +161,7 @@ export class Form {
   readonly #banner = h("div", { class: "banner", role: "alert", "data-test": "mistake", hidden: true });
 
   constructor(readonly context: Context, readonly show: (mistake: Mistake) => void) {
-    const { scene, about } = context;
+    const { scene } = context;
     const any = (...path: Path): Field | null => anyField(context, path);
     const fields: Field[] = [];
     const put = (...some: (Field | null)[]): HTMLElement[] => some.flatMap((field) => (field ? (fields.push(field), field.element) : []));
@@ -207,6 +207,9 @@ export class Form {
         field: group(any("coupling", "effective_mass"), any("coupling", "master"),
           several(context, ["coupling", "inputs"], [["external_acceleration", ""], ["effective_mass", ""]])) },
     ], "With a mass, the FMU is right at any step of the importer.");
+    const outputs = (context.schema.info(["fmu", "outputs", 0])?.choices ?? [])
+      .filter(({ value }) => value !== "force")
+      .map(({ value, description }) => [String(value), description] as const);
     /** Numbers beside a material's own. */
     const overrides = (["impactor", "target"] as const).map((body) => ({ body, fields: moduli(context, body) }));
     const own = (body: Body): (Field | null)[] => overrides.find((one) => one.body === body)?.fields ?? [];
@@ -231,8 +234,7 @@ export class Form {
         fold("Strain rate", "fold.rate", ...put(rates)),
         fold("Coupling", "fold.coupling", ...put(coupling)),
         fold("Outputs and FMU", "fold.fmu", ...put(textField(context, ["name"]), textField(context, ["description"]), textField(context, ["author"]),
-          several(context, ["fmu", "outputs"], about.outputs.filter(({ name }) => name !== "force").map(({ name, description }) =>
-            [name, description]), { label: "Outputs beside force" }),
+          several(context, ["fmu", "outputs"], outputs, { label: "Outputs beside force" }),
           any("fmu", "initial_gap"), any("fmu", "step_size"), any("fmu", "stop_time"), any("fmu", "names"), any("fmu", "input_derivatives"),
             any("fmu", "standalone"), any("impact", "watch"))),
         fold("Several contacts", "fold.contacts", contactList.element)),

@@ -93,7 +93,7 @@ async function start(): Promise<void> {
   const module = await compiled();
   // one for each change, one for curves, one for what takes longer: none waits for another
   const [engine, drawing, workshop] = [new Engine(module), new Engine(module), new Engine(module)];
-  const [about, root, link] = await Promise.all([engine.ask("about"), engine.ask("schema"), linked()]);
+  const [about, root, link] = await Promise.all([workshop.ask("about"), engine.ask("schema"), linked()]);
   const scene = new Scene(engine);
   const context: Context = { scene, schema: new Schema(root.ok), about: about.ok };
 
