@@ -16,13 +16,30 @@ function data(folder) {
   ].join("\n");
 }
 
+/** The licenses of the packages whose code is in the page. */
+function licenses(bundle) {
+  const modules = Object.values(bundle).flatMap((chunk) => Object.keys(chunk.modules ?? {}));
+  const found = modules.map((path) => /^.*\/node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(path)).filter(Boolean);
+  const folders = new Map(found.map(([folder, name]) => [name, folder]));
+  const text = [...folders].sort().map(([name, folder]) => {
+    const file = readdirSync(folder).find((one) => /^licen[cs]e/i.test(one));
+    if (!file) throw new Error(`${name} has no license`);
+    return `${name}\n\n${readFileSync(join(folder, file), "utf8").trim()}`;
+  });
+  return `<script type="text/plain" id="licenses">${text.join("\n\n\n").replaceAll("</", "<\\/")}</script>`;
+}
+
 const folder = process.env.BRINELL_PAGE_DATA;
 if (!folder) throw new Error("BRINELL_PAGE_DATA must name the folder with brinell_web.wasm and the libraries");
 
 export default defineConfig({
   plugins: [
     viteSingleFile({ removeViteModuleLoader: true }),
-    { name: "data", enforce: "post", transformIndexHtml: { order: "post", handler: (html) => html.replace("<!-- data -->", () => data(folder)) } },
+    {
+      name: "data",
+      enforce: "post",
+      transformIndexHtml: { order: "post", handler: (html, { bundle }) => html.replace("<!-- data -->", () => `${licenses(bundle)}\n${data(folder)}`) },
+    },
   ],
   build: { target: "es2022", modulePreload: false },
 });

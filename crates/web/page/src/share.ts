@@ -1,5 +1,5 @@
 // A scene by link, by file, and by dropping a file anywhere.
-import { describe, h, toast } from "./dom";
+import { describe, fold, h, toast } from "./dom";
 import { copy } from "./download";
 import { type Engine, through } from "./engine";
 import type { Scene } from "./scene";
@@ -40,7 +40,8 @@ export class Share {
       h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "link.copy",
         onclick: () => void copy(this.#link.value) }, "Copy link")),
       h("p", { class: "note" }, "Nothing is ever sent anywhere: a browser keeps what stands behind the # to itself, and this page forbids itself every connection (its content security policy says default-src 'none'). It works without a network; save it and keep it."),
-      h("p", { class: "note" }, `Brinell ${version}`));
+      h("p", { class: "note" }, `Brinell ${version}`),
+      fold("Licenses of what this page is made of", "fold.licenses", h("pre", { tabindex: 0 }, document.getElementById("licenses")?.textContent ?? "")));
     let first: string | null = null;
     scene.onCheck(async () => {
       const text = scene.text;
