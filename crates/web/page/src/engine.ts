@@ -83,13 +83,18 @@ export class Engine {
 export function embedded(id: string): Uint8Array<ArrayBuffer> {
   const text = document.getElementById(id)?.textContent;
   if (!text) throw new Error(`the page has no part ${id}`);
-  return Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let index = 0; index < bytes.length; index++) bytes[index] = binary.charCodeAt(index);
+  return bytes;
 }
 
-export function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<ArrayBuffer> {
-  return new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer();
+/** Bytes through a stream, as a response of a type. */
+export function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream, type = ""): Response {
+  return new Response(new Blob([bytes]).stream().pipeThrough(stream), { headers: { "content-type": type } });
 }
 
-export async function compiled(): Promise<WebAssembly.Module> {
-  return WebAssembly.compile(await through(embedded("wasm"), new DecompressionStream("deflate-raw")));
+/** The module, compiled while it is unpacked. */
+export function compiled(): Promise<WebAssembly.Module> {
+  return WebAssembly.compileStreaming(through(embedded("wasm"), new DecompressionStream("deflate-raw"), "application/wasm"));
 }

@@ -6,14 +6,14 @@ import type { Scene } from "./scene";
 
 /** The scene in an address: deflated, in the alphabet of addresses. */
 export async function packed(text: string): Promise<string> {
-  const bytes = new Uint8Array(await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw")));
+  const bytes = new Uint8Array(await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw")).arrayBuffer());
   return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
 export async function unpacked(fragment: string): Promise<string> {
   const binary = atob(fragment.replaceAll("-", "+").replaceAll("_", "/"));
-  const bytes = await through(Uint8Array.from(binary, (character) => character.charCodeAt(0)), new DecompressionStream("deflate-raw"));
-  return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+  const bytes = through(Uint8Array.from(binary, (character) => character.charCodeAt(0)), new DecompressionStream("deflate-raw"));
+  return new TextDecoder("utf-8", { fatal: true }).decode(await bytes.arrayBuffer());
 }
 
 /** The scene that the page's address has, if any. */
