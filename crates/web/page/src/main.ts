@@ -9,7 +9,7 @@
 //   contact.add, contact.0.remove   entries of several contacts, and body.* of shared bodies
 //   fold.*, *.more, law.others      folded parts; mistake, mistake.show: the message of a wrong scene
 //   editor                          the text of the scene
-//   headline, summary, card.*, problem, problem.show, warnings, notes, words, comparison, regimes       what will happen
+//   headline, summary, card.*, problem, problem.show, warnings, notes, words, comparison, comparison.wrong, regimes       what will happen
 //   chart.curve, chart.history, chart.sweep with .plot and .readout; slider.speed, slider.radius, slider.strength
 //   tab.NAME, panel.NAME            result, try, download, tools, link; on a phone also form and text
 //   undo, redo, open, new, file, export       the head of the page; file is the hidden input

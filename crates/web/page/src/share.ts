@@ -74,7 +74,11 @@ export function files(engine: Engine, open: (text: string, name: string) => void
     onchange: () => (void take(input.files?.[0]), (input.value = "")) });
   const shade = h("div", { class: "drop", hidden: true, "data-test": "drop" }, h("p", {}, "Drop a scene (.toml) or an FMU"));
   document.body.append(input, shade);
-  addEventListener("dragover", (event) => (event.preventDefault(), (shade.hidden = false)));
+  addEventListener("dragover", (event) => {
+    if (!event.dataTransfer?.types.includes("Files")) return;
+    event.preventDefault();
+    shade.hidden = false;
+  });
   addEventListener("dragleave", (event) => event.relatedTarget === null && (shade.hidden = true));
   const drop = (event: DragEvent): void => {
     if (!event.dataTransfer?.files.length) return;
