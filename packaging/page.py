@@ -24,7 +24,7 @@ TARGET = "wasm32-wasip1"
 OLDEST_NODE = 20
 
 # Small rather than fast: the page is a download. A panic ends the module, which the page then loads anew.
-PROFILE = {"panic": '"abort"', "lto": '"thin"', "opt-level": '"s"', "strip": "true"}
+PROFILE = {"panic": '"abort"', "lto": '"thin"', "opt-level": "3", "strip": "true"}
 
 
 def main() -> None:

@@ -2,9 +2,11 @@
 
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_exporter::law_text::{self, LawText};
 use brinell_exporter::pairing::DEFAULT_LOADING;
 use brinell_exporter::platform::{Platform, Target};
-use brinell_exporter::table::{Causality, Law, MATERIALS, VARIABLES, damped_law, loading_law, unloading_laws};
+use brinell_exporter::table::{Causality, Law, MATERIALS, VARIABLES};
 use brinell_exporter::translate::tools::TOOLS;
 use brinell_exporter::{pairing, units};
 use serde_json::{Value, json};
@@ -18,9 +20,9 @@ pub fn about() -> Value {
     json!({
         "version": env!("CARGO_PKG_VERSION"),
         "laws": {
-            "loading": AnyLoading::ALL.iter().map(|(name, _)| loading(loading_law(name))).collect::<Value>(),
-            "unloading": unloading_laws().into_iter().map(law).collect::<Value>(),
-            "damped": AnyDamped::ALL.iter().map(|(name, _)| law(damped_law(name))).collect::<Value>(),
+            "loading": AnyLoading::ALL.iter().map(|(name, it)| loading(&law_text::loading(name, it))).collect::<Value>(),
+            "unloading": AnyUnloading::ALL.iter().map(|(name, it)| law(&law_text::unloading(name, it))).collect::<Value>(),
+            "damped": AnyDamped::ALL.iter().map(|(name, it)| law(&law_text::damped(name, it))).collect::<Value>(),
         },
         "materials": *MATERIALS,
         "outputs": variables(Causality::Output),
@@ -31,18 +33,19 @@ pub fn about() -> Value {
     })
 }
 
-fn law(law: &Law) -> Value {
+fn law(text: &LawText) -> Value {
+    let Law { name, title, accuracy, reference, .. } = text.law;
     json!({
-        "name": law.name, "title": law.title, "says": law.notes, "validity": law.validity, "accuracy": law.accuracy,
-        "reference": law.reference,
+        "name": name, "title": title, "says": text.notes, "validity": text.validity, "accuracy": accuracy, "reference": reference,
     })
 }
 
-fn loading(one: &Law) -> Value {
-    let mut value = law(one);
-    value["recommended"] = json!(one.name == DEFAULT_LOADING);
-    value["needs_yield"] = json!(one.name != "hertz");
-    value["unloading"] = json!(pairing::unloading_of(&one.name).0);
+fn loading(text: &LawText) -> Value {
+    let name = text.law.name.as_str();
+    let mut value = law(text);
+    value["recommended"] = json!(name == DEFAULT_LOADING);
+    value["needs_yield"] = json!(name != "hertz");
+    value["unloading"] = json!(pairing::unloading_of(name).0);
     value
 }
 

@@ -68,6 +68,20 @@ fn edits_keep_comments_and_make_and_remove_tables() {
 }
 
 #[test]
+fn the_texts_of_laws_have_numbers_in_place_of_names_in_braces() {
+    let said = ask(&json!({ "method": "about" })).unwrap();
+    let laws = &said["laws"];
+    for kind in ["loading", "unloading", "damped"] {
+        let all = laws[kind].as_array().unwrap();
+        assert!(all.len() > 2, "{kind}");
+        for law in all {
+            let texts = format!("{} {}", law["says"], law["validity"]);
+            assert!(!texts.contains('{'), "{law}");
+        }
+    }
+}
+
+#[test]
 fn an_unknown_method_or_argument_is_named() {
     let refused = ask(&json!({ "method": "fly" })).unwrap_err();
     assert_eq!(refused["message"], "there is no method `fly`");
