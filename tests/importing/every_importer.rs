@@ -198,7 +198,7 @@ fn python_of(driver: &Driver) -> Result<PathBuf, String> {
     match driver.interpreter {
         Common => Ok(python::python()),
         Beside { requirements: of, module, .. } => {
-            let python = python::environment_beside(&name(of), &file(of)).map_err(failed)?;
+            let python = python::environment_beside(&name(of), &file(of), None).map_err(failed)?;
             // not imported: the driver may have to load libraries before
             let found = format!("import importlib.util; assert importlib.util.find_spec('{module}')");
             let output = Command::new(&python).args(["-c", &found]).output().map_err(|error| error.to_string())?;

@@ -2,6 +2,7 @@
 
 pub mod arithmetic;
 pub mod both_ways;
+pub mod browser;
 pub mod child;
 pub mod command;
 pub mod courses;

@@ -29,7 +29,7 @@ pub fn engines(large: bool) -> PathBuf {
     static ENVIRONMENTS: [OnceLock<PathBuf>; 2] = [const { OnceLock::new() }; 2];
     let name = if large { "engines-large" } else { "engines" };
     let file = root().join(format!("tests/requirements-{name}.txt"));
-    let made = || environment_beside(&format!("{name}-venv"), &file).unwrap_or_else(|why| panic!("{why}"));
+    let made = || environment_beside(&format!("{name}-venv"), &file, None).unwrap_or_else(|why| panic!("{why}"));
     ENVIRONMENTS[usize::from(large)].get_or_init(made).clone()
 }
 
@@ -69,20 +69,27 @@ pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String
 }
 
 /// The same with the packages of tests/requirements.txt, which are not installed again. Some of `more` have no package for some
-/// platforms: if they cannot be installed together, each line of the file is installed separately.
+/// platforms: if they cannot be installed together, each line of the file is installed separately. What Python has no packages of,
+/// the script `rest` installs in the environment, whose folder it gets.
 ///
 /// # Errors
 /// The reason why the environment cannot be created.
-pub fn environment_beside(name: &str, more: &Path) -> Result<PathBuf, String> {
+pub fn environment_beside(name: &str, more: &Path, rest: Option<&Path>) -> Result<PathBuf, String> {
     let common = python();
     let packages = packages_of(&common)?;
-    let wanted = [read(Path::new(REQUIREMENTS))?, read(more)?].concat();
+    let script = rest.map_or_else(|| Ok(Vec::new()), read)?;
+    let wanted = [read(Path::new(REQUIREMENTS))?, read(more)?, script].concat();
     // the installer of the common environment installs here, too
     environment(name, &wanted, &["--without-pip"], |interpreter| {
         // a path file: its lines are added to those where Python looks for packages
         let link = Path::new(&packages_of(interpreter)?).join("of_the_tests.pth");
         fs::write(link, &packages).expect("the target folder can be written to");
-        Ok(install_what_can_be(&common, interpreter, more))
+        let complete = install_what_can_be(&common, interpreter, more);
+        if let Some(script) = rest {
+            let hint = format!("{} can't install its part; the first run needs its registry", script.display());
+            succeed(Command::new(interpreter).arg(script).arg(target_folder().join(name)), &hint)?;
+        }
+        Ok(complete)
     })
 }
 

@@ -1,0 +1,51 @@
+//! A browser for tests, in the target folder like all their tools.
+
+use super::python::{environment_beside, keeping_modules};
+use crate::places::root;
+use crate::skips::skipped;
+use std::env;
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// A browser that runs without windows.
+struct Browser {
+    program: PathBuf,
+    /// The Python interpreter with its driver.
+    python: PathBuf,
+}
+
+/// Linux on x86-64 has the pinned Chromium, always; elsewhere the variable `BRINELL_CHROMIUM` names one.
+///
+/// # Errors
+/// The reason why this system has none.
+fn browser() -> Result<&'static Browser, &'static str> {
+    static BROWSER: OnceLock<Result<Browser, String>> = OnceLock::new();
+    let made = || {
+        let has_package = cfg!(all(target_os = "linux", target_arch = "x86_64"));
+        let named = env::var_os("BRINELL_CHROMIUM").map(PathBuf::from).filter(|_| !has_package);
+        if !has_package && named.is_none() {
+            return Err("the tests have a Chromium for Linux on x86-64 only; BRINELL_CHROMIUM names another".into());
+        }
+        let (packages, script) = (root().join("tests/requirements-browser.txt"), root().join("tests/page/browser.py"));
+        let python = environment_beside("browser-venv", &packages, has_package.then_some(script.as_path()))
+            .unwrap_or_else(|why| panic!("{why}"));
+        Ok(Browser { program: named.unwrap_or_else(|| python.with_file_name("chromium")), python })
+    };
+    BROWSER.get_or_init(made).as_ref().map_err(String::as_str)
+}
+
+/// Runs these files of tests/page/ with the browser and what `given` adds to the command. Where there is no browser, `what` is skipped.
+pub fn pytest(what: &str, files: &[&str], given: impl FnOnce(&mut Command) -> &mut Command) {
+    let browser = match browser() {
+        Ok(browser) => browser,
+        Err(why) => return skipped(what, why),
+    };
+    let mut command = Command::new(&browser.python);
+    keeping_modules(&mut command).args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"]).args(files);
+    command.current_dir(root().join("tests/page")).env("BRINELL_TEST_CHROMIUM", &browser.program);
+    let output = given(&mut command).output().expect("the virtual environment has an interpreter");
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{files:?} failed:\n{text}");
+    println!("{text}");
+}
