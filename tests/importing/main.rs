@@ -14,5 +14,6 @@ mod examples;
 mod fmpy;
 mod friction_importers;
 mod numbers_in_engines;
+mod page;
 mod python_module;
 mod second_importer;

@@ -1,12 +1,20 @@
 //! Where things are: the project, the program, and a folder for what tests make.
 
-use std::env;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
+use std::time::UNIX_EPOCH;
+use std::{env, fs};
 
 /// The folder of the project.
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("this crate is in crates/testing")
+}
+
+/// Which build of the program it is: what was made with another one is stale.
+pub fn build() -> String {
+    let program = fs::metadata(program()).expect("cargo has built the program");
+    let since = program.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+    format!("{}-{}", since.expect("a time").as_nanos(), program.len())
 }
 
 /// The test program that is running: `target/PROFILE/deps/NAME-HASH`.

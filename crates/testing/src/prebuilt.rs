@@ -1,7 +1,7 @@
 //! Prebuilt libraries for tests, and FMUs made from them or compiled.
 
 use super::command::{Run, brinell, output};
-use crate::places::{program, temporary, test_name};
+use crate::places::{build, temporary, test_name};
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap};
 use std::fs::{self, File};
@@ -30,8 +30,7 @@ pub fn made_once(name: &str, arguments: &[&str]) -> PathBuf {
     fs::create_dir_all(&store).expect("the target folder can be written to");
     let lock = File::create(store.with_extension("lock")).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
-    let program = fs::metadata(program()).expect("cargo has built the program");
-    let made_by = format!("{:?} {} {arguments:?}", program.modified().expect("a time"), program.len());
+    let made_by = format!("{} {arguments:?}", build());
     let marker = store.with_extension("made-by");
     if fs::read_to_string(&marker).is_ok_and(|text| text == made_by) {
         return store;

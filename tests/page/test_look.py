@@ -1,0 +1,121 @@
+"""The page on a phone, in the dark, on paper, for who can't see it; and that it asks the network for nothing."""
+
+import base64
+from pathlib import Path
+from typing import Literal
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page
+from scene_page import ScenePage, export, scene
+
+TABS = ["result", "try", "download", "tools", "link"]
+OPEN_ALL = "() => document.querySelectorAll('details').forEach((folded) => (folded.open = true))"
+OVERFLOW = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+
+
+def test_a_phone_needs_no_horizontal_scroll(browser: Browser) -> None:
+    context = browser.new_context(offline=True, viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    opened = ScenePage(context.new_page())
+    opened.page.evaluate(OPEN_ALL)
+    for width in (390, 320):
+        opened.page.set_viewport_size({"width": width, "height": 844})
+        for name in ("form", "text", *TABS):
+            opened.at(f"tab.{name}").click()
+            assert opened.page.evaluate(OVERFLOW) == 0, f"{name} is too wide for {width} pixels"
+    assert opened.errors == []
+    context.close()
+
+
+# What is right takes long to tell. In the dark only colours differ.
+LIGHT = {"resultTypes": ["violations"]}
+RULES = {"light": LIGHT, "dark": LIGHT | {"runOnly": ["color-contrast"]}}
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_that_axe_knows_is_in_the_way_of_anyone(opened: ScenePage, scheme: Literal["light", "dark"]) -> None:
+    opened.page.emulate_media(color_scheme=scheme)
+    opened.at(f"tab.{TABS[0]}").click()
+    opened.write(scene("two_contacts"))
+    opened.page.evaluate(OPEN_ALL)
+    opened.at("chart.curve.plot").locator(".u-wrap").wait_for()
+    for name in TABS:
+        opened.at(f"tab.{name}").click()
+        # form and text are beside each of them: once is enough
+        found = Axe().run(opened.page, None if name == TABS[0] else f"#panel-{name}", RULES[scheme])
+        assert found.violations_count == 0, f"{name}: {found.generate_report()}"
+    opened.write(scene("two_contacts").replace("[impactor]", "[impacter]"))
+    found = Axe().run(opened.page, "form", RULES[scheme])
+    assert found.violations_count == 0, found.generate_report()
+    opened.page.emulate_media(color_scheme="light")
+
+
+def test_it_prints_with_its_scene_on_few_pages(opened: ScenePage) -> None:
+    opened.at(f"tab.{TABS[0]}").click()
+    opened.write(scene("steel_ball"))
+    opened.page.emulate_media(media="print")
+    assert opened.page.locator(".printed").is_visible()
+    assert opened.at("headline").is_visible()
+    assert opened.page.evaluate(OVERFLOW) == 0
+    opened.page.emulate_media(media="screen")
+    assert 1 <= opened.page.pdf().count(b"/Type /Page\n") <= 4
+
+
+def test_every_connection_is_refused_and_none_is_tried(page: Page) -> None:
+    page.context.set_offline(False)
+    opened = ScenePage(page)
+    opened.at("tab.try").click()
+    opened.write(scene("damped"))
+    assert [url for url in opened.requests if not url.startswith(("file:", "blob:", "data:"))] == []
+    assert sum(url.startswith("file:") for url in opened.requests) == 1, "the page is one file"
+    refused = page.evaluate("""async () => {
+      const refused = [];
+      addEventListener("securitypolicyviolation", (event) => refused.push(event.effectiveDirective));
+      const tries = [
+        () => fetch("https://example.org"),
+        () => new WebSocket("wss://example.org"),
+        () => navigator.sendBeacon("https://example.org", "x"),
+        () => (new Image().src = "https://example.org/x.png"),
+        () => document.body.append(Object.assign(document.createElement("script"), { src: "https://example.org/x.js" })),
+        () => document.body.append(Object.assign(document.createElement("iframe"), { src: "https://example.org" })),
+      ];
+      for (const one of tries) try { await one(); } catch { /* refused */ }
+      for (let wait = 0; wait < 100 && refused.length < tries.length; wait++) {
+        await new Promise((settle) => setTimeout(settle, 50));
+      }
+      return refused.sort();
+    }""")
+    assert refused == ["connect-src", "connect-src", "connect-src", "frame-src", "img-src", "script-src-elem"]
+
+
+DROP = """([name, bytes]) => {
+  const given = new DataTransfer();
+  given.items.add(new File([Uint8Array.from(atob(bytes), (character) => character.charCodeAt(0))], name));
+  document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: given, bubbles: true, cancelable: true }));
+}"""
+
+
+def test_a_scene_or_an_fmu_dropped_on_it_is_opened(opened: ScenePage, tmp_path: Path) -> None:
+    first, second = scene("steel_ball"), scene("two_contacts")
+    opened.write(first)
+    for name, content, text in (
+        ("scene.toml", second.encode(), second),
+        ("unit.fmu", export(tmp_path, first), first),
+    ):
+        opened.page.evaluate(DROP, [name, base64.b64encode(content).decode()])
+        opened.has_read(text)
+    # a file that is none changes nothing, and says so
+    opened.page.evaluate(DROP, ["broken.fmu", base64.b64encode(b"no archive").decode()])
+    opened.at("toast").get_by_text("broken.fmu").wait_for()
+    assert opened.text == first
+    opened.at("file").set_input_files({"name": "chosen.toml", "mimeType": "text/plain", "buffer": second.encode()})
+    opened.has_read(second)
+
+
+def test_a_link_opens_the_same_scene(opened: ScenePage, page: Page) -> None:
+    text = scene("everything") + "# k\u00fcrzer \u2192 \U0001f3b1\n"
+    opened.at("link").evaluate("(link) => (link.value = '')")
+    opened.write(text)
+    opened.page.wait_for_function("() => document.querySelector('[data-test=link]').value !== ''")
+    link = opened.at("link").input_value()
+    assert ScenePage(page, "#" + link.partition("#")[2]).text == text
