@@ -201,7 +201,7 @@ fn a_force_is_extrapolated_better_with_its_second_derivative_than_without() {
         }
         for kind in ["held", "accelerated", "random"] {
             let (mut with, mut without) = (Vec::new(), Vec::new());
-            for seed in 0..20 {
+            for seed in 0..8 {
                 let mut random = Random(seed);
                 random.next();
                 let (depth, size) = (1e-7, 1e-7 / model.friction.scale());

@@ -4,17 +4,14 @@ use super::{courses, variables};
 use crate::arithmetic::{MODES, control, set_control};
 use crate::face::Face;
 
-/// In every mode of arithmetic, values are finite, and energies are balanced, and a step is the sum of its parts.
+/// In every mode of arithmetic, values are finite, and energies are balanced, and a step is the sum of its parts. Each enormous input
+/// is set in one of the modes.
 pub fn modes(face: &Face) {
     let usual = control();
-    for mode in MODES {
+    for (place, mode) in MODES.iter().enumerate() {
         set_control(usual | mode);
-        for check in [
-            variables::enormous_inputs,
-            courses::values_along_a_course,
-            courses::impulse,
-            courses::steps_and_their_parts,
-        ] {
+        variables::every_enormous_input(face, place, MODES.len());
+        for check in [courses::values_along_a_course, courses::impulse, courses::steps_and_their_parts] {
             check(face);
         }
     }
