@@ -1,5 +1,14 @@
 //! The physics: a rigid or elastic sphere pressed into an elastoplastic half-space.
 //!
+//! ```
+//! use brinell_contact::{Body, History, Model};
+//! let (ball, block) = (Body::rigid(5e-3), Body::flat(206e9, 0.3)); // radius [m]; Young's modulus [Pa], Poisson's ratio
+//! let model = Model::brinell(&ball, &block, 300e6).unwrap(); // yield strength [Pa]
+//! let mut history = History::start(&model, 0.0).unwrap(); // in touch
+//! history.advance(&model, 10e-6).unwrap(); // 10 um in
+//! assert_eq!(format!("{:.1} N", history.force()), "262.2 N");
+//! ```
+//!
 //! `f64` only; no allocation, no input or output, no panic, and no `unsafe`. A [`Model`] holds the bodies in contact
 //! and their laws; a [`History`] holds the whole state of a contact. [`History::advance`] moves it along a path. Force,
 //! stiffness, energies and dent are functions of the two. The trait [`Contact`] is the common interface of elastoplastic and
@@ -25,7 +34,7 @@
 //! # Units
 //! SI throughout: m, kg, s, N, Pa, J. The documentation of each public item states its unit.
 //!
-//! # Example
+//! # Laws by name, and a prediction
 //! ```
 //! use brinell_contact::{Body, History, Model, Pair, Surface, impact, loading::BigAlabo, unloading::ContactRadius};
 //!
@@ -143,6 +152,15 @@ pub struct Model<L, U> {
     pub surface: Surface,
 }
 
+impl Model<loading::Brinell, unloading::Brinell> {
+    /// An `impactor` on a `target` that yields at `yield_strength` \[Pa\], with the laws `brinell`, which are fitted to finite
+    /// elements, for two [bodies](Pair::new) that can touch at one point.
+    pub fn brinell(impactor: &Body, target: &Body, yield_strength: f64) -> Option<Self> {
+        let (loading, unloading) = (loading::Brinell::REFERENCE, unloading::Brinell::REFERENCE);
+        Some(Model { pair: Pair::new(impactor, target, yield_strength)?, loading, unloading, surface: Surface::Dented })
+    }
+}
+
 impl<L: Loading, U: Unloading> Model<L, U> {
     /// The point where the contact begins to yield.
     pub fn yield_point(&self) -> YieldPoint {
@@ -255,13 +273,3 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         !self.yields_before(&self.yield_point(), max_indentation)
     }
 }
-
-/// The Rust code of the guide, as tests.
-#[cfg(doctest)]
-#[doc = include_str!("../../../docs/guide/rust.md")]
-mod guide {}
-
-/// The Rust code of the page on friction, as a test.
-#[cfg(doctest)]
-#[doc = include_str!("../../../docs/guide/friction.md")]
-mod friction {}

@@ -14,6 +14,16 @@ pub struct Body {
 }
 
 impl Body {
+    /// A rigid sphere of this `radius` \[m\].
+    pub fn rigid(radius: f64) -> Body {
+        Body { radius, youngs_modulus: f64::INFINITY, poissons_ratio: 0.0 }
+    }
+
+    /// A flat body.
+    pub fn flat(youngs_modulus: f64, poissons_ratio: f64) -> Body {
+        Body { radius: f64::INFINITY, youngs_modulus, poissons_ratio }
+    }
+
     /// Plane-strain modulus `E / (1 - nu^2)` \[Pa\].
     pub fn plane_strain_modulus(&self) -> f64 {
         self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)

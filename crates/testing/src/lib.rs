@@ -39,3 +39,13 @@ pub mod systems;
 pub mod targets;
 pub mod toolchain;
 pub mod unit;
+
+/// The Rust code of the guide, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/guide/rust.md")]
+mod guide {}
+
+/// The Rust code of the page on friction, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/guide/friction.md")]
+mod friction_in_the_guide {}
