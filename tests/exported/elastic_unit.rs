@@ -5,10 +5,10 @@
 
 use crate::command::{empty_folder, run};
 use crate::unit;
+use brinell_testing::rebuilt::{Sources, Way};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 const OUTPUTS: &str = "outputs = [\"indentation\", \"max_indentation\", \"residual_indentation\", \"contact_radius\", \
                        \"mean_pressure\", \"stiffness\", \"work\", \"elastic_energy\", \"dissipated_energy\", \"regime\"]";
@@ -83,43 +83,11 @@ fn an_elastic_fmu_is_smaller_by_the_omitted_code() {
 
 /// The library of a scene, compiled like in an export, but with the names of its functions and of the source file of each piece
 /// of its code, inlined or not.
-fn with_names(scene: &Path) -> Vec<u8> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder = empty_folder();
-    for part in ["Cargo.toml", "Cargo.lock"] {
-        fs::copy(root.join(part), folder.path().join(part)).unwrap();
-    }
-    // listed in the manifest, but not compiled
-    for named in ["src", "modelDescription", "build.rs", "benches", "examples", "tests"] {
-        std::os::unix::fs::symlink(root.join(named), folder.path().join(named)).unwrap();
-    }
-    copy(&root.join("crates"), &folder.path().join("crates"));
-    fs::write(folder.path().join("crates/unit/src/exported.rs"), constants(scene)).unwrap();
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with_names");
-    let settings = ["opt-level='s'", "lto='fat'", "codegen-units=1", "panic='abort'", "debug='line-tables-only'"];
-    let settings = settings.iter().flat_map(|setting| ["--config".into(), format!("profile.release.{setting}")]);
-    let arguments = "rustc --release --package brinell-unit --locked --features cdylib --crate-type cdylib -- \
-                     -Clink-arg=-nostartfiles -Clink-arg=-nodefaultlibs";
-    let output = Command::new(env!("CARGO"))
-        .current_dir(folder.path())
-        .env("CARGO_TARGET_DIR", &target)
-        .env_remove("CARGO_ENCODED_RUSTFLAGS")
-        .env_remove("RUSTFLAGS")
-        .args(settings)
-        .args(arguments.split_whitespace())
-        .output()
-        .expect("cargo runs this test");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    fs::read(target.join("release/libbrinell_unit.so")).expect("the library that was built")
-}
-
-fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let path = entry.unwrap().path();
-        let goal = to.join(path.file_name().unwrap());
-        if path.is_dir() { copy(&path, &goal) } else { fs::copy(&path, goal).map(drop).unwrap() }
-    }
+fn with_names(sources: &Sources, scene: &Path) -> Vec<u8> {
+    sources.use_scene(scene);
+    let way = Way { profile: &["debug='line-tables-only'"], ..Way::default() };
+    let library = sources.library("with_names", &way).unwrap_or_else(|said| panic!("{said}"));
+    fs::read(library).expect("the library that was built")
 }
 
 /// The files of the laws of one kind, by name, without those that every law needs.
@@ -132,9 +100,8 @@ fn law_files(kind: &str) -> BTreeSet<String> {
 /// The FMU contains no line of the program for a law that yields, or for unloading from a dent.
 #[test]
 fn an_elastic_fmu_has_no_code_of_a_plastic_law() {
-    // one at a time: both are built in the same folder
-    let plastic = with_names(&scene(true));
-    let elastic = with_names(&scene(false));
+    let sources = Sources::copied("with_names");
+    let [plastic, elastic] = [true, false].map(|yields| with_names(&sources, &scene(yields)));
     let named = |library: &[u8], files: &BTreeSet<String>| -> BTreeSet<String> {
         files.iter().filter(|file| contains(library, file.as_bytes())).cloned().collect()
     };

@@ -9,6 +9,7 @@
 
 use crate::markdown::{Block, Page};
 use crate::{is_writing, pages, parallel, python, read, root, skips};
+use brinell_testing::command::settled;
 use brinell_testing::schema;
 use std::convert::Infallible;
 use std::env;
@@ -133,12 +134,11 @@ impl Run {
         let mut path = vec![program.parent().unwrap().to_path_buf(), python::python().parent().unwrap().to_path_buf()];
         path.extend(env::split_paths(&env::var_os("PATH").unwrap_or_default()));
         let path: OsString = env::join_paths(path).expect("folders without colons");
-        python::keeping_modules(&mut command)
+        python::keeping_modules(settled(&mut command))
             .current_dir(self.folder.path())
             .env("PATH", path)
             .env("PYTHONPATH", root().join("python"))
             .env("BRINELL", program)
-            .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
             .env("MPLBACKEND", "Agg");
         let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started: {error}"));
         self.printed = String::from_utf8_lossy(&output.stdout).into_owned();

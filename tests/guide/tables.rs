@@ -1,21 +1,21 @@
 //! Tables of the guide generated from `modelDescription/`, and the keys of a scene.
 
 use crate::{is_writing, read, root};
+use brinell_testing::command;
 use serde_json::Value as Json;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use toml::{Table, Value};
 
 /// The entries of `kind` in a table of `modelDescription/`.
-fn entries(file: &str, kind: &str) -> Vec<Table> {
+pub fn entries(file: &str, kind: &str) -> Vec<Table> {
     let text = read(&Path::new("modelDescription").join(file));
     let mut table: Table = toml::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"));
     let Some(Value::Array(entries)) = table.remove(kind) else { panic!("{file} has no {kind}") };
     entries.into_iter().map(|entry| entry.try_into().expect("entries are tables")).collect()
 }
 
-fn text<'a>(entry: &'a Table, key: &str) -> &'a str {
+pub fn text<'a>(entry: &'a Table, key: &str) -> &'a str {
     entry.get(key).and_then(Value::as_str).unwrap_or_default()
 }
 
@@ -30,7 +30,7 @@ fn short(value: f64) -> String {
 }
 
 /// The allowed values, if there are limits.
-fn allowed(entry: &Table) -> String {
+pub fn allowed(entry: &Table) -> String {
     match (number(entry, "minimum"), number(entry, "maximum")) {
         (Some(least), Some(most)) => format!("{} to {}", short(least), short(most)),
         _ => String::new(),
@@ -122,10 +122,7 @@ fn materials() -> String {
 
 /// Each law of `kind`, with the texts and constants of `brinell laws`.
 fn laws(kind: &str) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_brinell")).args(["laws", "--json"]).output();
-    let output = output.expect("cargo has built the program");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let list: Json = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    let list = command::run(root(), ["laws", "--json"]).with_status(0).json();
     let (mut page, mut shown) = (String::new(), Vec::new());
     for law in list[kind].as_array().expect("a list of laws") {
         let text = |key: &str| law[key].as_str().unwrap_or_default();

@@ -6,6 +6,7 @@
 
 use crate::driver::{arguments, assert_good, attribute, compile, has_valgrind, headers, valgrind};
 use crate::unit;
+use brinell_testing::places::temporary;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -39,7 +40,7 @@ fn valgrind_finds_no_wrong_access_and_no_leak() {
 
 /// Compiles the program of one file `tests/c/NAME.c`.
 fn compile_one(name: &str) -> PathBuf {
-    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let program = temporary().join(name);
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/c/{name}.c"));
     let mut compiler = Command::new("cc");
     compiler.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"]).arg(headers()).arg(source);

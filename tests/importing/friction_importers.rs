@@ -6,6 +6,7 @@ use crate::every_importer;
 use crate::loaded::{OK, Unit};
 use crate::skips;
 use crate::unit;
+use brinell_testing::places::temporary;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -23,7 +24,7 @@ fn history() -> Vec<[f64; 3]> {
 
 /// The C program with the variables of this scene whose names have these endings.
 fn run_in_c(scene: &str, components: &[&str]) {
-    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("friction");
+    let program = temporary().join("friction");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c/friction.c");
     let mut compiler = Command::new("cc");
     compiler.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"]).arg(headers()).arg(source);
@@ -69,7 +70,7 @@ fn reference() -> Vec<[f64; 3]> {
 
 #[test]
 fn other_importers_get_the_forces_of_the_c_interface() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("friction_importers");
+    let folder = temporary().join("friction_importers");
     fs::create_dir_all(&folder).expect("the target folder can be written to");
     let lines = history().into_iter().map(|[normal, one, two]| format!("{normal:?} {one:?} {two:?}\n"));
     fs::write(folder.join("history.txt"), lines.collect::<String>()).expect("the target folder can be written to");

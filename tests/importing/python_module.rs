@@ -2,6 +2,7 @@
 
 use crate::python;
 use crate::unit::{export, scene, write_scene};
+use brinell_testing::command::settled;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -63,12 +64,11 @@ fn pytest(file: &str) {
         .iter()
         .map(|scene| (scene.file_stem().unwrap().to_string_lossy().into_owned(), export(scene)))
         .collect();
-    let output = python::keeping_modules(&mut Command::new(python::python()))
+    let output = python::keeping_modules(settled(&mut Command::new(python::python())))
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
         .current_dir(folder)
         .env("PYTHONPATH", root.join("python"))
         .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
-        .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_SCENES", root.join("scenes"))
         .env("BRINELL_TEST_TRUTH", root.join("data/truth"))

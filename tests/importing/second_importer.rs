@@ -3,6 +3,7 @@
 use crate::fmi_crate::{forces_by_fmi_crate, output_of};
 use crate::python;
 use crate::unit;
+use brinell_testing::places::temporary;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,7 +21,7 @@ fn history() -> PathBuf {
         let step = 1e-7 * (1.0 + 0.5 * (1.7 * phase).cos());
         text += &format!("{rate:?} {step:?}\n");
     }
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("second_importer_history.txt");
+    let path = temporary().join("second_importer_history.txt");
     fs::write(&path, text).expect("the target folder can be written to");
     path
 }

@@ -3,6 +3,7 @@
 
 use crate::physics::{AnyModel, Random, all_models, corners, has_jumps, loading_force, random_bodies, unit};
 use brinell_contact::{History, Loading};
+use brinell_testing::places::temporary;
 use std::env;
 use std::process::Command;
 
@@ -144,7 +145,7 @@ fn every_level_of_optimisation_gives_the_same_bits() {
         cargo.args(["--", "--exact", test, "--nocapture"]);
         let output = cargo
             .env("BRINELL_PRINTS_BITS", "1")
-            .env("CARGO_TARGET_DIR", concat!(env!("CARGO_TARGET_TMPDIR"), "/levels"))
+            .env("CARGO_TARGET_DIR", temporary().join("levels"))
             .output()
             .expect("cargo can be started");
         let text = String::from_utf8_lossy(&output.stdout).into_owned();

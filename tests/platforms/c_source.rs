@@ -14,6 +14,7 @@ use crate::skips::skipped;
 use crate::systems;
 use crate::toolchain;
 use brinell_exporter::symbols::FUNCTIONS;
+use brinell_testing::places::temporary;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,8 +28,8 @@ static STORE: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
         return Some(named.into());
     }
     let folder = toolchain::toolchain_for_c()?;
-    let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("prebuilt").join("c-code");
-    let mut command = command::brinell(Path::new(env!("CARGO_TARGET_TMPDIR")));
+    let place = temporary().join("prebuilt").join("c-code");
+    let mut command = command::brinell(temporary());
     command.env("BRINELL_TOOLCHAIN", folder).args(["prebuild", "--platforms", "linux64,c-code", "-o"]).arg(&place);
     output(&mut command).with_status(0);
     Some(place)

@@ -10,8 +10,9 @@ use crate::hosts::{Host, Interface, Loading, Said, cc, compile};
 use crate::skips::skipped;
 use crate::standalone;
 use crate::unit;
+use brinell_testing::places::temporary;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// The scenes: the default, one that knows the mass, and one with every output.
@@ -100,7 +101,7 @@ fn fmus_run_on_an_old_c_library() {
     let host = Host { command: vec![loader, "--library-path".into(), libraries, program], variables: Vec::new() };
     assert_all_run(&host, "glibc 2.31");
     // the host can fail: a library for a new C library does not load
-    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("needs_new_glibc.c");
+    let source = temporary().join("needs_new_glibc.c");
     let library = source.with_extension("so");
     // the symbol has the version with which it was moved to the C library
     fs::write(&source, "void *dlopen(const char *, int); void *f(void) { return dlopen(0, 1); }").unwrap();

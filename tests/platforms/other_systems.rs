@@ -15,6 +15,7 @@ use crate::prebuilt;
 use crate::skips::skipped;
 use crate::systems::{self, System};
 use crate::toolchain;
+use brinell_testing::places::temporary;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,8 +29,8 @@ static STORE: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
         return Some(named.into());
     }
     let folder = toolchain::toolchain()?;
-    let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("prebuilt").join("all");
-    let mut command = command::brinell(Path::new(env!("CARGO_TARGET_TMPDIR")));
+    let place = temporary().join("prebuilt").join("all");
+    let mut command = command::brinell(temporary());
     command.env("BRINELL_TOOLCHAIN", folder).args(["prebuild", "--platforms", "all", "-o"]).arg(&place);
     command::output(&mut command).with_status(0);
     Some(place)
@@ -49,7 +50,7 @@ impl Fmu {
         // tests run at the same time, and two of them may export the same scene
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed).to_string();
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("all_platforms").join(number);
+        let folder = temporary().join("all_platforms").join(number);
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).expect("the target folder can be written to");
         fs::write(folder.join("scene.toml"), text).expect("the target folder can be written to");

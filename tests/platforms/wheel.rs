@@ -4,6 +4,7 @@
 use crate::command::{Run, contents, empty_folder, output, scene};
 use crate::prebuilt;
 use crate::python;
+use brinell_testing::places::temporary;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -64,7 +65,7 @@ const SCENE: &str = "mass_known";
 
 /// The wheel, installed with its dependencies in an empty environment.
 static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel");
+    let folder = temporary().join("wheel");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     let environment = folder.join("environment");

@@ -8,6 +8,7 @@ use crate::command;
 use crate::programs::Program;
 use crate::python;
 use crate::systems;
+use brinell_testing::places::temporary;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
@@ -37,7 +38,7 @@ static WINE: LazyLock<PathBuf> = LazyLock::new(|| match std::env::var_os("WINE")
 fn wine(path: &Path) -> Command {
     let mut command = Command::new(&*WINE);
     command.arg(path);
-    command.env("WINEPREFIX", Path::new(env!("CARGO_TARGET_TMPDIR")).join("wine")).env("WINEDEBUG", "-all");
+    command.env("WINEPREFIX", temporary().join("wine")).env("WINEDEBUG", "-all");
     command.env("WINEDLLOVERRIDES", "mscoree,mshtml=").env_remove("DISPLAY");
     command
 }

@@ -198,11 +198,11 @@ fn a_full_disk_is_reported_with_the_folder() {
         let disk = empty_folder();
         let folder = empty_folder();
         let cache = disk.path().join("cache");
-        let script = format!("mount -t tmpfs -o size={kilobytes}k tmpfs '{}' && exec \"$@\"", disk.path().display());
+        let script = format!("mount -t tmpfs -o size={kilobytes}k tmpfs \"$DISK\" && exec \"$@\"");
         let mut command = Command::new("unshare");
         command.args(["-rm", "sh", "-c", &script, "sh"]).current_dir(folder.path());
         command.arg(brinell(folder.path()).get_program()).arg("export").arg(scene("steel_ball"));
-        let run = output(command.env("BRINELL_CACHE", &cache));
+        let run = output(command.env("BRINELL_CACHE", &cache).env("DISK", disk.path()));
         if run.status == Some(0) {
             continue;
         }

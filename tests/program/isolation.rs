@@ -3,6 +3,7 @@
 
 use crate::command::{assert_same, brinell, cache, contents, empty_folder, exported, output, scene};
 use crate::skips;
+use brinell_testing::places::temporary;
 use std::ffi::OsStr;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
@@ -21,7 +22,7 @@ fn forget(cache: &Path) {
 /// A cache with the compiled parts of an export and without its library, so that the next export compiles only that.
 fn with_parts() -> TempDir {
     static PARTS: LazyLock<PathBuf> = LazyLock::new(|| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("parts");
+        let folder = temporary().join("parts");
         let _ = fs::remove_dir_all(&folder);
         exported(|command| command.env("BRINELL_CACHE", &folder));
         forget(&folder);
@@ -100,10 +101,10 @@ fn no_setting_in_the_environment_affects_the_fmu() {
 
 /// Settings in a `.cargo/config.toml` that would change bytes or run a foreign program.
 fn hostile_configuration(linker: &Path) -> String {
-    let linker = linker.display();
+    let linker = format!("{:?}", linker.display().to_string());
     format!(
-        "[build]\nrustc-wrapper = \"{linker}\"\ntarget = \"x86_64-unknown-linux-musl\"\nrustflags = [\"-Copt-level=0\"]\n\
-         [target.x86_64-unknown-linux-gnu]\nlinker = \"{linker}\"\n\
+        "[build]\nrustc-wrapper = {linker}\ntarget = \"x86_64-unknown-linux-musl\"\nrustflags = [\"-Copt-level=0\"]\n\
+         [target.x86_64-unknown-linux-gnu]\nlinker = {linker}\n\
          [profile.release]\nopt-level = 1\nlto = false\n\
          [profile.release.package.libm]\nopt-level = 0\n\
          [env]\nRUSTC_BOOTSTRAP = \"1\"\nLD_RUN_PATH = {{ value = \"/tmp\", force = true }}\n\
@@ -126,7 +127,7 @@ impl Home {
             fs::create_dir_all(home.join(inside)).unwrap();
         }
         let (linker, ran) = (home.join("linker"), home.join("ran"));
-        fs::write(&linker, format!("#!/bin/sh\ntouch '{}'\nexit 1\n", ran.display())).unwrap();
+        fs::write(&linker, "#!/bin/sh\ntouch \"${0%/*}/ran\"\nexit 1\n").unwrap();
         fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
         for place in ["", "deep", "deep/temporary", "deep/cache", "deep/work"].map(|place| home.join(place)) {
             fs::create_dir_all(place.join(".cargo")).unwrap();

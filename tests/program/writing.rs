@@ -1,7 +1,7 @@
 //! What the program writes, and where: links, devices, protected files, full disks, closed pipes, and unusual paths.
 #![cfg(target_os = "linux")]
 
-use crate::command::{brinell, contents, empty_folder, output, run, scene};
+use crate::command::{brinell, contents, empty_folder, output, run, scene, settled};
 use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
@@ -286,7 +286,7 @@ fn a_full_disk_behind_standard_output_is_an_error_with_a_message() {
         &["--help"],
     ] {
         let mut command = Command::new("sh");
-        command.current_dir(folder.path()).env("BRINELL_CACHE", crate::command::cache());
+        settled(command.current_dir(folder.path()));
         command.args(["-c", "exec \"$@\" > /dev/full", "sh", env!("CARGO_BIN_EXE_brinell")]);
         let run = output(command.args(arguments)).with_status(1);
         let said = "brinell: standard output can't be written to: No space left";

@@ -1,5 +1,6 @@
 //! Parts of a test program that may crash or hang, in processes of their own with a time limit.
 
+use crate::places::WORKER;
 use std::fmt;
 use std::fs::{self, File};
 use std::path::Path;
@@ -25,7 +26,7 @@ impl fmt::Display for Failure {
 /// `program`, a test program, told to run its ignored test `worker` alone.
 pub fn worker(program: &Path) -> Command {
     let mut command = Command::new(program);
-    command.args(["worker", "--exact", "--ignored", "--nocapture"]).env("RUST_BACKTRACE", "0");
+    command.args(["worker", "--exact", "--ignored", "--nocapture"]).env("RUST_BACKTRACE", "0").env(WORKER, "1");
     // a thread of glibc otherwise keeps some freed pieces, which then count as in use
     command.env("GLIBC_TUNABLES", "glibc.malloc.tcache_count=0");
     command

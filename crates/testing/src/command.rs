@@ -34,8 +34,15 @@ impl Run {
 /// The program, to run in `folder` with a separate cache and without a downloaded toolchain.
 pub fn brinell(folder: &Path) -> Command {
     let mut command = Command::new(program());
-    command.current_dir(folder).env("BRINELL_CACHE", cache()).env("BRINELL_TOOLCHAIN", cache().join("none"));
+    settled(&mut command).current_dir(folder).env("BRINELL_TOOLCHAIN", cache().join("none"));
     command
+}
+
+/// `command`, for which the program has the cache of the tests, and neither libraries nor materials of the user.
+pub fn settled(command: &mut Command) -> &mut Command {
+    let none = temporary().join("no-settings");
+    command.env("BRINELL_CACHE", cache()).env_remove("BRINELL_PREBUILT");
+    command.env("XDG_CONFIG_HOME", &none).env("APPDATA", none)
 }
 
 /// The cache of the tests.

@@ -1,9 +1,11 @@
 //! Where things are: the project, the program, and a folder for what tests make.
 
+use std::env;
+use std::fs::{self, File};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::UNIX_EPOCH;
-use std::{env, fs};
 
 /// The folder of the project.
 pub fn root() -> &'static Path {
@@ -29,13 +31,31 @@ pub fn program() -> &'static Path {
     &PROGRAM
 }
 
-/// The folder that cargo keeps for the files of tests.
+/// The folder that cargo keeps for the files of tests. They have fixed names: a second run of tests in the same target folder waits
+/// until this test program has ended.
 pub fn temporary() -> &'static Path {
-    static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
+    static FOLDER: LazyLock<(PathBuf, Option<File>)> = LazyLock::new(|| {
         let target = TEST.ancestors().nth(3).expect("a test program is in target/PROFILE/deps");
-        target.join("tmp")
+        let folder = target.join("tmp");
+        fs::create_dir_all(&folder).expect("the target folder can be written to");
+        let lock = env::var_os(WORKER).is_none().then(|| for_this_run(&folder.join("in-use")));
+        (folder, lock)
     });
-    &FOLDER
+    &FOLDER.0
+}
+
+/// Set for the workers of a test program, which share its folder.
+pub const WORKER: &str = "BRINELL_WORKER";
+
+/// The lock in `file`, which ends with the process.
+fn for_this_run(file: &Path) -> File {
+    let lock = File::create(file).expect("the target folder can be written to");
+    if lock.try_lock().is_err() {
+        // past the harness, which hides the output of a test
+        let _ = writeln!(io::stderr(), "\nanother run of the tests uses {}: waiting for its end", file.display());
+        lock.lock().expect("the target folder is on a file system with locks");
+    }
+    lock
 }
 
 /// The name of the test program.

@@ -1,6 +1,7 @@
 //! Libraries of FMUs that are built from a copy of the sources: with a change in them, or for another purpose than use.
 
 use super::unit;
+use crate::command::settled;
 use crate::places::{program, root, temporary};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -74,7 +75,7 @@ impl Sources {
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
         let guid = description.split(" guid=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a GUID");
         let mut program = Command::new(program());
-        let output = program.arg("constants").arg(scene).output().expect("cargo has built the program");
+        let output = settled(&mut program).arg("constants").arg(scene).output().expect("cargo has built the program");
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let constants = String::from_utf8(output.stdout).expect("UTF-8");
         let constants = constants.replacen("guid: \"unpacked\"", &format!("guid: \"{guid}\""), 1);

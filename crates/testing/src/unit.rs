@@ -1,5 +1,6 @@
 //! FMUs for tests: exports a scene with the program as a user does, and loads the library.
 
+use crate::command::settled;
 use crate::places::{program, root, temporary, test_name};
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
@@ -115,13 +116,11 @@ pub fn export(scene: &Path) -> PathBuf {
 
 /// Exports `scene` to `unit`.
 fn build(scene: &Path, unit: &Path) {
-    let output = Command::new(program())
+    let output = settled(&mut Command::new(program()))
         .arg("export")
         .arg(scene)
         .arg("-o")
         .arg(unit)
-        // do not touch the user's cache
-        .env("BRINELL_CACHE", temporary().join("cache"))
         .output()
         .expect("cargo has built the program");
     assert!(
