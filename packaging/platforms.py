@@ -38,6 +38,9 @@ PLATFORMS = {
     "linux-aarch64": Platform(
         ("Linux", "aarch64"), "aarch64-unknown-linux-gnu", _ELF, (18, b"\xb7\0")
     ),
+    "linux-musl-x86_64": Platform(
+        ("Linux", "x86_64"), "x86_64-unknown-linux-musl", _ELF, (18, b"\x3e\0")
+    ),
     "windows-x86_64": Platform(
         ("Windows", "AMD64"), "x86_64-pc-windows-gnu", b"MZ", (4, b"\x64\x86"), zig=False
     ),
@@ -82,22 +85,22 @@ _MINGW = "x86_64-w64-mingw32-"
 _MINGW_PROGRAMS = {"gcc": "gcc-win32", "dlltool": "dlltool"}
 
 
-def environment(it: Platform, tools: Tools, scratch: Path) -> dict[str, str]:
-    """The environment variables of maturin and cargo for a platform."""
+def environment(it: Platform, tools: Tools, scratch: Path, source: Path) -> dict[str, str]:
+    """The environment variables of maturin and cargo for a platform, to build what is in the folder `source`."""
     programs = scratch / "bin"
     programs.mkdir(parents=True, exist_ok=True)
     path = [str(programs), str(scratch / "venv" / "bin"), os.environ["PATH"]]
     cargo = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
     # the program contains the paths of sources in its messages; without this option they would be those of this machine
-    remapped = {cargo / "registry" / "src": "registry", ROOT: "brinell"}
+    remapped = {cargo / "registry" / "src": "registry", source: "brinell"}
     if tools.toolchain is not None:
         remapped[tools.toolchain.resolve()] = "toolchain"
     variables = {
         **os.environ,
         "PATH": os.pathsep.join(path),
         "CARGO_TARGET_DIR": str(scratch / "target"),
-        "RUSTFLAGS": " ".join(f"--remap-path-prefix={old}={new}" for old, new in remapped.items()),
     }
+    flags = [f"--remap-path-prefix={old}={new}" for old, new in remapped.items()]
     if not has_standard_library(it):
         if tools.toolchain is not None:
             compiler = _wrapper(programs / "rustc-web", tools.toolchain, "rustc")
@@ -108,9 +111,14 @@ def environment(it: Platform, tools: Tools, scratch: Path) -> dict[str, str]:
         if tools.mingw is not None:
             for name, debian_name in _MINGW_PROGRAMS.items():
                 _wrapper(programs / (_MINGW + name), tools.mingw, _MINGW + debian_name)
+    if it.target.endswith("-musl"):
+        # a static program can't load the library of an FMU
+        flags.append("-Ctarget-feature=-crt-static")
     if it.oldest_macos is not None:
         variables["MACOSX_DEPLOYMENT_TARGET"] = it.oldest_macos
         variables["CARGO_PROFILE_RELEASE_STRIP"] = "none"
+    # a path may have spaces
+    variables["CARGO_ENCODED_RUSTFLAGS"] = "\x1f".join(flags)
     return variables
 
 
@@ -130,3 +138,8 @@ def _wrapper(script: Path, folder: Path, program: str) -> Path:
     )
     script.chmod(0o755)
     return script
+
+
+if __name__ == "__main__":
+    # for `xargs rustup target add`
+    print(*(it.target for it in PLATFORMS.values()))

@@ -24,7 +24,7 @@ from bill import bill_of_materials
 from licenses import third_party
 from platforms import PLATFORMS, ROOT, Tools, environment, has_standard_library, here
 
-VERSION = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]
+VERSION = tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]["package"]["version"]
 INFO = f"brinell-{VERSION}.dist-info"
 DATA = f"brinell-{VERSION}.data"
 
@@ -59,9 +59,9 @@ def main() -> None:
     written = []
     for name in given.platforms:
         if given.program is not None:
-            tag, base = _plain_wheel(program, given.scratch)
+            tag, base = _plain_wheel(program, given.scratch, given.source)
         else:
-            tag, base = _maturins_wheel(name, tools, given.scratch)
+            tag, base = _maturins_wheel(name, tools, given.scratch, given.source)
         written += _pack(name, tag, base, share, given.output)
     hashes = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n" for path in written]
     (given.output / "SHA256SUMS").write_text("".join(sorted(hashes, key=lambda line: line[66:])))
@@ -74,6 +74,12 @@ def _arguments() -> argparse.Namespace:
     add = parser.add_argument
     add("platforms", nargs="*", metavar="PLATFORM", help=f"{', '.join(PLATFORMS)}, or all")
     add("--program", type=Path, help="a program that is built already, for this machine")
+    add(
+        "--source",
+        type=Path,
+        default=ROOT / "python",
+        help="the Python project, or an unpacked source distribution [default: python]",
+    )
     add("--prebuilt", type=Path, help="the folder that `brinell prebuild` has written")
     add("--page", type=Path, help="the page that page.py has written")
     add("--toolchain", type=Path, help="the folder that rustc-web is unpacked in")
@@ -88,10 +94,10 @@ def _arguments() -> argparse.Namespace:
             parser.error(f"there is no platform {name}: {', '.join(PLATFORMS)}, or all")
     if given.program is not None and given.platforms != [here()]:
         parser.error(f"--program is a program for {here()}")
-    for folder in (given.prebuilt, given.toolchain, given.mingw):
+    for folder in (given.prebuilt, given.toolchain, given.mingw, given.source):
         if folder is not None and not folder.is_dir():
             parser.error(f"there is no folder {folder}")
-    given.scratch = given.scratch.resolve()
+    given.scratch, given.source = given.scratch.resolve(), given.source.resolve()
     return given
 
 
@@ -127,7 +133,7 @@ def _maturin(scratch: Path, *requirements: str) -> Path:
     return programs / "maturin"
 
 
-def _maturins_wheel(name: str, tools: Tools, scratch: Path) -> tuple[str, Files]:
+def _maturins_wheel(name: str, tools: Tools, scratch: Path, source: Path) -> tuple[str, Files]:
     """Tag and files of maturin's wheel for the platform `name`. Linked with zig, a program for
     Linux runs with glibc 2.17 and newer, which maturin checks."""
     it = PLATFORMS[name]
@@ -140,24 +146,24 @@ def _maturins_wheel(name: str, tools: Tools, scratch: Path) -> tuple[str, Files]
     if not has_standard_library(it):
         command += ["-Z", "build-std=std,panic_unwind"]
     with tempfile.TemporaryDirectory() as folder:
-        variables = environment(it, tools, scratch)
+        variables = environment(it, tools, scratch, ROOT if source == ROOT / "python" else source)
         linked = ["-s", *STUBS] if it.oldest_macos else []
         command += ["--out", folder, "--", *(f"-Clink-arg={argument}" for argument in linked)]
-        subprocess.run(command, cwd=ROOT / "python", env=variables, check=True)
+        subprocess.run(command, cwd=source, env=variables, check=True)
         (wheel,) = Path(folder).glob("*.whl")
         return wheel.stem.split("-")[-1], archives.read_zip(wheel)
 
 
-def _plain_wheel(program: Path, scratch: Path) -> tuple[str, Files]:
+def _plain_wheel(program: Path, scratch: Path, source: Path) -> tuple[str, Files]:
     """The same for an existing program, which runs on systems as new as this one."""
     maturin = _maturin(scratch, "requirements.txt")
     with tempfile.TemporaryDirectory() as folder:
         command = [maturin, "pep517", "write-dist-info", "--compatibility", "linux"]
         command += ["--metadata-directory", folder]
-        subprocess.run(command, cwd=ROOT / "python", check=True, capture_output=True)
+        subprocess.run(command, cwd=source, check=True, capture_output=True)
         files = archives.read_folder(Path(folder) / INFO, INFO)
     tag = files[f"{INFO}/WHEEL"].decode().strip().split("Tag: ")[-1].split("-")[-1]
-    module = archives.read_folder(ROOT / "python" / "brinell", "brinell")
+    module = archives.read_folder(source / "brinell", "brinell")
     files |= {name: data for name, data in module.items() if "__pycache__" not in name}
     return tag, files | {f"{DATA}/scripts/{program.name}": program.read_bytes()}
 

@@ -1,0 +1,297 @@
+#!/usr/bin/env python3
+"""Does what a tag starts (.github/workflows/release.yml), from packages instead of the repository, but for publishing.
+At its end it says what it could not try here.
+
+    python3 packaging/rehearse.py                                            # for this machine
+    python3 packaging/rehearse.py --toolchain FOLDER [--mingw FOLDER]        # for all platforms
+    python3 packaging/rehearse.py crates source                              # some of the steps
+
+The files are below target/rehearsal: crates/, python/ (wheels and source distribution), archives/ (with hashes and notes), site/.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import time
+import venv
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from platforms import PLATFORMS, ROOT, has_standard_library
+from trial import tried
+
+# What a package is compressed to at most, and which of its folders a user needs [bytes].
+LARGEST = 400_000
+FOLDERS = {"src", "data", "scenes"}
+
+# The scenes whose FMUs the program from packages and that of the repository must write with the same bytes.
+SCENES = ["steel_ball", "mass_known", "elastic"]
+
+# Which can't be tried without accounts, or on other systems.
+NEVER = [
+    "publishing to crates.io, PyPI and GitHub, and its short-lived passwords",
+    "the provenance that GitHub attests",
+    "macOS: no program has run on it here",
+    "the warnings of Windows and macOS about programs from the internet",
+]
+
+
+class Rehearsal:
+    """The steps, in the order of their names in `STEPS`."""
+
+    def __init__(self, given: argparse.Namespace) -> None:
+        self.given = given
+        self.folder: Path = given.output.resolve()
+        self.scratch = self.folder / "scratch"
+        self.scratch.mkdir(parents=True, exist_ok=True)
+        self.not_tried: list[str] = []
+        self.version = re.findall(r'^version = "(.*)"', (ROOT / "Cargo.toml").read_text(encoding="utf-8"), re.M)[0]
+
+    def new(self, name: str) -> Path:
+        """An empty folder for files of the release."""
+        folder = self.folder / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        return folder
+
+    def tool(self, program: str) -> Path:
+        """A program of requirements-checks.txt, or maturin."""
+        folder = self.scratch / "venv"
+        programs = folder / ("Scripts" if os.name == "nt" else "bin")
+        if not (programs / program).exists():
+            venv.create(folder, with_pip=True)
+            for name in ("requirements.txt", "requirements-checks.txt"):
+                run(programs / "python", "-m", "pip", "install", "--quiet", "-r", ROOT / "packaging" / name)
+        return Path(programs / program)
+
+    def crates(self) -> str:
+        """The packages for crates.io, each with what its user needs and no more."""
+        known = json.loads(run("cargo", "metadata", "--format-version=1", "--no-deps", "--locked"))["packages"]
+        names = {it["name"] for it in known if it["publish"] is None}
+        target = self.scratch / "packing"
+        shutil.rmtree(target / "package", ignore_errors=True)
+        more = [part for name in sorted(names) for part in ("--package", name)]
+        more += ["--allow-dirty"] if self.given.tag is None else []
+        run("cargo", "package", "--locked", "--no-verify", "--target-dir", target, *more)
+        folder, told = self.new("crates"), []
+        for path in sorted((target / "package").glob("*.crate")):
+            shutil.copy2(path, folder)
+            files = packed(path)
+            others = {name.split("/")[0] for name in files if "/" in name} - FOLDERS
+            if others or "LICENSE" not in files or path.stat().st_size > LARGEST:
+                raise SystemExit(f"{path.name}: {path.stat().st_size} bytes, with {sorted(others)} and {sorted(files)}")
+            told.append(f"{path.stem} {len(files)} files, {path.stat().st_size:,} bytes")
+        found = {path.name.rsplit("-", 1)[0] for path in folder.iterdir()}
+        if found != names:
+            raise SystemExit(f"packages of {sorted(found)}, but {sorted(names)} are published")
+        return "; ".join(told)
+
+    def registry(self) -> dict[str, str]:
+        """The variables of a cargo that knows the packages of the step `crates` and what they depend on, and nothing else."""
+        folder, home = self.scratch / "registry", self.scratch / "cargo-home"
+        shutil.rmtree(home, ignore_errors=True)
+        variables = {**os.environ, "CARGO_HOME": str(home)}
+        run(
+            "cargo",
+            "vendor",
+            "--locked",
+            "--versioned-dirs",
+            "--manifest-path",
+            ROOT / "Cargo.toml",
+            folder,
+            env=variables,
+        )
+        shutil.rmtree(home)
+        for path in (self.folder / "crates").iterdir():
+            shutil.rmtree(folder / path.stem, ignore_errors=True)
+            with tarfile.open(path) as archive:
+                archive.extractall(folder, filter="data")
+            sums = {"files": {}, "package": hashlib.sha256(path.read_bytes()).hexdigest()}
+            (folder / path.stem / ".cargo-checksum.json").write_text(json.dumps(sums))
+        home.mkdir()
+        replaced = f'[source.crates-io]\nreplace-with = "here"\n[source.here]\ndirectory = {json.dumps(str(folder))}\n'
+        (home / "config.toml").write_text(replaced, encoding="utf-8")
+        # neither the repository nor its target folder
+        return variables | {"CARGO_TARGET_DIR": str(self.scratch / "target")}
+
+    def install(self) -> str:
+        """`cargo install brinell` from the packages alone; the FMUs are those of the repository's program, byte by byte."""
+        variables, root = self.registry(), self.scratch / "installed"
+        run("cargo", "install", "brinell", "--locked", "--force", "--root", root, env=variables, cwd=self.scratch)
+        run("cargo", "build", "--release", "--locked")
+        # what this repository's tests would use
+        target = json.loads(run("cargo", "metadata", "--format-version=1", "--no-deps"))["target_directory"]
+        ending = ".exe" if os.name == "nt" else ""
+        programs = [root / "bin" / f"brinell{ending}", Path(target) / "release" / f"brinell{ending}"]
+        folder = self.new("scratch/exported")
+        for scene in SCENES:
+            made = []
+            for number, program in enumerate(programs):
+                fmu = folder / f"{scene}{number}.fmu"
+                cache = {**os.environ, "BRINELL_CACHE": str(self.scratch / f"cache{number}")}
+                run(program, "export", ROOT / "scenes" / f"{scene}.toml", "--compile", "-o", fmu, env=cache, cwd=folder)
+                run(program, "check", fmu, cwd=folder)
+                made.append(fmu.read_bytes())
+            if made[0] != made[1]:
+                raise SystemExit(f"{scene}: the program from packages makes another FMU than that of the repository")
+        return f"{len(SCENES)} FMUs with the same bytes"
+
+    def source(self) -> str:
+        """The source distribution, from which a wheel is made in an empty environment."""
+        folder = self.new("python")
+        run(self.tool("maturin"), "sdist", "-o", folder, cwd=ROOT / "python")
+        (archive,) = folder.glob("*.tar.gz")
+        unpacked = self.new("scratch/source")
+        with tarfile.open(archive) as files:
+            files.extractall(unpacked, filter="data")
+        variables, empty, made = self.registry(), self.new("scratch/empty"), self.new("scratch/from-source")
+        venv.create(empty, with_pip=True)
+        python = empty / ("Scripts" if os.name == "nt" else "bin") / "python"
+        run(python, "-m", "pip", "wheel", "--quiet", "--no-deps", "-w", made, archive, env=variables, cwd=empty)
+        (wheel,) = made.iterdir()
+        return f"{archive.name} {archive.stat().st_size:,} bytes, makes {wheel.name} {wheel.stat().st_size:,} bytes"
+
+    def libraries(self) -> str:
+        """The prebuilt libraries, by the program from packages."""
+        program = self.scratch / "installed" / "bin" / ("brinell.exe" if os.name == "nt" else "brinell")
+        variables = {**os.environ, "BRINELL_CACHE": str(self.scratch / "cache0")}
+        platforms: list[str] = []
+        if self.given.toolchain is not None:
+            variables["BRINELL_TOOLCHAIN"] = str(self.given.toolchain.resolve())
+            platforms = ["--platforms", "all,c-code"]
+        else:
+            self.not_tried.append("libraries for other platforms, and C source: there is no --toolchain")
+        folder = self.new("prebuilt")
+        run(program, "prebuild", "-o", folder, *platforms, env=variables)
+        files = list(folder.iterdir())
+        return f"{len(files)} files, {sum(path.stat().st_size for path in files):,} bytes"
+
+    def wheels(self) -> str:
+        """Wheels and archives with hashes and bill of materials, from the unpacked source distribution; looked at by two tools."""
+        (source,) = (self.scratch / "source").iterdir()
+        chosen, tools = [], []
+        for name in ("toolchain", "mingw"):
+            if (folder := getattr(self.given, name)) is not None:
+                tools += [f"--{name}", folder]
+        for name, it in PLATFORMS.items():
+            linker = it.zig or self.given.mingw is not None or shutil.which("x86_64-w64-mingw32-gcc") is not None
+            if linker and (self.given.toolchain is not None or has_standard_library(it)):
+                chosen.append(name)
+            else:
+                self.not_tried.append(f"the wheel for {name}: there is no {'standard library' if linker else 'linker'}")
+        chosen = [name for name in chosen if not self.given.platforms or name in self.given.platforms]
+        archives = self.new("archives")
+        command = [
+            ROOT / "packaging" / "release.py",
+            *chosen,
+            "--source",
+            source,
+            "--prebuilt",
+            self.folder / "prebuilt",
+        ]
+        run(sys.executable, *command, *tools, "--scratch", self.scratch / "wheels", "-o", archives)
+        # wheels go to the Python Package Index, archives and hashes to the page of the release
+        for wheel in (self.folder / "python").glob("*.whl"):
+            wheel.unlink()
+        for wheel in archives.glob("*.whl"):
+            wheel.rename(self.folder / "python" / wheel.name)
+        python = sorted((self.folder / "python").iterdir())
+        run(self.tool("twine"), "check", "--strict", *python)
+        run(self.tool("check-wheel-contents"), *(path for path in python if path.suffix == ".whl"))
+        for line in (archives / "SHA256SUMS").read_text().splitlines():
+            digest, name = line.split("  ")
+            path = next(folder / name for folder in (archives, self.folder / "python") if (folder / name).is_file())
+            if hashlib.sha256(path.read_bytes()).hexdigest() != digest:
+                raise SystemExit(f"{name}: SHA256SUMS has another hash")
+        (archives / "NOTES.md").write_text(self.notes(), encoding="utf-8")
+        return "; ".join(f"{path.name} {path.stat().st_size:,} bytes" for path in python if path.suffix == ".whl")
+
+    def notes(self) -> str:
+        """The entry of the version in CHANGELOG.md, followed by what every release says."""
+        changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+        entry = re.findall(rf"^## {re.escape(self.version)}[^\n]*\n(.*?)(?=^## |\Z)", changes, re.M | re.S)
+        if not entry:
+            raise SystemExit(f"CHANGELOG.md has no entry of {self.version}")
+        text = (ROOT / "packaging" / "notes.md").read_text(encoding="utf-8")
+        return text.replace("CHANGES", entry[0].strip()).replace("VERSION", self.version)
+
+    def trial(self) -> str:
+        """The wheel for this machine, as its user has it."""
+        self.not_tried.append(
+            "other wheels than that of this machine (`platforms` tests run those for Windows and arm64 in Wine and QEMU)"
+        )
+        return re.sub(r"\s+", " ", tried(self.folder / "python"))[:100]
+
+    def book(self) -> str:
+        """The guide as a site."""
+        site = self.new("site")
+        # the test compiles mdBook once, and looks at its messages
+        run("cargo", "test", "--release", "--test", "guide", "--", "--ignored", "book")
+        target = json.loads(run("cargo", "metadata", "--format-version=1", "--no-deps"))["target_directory"]
+        (program,) = (Path(target) / "tools").glob("mdbook-*/bin/mdbook*")
+        run(program, "build", ROOT / "docs", "--dest-dir", site)
+        return f"{sum(path.is_file() for path in site.rglob('*'))} files"
+
+
+def packed(crate: Path) -> set[str]:
+    """The files of a package."""
+    with tarfile.open(crate) as archive:
+        return {name.split("/", 1)[1] for name in archive.getnames()}
+
+
+def run(*command: Any, cwd: Path = ROOT, env: dict[str, str] | None = None) -> str:
+    """What a command prints; if it fails, the rehearsal ends with what it said."""
+    words = [str(word) for word in command]
+    ended = subprocess.run(
+        words, cwd=cwd, env=env, capture_output=True, encoding="utf-8", errors="replace", check=False
+    )
+    if ended.returncode:
+        raise SystemExit(f"{' '.join(words)}\n{ended.stdout}{ended.stderr}")
+    return ended.stdout
+
+
+STEPS: dict[str, Callable[[Rehearsal], str]] = {
+    name: getattr(Rehearsal, name) for name in ("crates", "install", "source", "libraries", "wheels", "trial", "book")
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    add = parser.add_argument
+    add("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} [default: all]")
+    add("--toolchain", type=Path, help="the folder of packaging/toolchain.py, for all platforms")
+    add("--mingw", type=Path, help="the folder that Debian's mingw-w64 is unpacked in")
+    add(
+        "--platform",
+        action="append",
+        dest="platforms",
+        metavar="PLATFORM",
+        help=f"only wheels for this: {', '.join(PLATFORMS)}",
+    )
+    add("--tag", help="the tag of the release: the version with a v before it; nothing may be uncommitted")
+    add("-o", "--output", type=Path, default=ROOT / "target" / "rehearsal", help="[default: %(default)s]")
+    given = parser.parse_args()
+    for name in given.steps:
+        if name not in STEPS:
+            parser.error(f"there is no step {name}: {', '.join(STEPS)}")
+    rehearsal = Rehearsal(given)
+    if given.tag is not None and given.tag.startswith("v") and given.tag != f"v{rehearsal.version}":
+        parser.error(f"--tag {given.tag}: the version in Cargo.toml is {rehearsal.version}")
+    for name in given.steps or STEPS:
+        begin = time.monotonic()
+        said = STEPS[name](rehearsal)
+        print(f"{name:<10} {time.monotonic() - begin:5.0f} s  {said}", flush=True)
+    print("not tried:", *rehearsal.not_tried, *NEVER, sep="\n- ")
+
+
+if __name__ == "__main__":
+    main()
