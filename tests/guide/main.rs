@@ -16,6 +16,7 @@ mod parallel;
 mod promises;
 mod record;
 mod schema;
+mod surface;
 mod tables;
 
 use brinell_testing::{physics, python, skips};
