@@ -100,9 +100,12 @@ fn unwrapped(text: &str) -> String {
     if text.ends_with('\n') { all + "\n" } else { all }
 }
 
-/// An empty folder.
+/// An empty folder, which nobody else can write to, whatever the umask: the program builds in no other.
 pub fn empty_folder() -> TempDir {
-    tempfile::tempdir().expect("a folder for temporary files")
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+    builder.tempdir().expect("a folder for temporary files")
 }
 
 /// The names of the entries of `folder`, including hidden files.
