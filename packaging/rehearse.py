@@ -26,6 +26,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from page import has_standard_library as has_web_library
 from platforms import PLATFORMS, ROOT, has_standard_library
 from trial import tried
 
@@ -175,6 +176,19 @@ class Rehearsal:
         files = list(folder.iterdir())
         return f"{len(files)} files, {sum(path.stat().st_size for path in files):,} bytes"
 
+    def page(self) -> str:
+        """The page for a browser, with the prebuilt libraries inside."""
+        variables = dict(os.environ)
+        if self.given.toolchain is not None:
+            variables["BRINELL_STD_TOOLCHAIN"] = str(self.given.toolchain.resolve())
+        elif not has_web_library():
+            self.not_tried.append("the page for a browser: Rust hasn't its target, and there is no --toolchain")
+            return "-"
+        made = self.folder / "brinell.html"
+        page = [ROOT / "packaging" / "page.py", "--prebuilt", self.folder / "prebuilt", "-o", made]
+        run(sys.executable, *page, "--scratch", self.scratch / "page", env=variables)
+        return f"{made.stat().st_size:,} bytes"
+
     def wheels(self) -> str:
         """Wheels and archives with hashes and bill of materials, from the unpacked source distribution; looked at by two tools."""
         (source,) = (self.scratch / "source").iterdir()
@@ -198,7 +212,11 @@ class Rehearsal:
             "--prebuilt",
             self.folder / "prebuilt",
         ]
+        page = self.folder / "brinell.html"
+        tools += ["--page", page] if page.is_file() else []
         run(sys.executable, *command, *tools, "--scratch", self.scratch / "wheels", "-o", archives)
+        if page.is_file():
+            shutil.copy2(page, archives)
         # wheels go to the Python Package Index, archives and hashes to the page of the release
         for wheel in (self.folder / "python").glob("*.whl"):
             wheel.unlink()
@@ -232,13 +250,16 @@ class Rehearsal:
         return re.sub(r"\s+", " ", tried(self.folder / "python"))[:100]
 
     def book(self) -> str:
-        """The guide as a site."""
+        """The guide as a site, and the page beside it."""
         site = self.new("site")
         # the test compiles mdBook once, and looks at its messages
         run("cargo", "test", "--release", "--test", "guide", "--", "--ignored", "book")
         target = json.loads(run("cargo", "metadata", "--format-version=1", "--no-deps"))["target_directory"]
         (program,) = (Path(target) / "tools").glob("mdbook-*/bin/mdbook*")
         run(program, "build", ROOT / "docs", "--dest-dir", site)
+        page = self.folder / "brinell.html"
+        if page.is_file():
+            shutil.copy2(page, site)
         return f"{sum(path.is_file() for path in site.rglob('*'))} files"
 
 
@@ -260,7 +281,8 @@ def run(*command: Any, cwd: Path = ROOT, env: dict[str, str] | None = None) -> s
 
 
 STEPS: dict[str, Callable[[Rehearsal], str]] = {
-    name: getattr(Rehearsal, name) for name in ("crates", "install", "source", "libraries", "wheels", "trial", "book")
+    name: getattr(Rehearsal, name)
+    for name in ("crates", "install", "source", "libraries", "page", "wheels", "trial", "book")
 }
 
 

@@ -99,7 +99,7 @@ def language(name: str) -> Callable[[Run], None]:
         run.variables = {key: value for key, value in run.variables.items() if not key.startswith("LC_")}
         if name != "C":
             source, _, charset = name.partition(".")
-            made = ["localedef", "-i", source, "-f", charset, run.scratch / name]
+            made = ["localedef", "-i", source, "-f", charset, str(run.scratch / name)]
             subprocess.run(made, check=True)
             run.variables["LOCPATH"] = str(run.scratch)
         run.variables |= {"LANG": name, "LC_ALL": name, "LANGUAGE": name.split("_")[0]}

@@ -27,9 +27,9 @@ def tried(wheels: Path) -> str:
         folder = Path(name)
         venv.create(folder / "environment", with_pip=True)
         programs = folder / "environment" / ("Scripts" if os.name == "nt" else "bin")
-        pip = [programs / "python", "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
+        pip = [str(programs / "python"), "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
         # the wheel from the folder, and what it depends on from the registry
-        ours = ["--no-index", "--no-deps", "--only-binary", ":all:", "--find-links", wheels.resolve(), "brinell"]
+        ours = ["--no-index", "--no-deps", "--only-binary", ":all:", "--find-links", str(wheels.resolve()), "brinell"]
         subprocess.run([*pip, *ours], check=True)
         subprocess.run([*pip, "brinell"], check=True)
         shutil.copytree(ROOT / "scenes", folder / "scenes")
