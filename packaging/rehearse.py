@@ -155,6 +155,8 @@ class Rehearsal:
         with tarfile.open(archive) as files:
             files.extractall(unpacked, filter="data")
         variables, empty, made = self.registry(), self.new("scratch/empty"), self.new("scratch/from-source")
+        # files of a source distribution have one time: what an earlier one has left in a target folder would pass for new
+        del variables["CARGO_TARGET_DIR"]
         venv.create(empty, with_pip=True)
         python = empty / ("Scripts" if os.name == "nt" else "bin") / "python"
         run(python, "-m", "pip", "wheel", "--quiet", "--no-deps", "-w", made, archive, env=variables, cwd=empty)
