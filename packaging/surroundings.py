@@ -164,6 +164,7 @@ def own_settings(run: Run) -> None:
     """Settings that a user of the program has: materials, a cache, libraries."""
     settings = run.scratch / "settings"
     (settings / "brinell").mkdir(parents=True, exist_ok=True)
+    # it isn't complete: a test that reads it fails
     own = '[[material]]\nname = "mild steel"\nyoungs_modulus = 1e9\npoissons_ratio = 0.1\nyield_strength = 1e6\n'
     (settings / "brinell" / "materials.toml").write_text(own)
     cache, libraries = run.scratch / "cache", run.scratch / "libraries"

@@ -48,7 +48,10 @@ impl Installed {
     fn command(&self, program: &str) -> Command {
         let mut command = Command::new(self.programs.join(program));
         command.env("PATH", &self.folder).env("HOME", &self.folder).current_dir(&self.folder);
-        for variable in ["CARGO", "BRINELL", "BRINELL_PREBUILT", "BRINELL_CACHE", "XDG_CACHE_HOME", "PYTHONPATH"] {
+        for variable in ["CARGO", "BRINELL", "BRINELL_PREBUILT", "BRINELL_CACHE", "PYTHONPATH"] {
+            command.env_remove(variable);
+        }
+        for variable in ["XDG_CACHE_HOME", "XDG_CONFIG_HOME"] {
             command.env_remove(variable);
         }
         command

@@ -1,7 +1,7 @@
 //! Exports with missing or broken tools, or without disk space: one line gives the reason and a remedy, and no file changes.
 #![cfg(target_os = "linux")]
 
-use crate::command::{brinell, cache, contents, empty_folder, output, scene};
+use crate::command::{brinell, cache, contents, empty_folder, output, scene, settled};
 use crate::skips;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
@@ -160,7 +160,7 @@ fn in_shell(before: &str, cache: &Path) -> Option<String> {
     let folder = empty_folder();
     let program = brinell(folder.path()).get_program().to_owned();
     let mut command = Command::new("sh");
-    command.current_dir(folder.path()).args(["-c", &format!("{before}; exec \"$@\""), "sh"]);
+    settled(&mut command).current_dir(folder.path()).args(["-c", &format!("{before}; exec \"$@\""), "sh"]);
     command.arg(program).arg("export").arg(scene("steel_ball")).env("BRINELL_CACHE", cache);
     let run = output(&mut command);
     if run.status == Some(0) {
@@ -200,7 +200,7 @@ fn a_full_disk_is_reported_with_the_folder() {
         let cache = disk.path().join("cache");
         let script = format!("mount -t tmpfs -o size={kilobytes}k tmpfs \"$DISK\" && exec \"$@\"");
         let mut command = Command::new("unshare");
-        command.args(["-rm", "sh", "-c", &script, "sh"]).current_dir(folder.path());
+        settled(&mut command).args(["-rm", "sh", "-c", &script, "sh"]).current_dir(folder.path());
         command.arg(brinell(folder.path()).get_program()).arg("export").arg(scene("steel_ball"));
         let run = output(command.env("BRINELL_CACHE", &cache).env("DISK", disk.path()));
         if run.status == Some(0) {

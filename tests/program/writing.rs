@@ -209,7 +209,7 @@ fn a_new_file_has_the_permissions_of_the_umask_and_an_old_one_keeps_its_own() {
         let script = format!("umask {umask}; exec \"$@\"");
         let write = || {
             let mut command = Command::new("sh");
-            command.current_dir(folder.path()).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_brinell")]);
+            settled(command.current_dir(folder.path())).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_brinell")]);
             output(command.args(curve_to("curve.csv"))).with_status(0);
         };
         write();
