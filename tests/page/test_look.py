@@ -27,6 +27,15 @@ def test_a_phone_needs_no_horizontal_scroll(browser: Browser) -> None:
     context.close()
 
 
+def test_a_browser_that_was_started_without_a_language_shows_the_page(browser: Browser) -> None:
+    """With LANG=C the browser has a language that it refuses itself."""
+    context = browser.new_context(offline=True)
+    tab = context.new_page()
+    tab.add_init_script("Object.defineProperty(navigator, 'language', { value: 'en-US@posix', configurable: true })")
+    assert ScenePage(tab).errors == []
+    context.close()
+
+
 # What is right takes long to tell. In the dark only colours differ.
 LIGHT = {"resultTypes": ["violations"]}
 RULES = {"light": LIGHT, "dark": LIGHT | {"runOnly": ["color-contrast"]}}

@@ -15,6 +15,7 @@
 //   undo, redo, open, new, file, export       the head of the page; file is the hidden input
 //   platform.FOLDER, download.*     fmu, toml, python, copy, csv, history, svg, state
 //   try.*, way.NAME, tools.*, link, link.copy, toast
+import "./locale";
 import type { Mistake } from "./contract";
 import { describe, h, toast } from "./dom";
 import { Download } from "./download";
