@@ -6,7 +6,7 @@
 use crate::Refused;
 use crate::text::{self, Edit};
 use crate::unit::{self, Unit};
-use brinell_exporter::master::{Body, Coupled, Needs, WAYS, Way};
+use brinell_exporter::master::{Body, Coupled, LATE_MASS, MASS_KNOWN, Needs, WAYS, Way};
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::prebuilt::{Library, PrebuiltUnit};
@@ -26,49 +26,46 @@ const MOMENTS: usize = 1200;
 /// Largest number of rebounds in an answer.
 const REBOUNDS: usize = 40;
 
-/// The wrong ways: what the FMU assumes, and what its master does.
-const WRONG: [(&str, &str, usize, usize); 2] = [
-    (
-        "serial FMU, parallel master",
-        "the FMU expects that its force acts in the same step; the master is one step late",
-        4,
-        5,
-    ),
-    (
-        "parallel FMU, serial master",
-        "the FMU expects that its force acts one step late; the master applies it at once",
-        5,
-        4,
-    ),
-];
-
 /// The way whose FMU has the lines, the way of the master, and the words.
 struct Choice {
     name: &'static str,
     what: &'static str,
     unit: &'static Way,
     master: &'static Way,
-    is_right: bool,
+}
+
+/// The wrong ways: the FMU expects another master.
+const WRONG: [Choice; 2] = [
+    Choice {
+        name: "serial FMU, parallel master",
+        what: "the FMU expects that its force acts in the same step; the master is one step late",
+        unit: &MASS_KNOWN,
+        master: &LATE_MASS,
+    },
+    Choice {
+        name: "parallel FMU, serial master",
+        what: "the FMU expects that its force acts one step late; the master applies it at once",
+        unit: &LATE_MASS,
+        master: &MASS_KNOWN,
+    },
+];
+
+impl Choice {
+    fn is_right(&self) -> bool {
+        self.unit.name == self.master.name
+    }
 }
 
 fn choices() -> impl Iterator<Item = Choice> {
-    let right =
-        WAYS.iter().map(|way| Choice { name: way.name, what: way.what, unit: way, master: way, is_right: true });
-    let wrong = WRONG.iter().map(|(name, what, unit, master)| Choice {
-        name,
-        what,
-        unit: &WAYS[*unit],
-        master: &WAYS[*master],
-        is_right: false,
-    });
-    right.chain(wrong)
+    let right = WAYS.iter().map(|way| Choice { name: way.name, what: way.what, unit: way, master: way });
+    right.chain(WRONG)
 }
 
 /// The ways to couple.
 pub fn ways() -> Value {
     let way = |choice: Choice| {
         json!({
-            "name": choice.name, "what": choice.what, "master": choice.master.master.name(), "right": choice.is_right,
+            "name": choice.name, "what": choice.what, "master": choice.master.master.name(), "right": choice.is_right(),
             "knows_mass": choice.unit.needs.knows_mass(),
         })
     };
