@@ -1,6 +1,9 @@
 """Impacts by the laws of other tools, written here from their documentation and independent of the program."""
 
+import json
 import os
+import re
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -428,3 +431,17 @@ def summing_mover(numbers, radius, mass, step):
         return x + step * w, w, force
 
     return move
+
+
+def rebounds_in_node(script, asked):
+    """What a script says in Node.js, in the folder of its package: the restitution at each phase of the touch."""
+    run = subprocess.run(
+        ["node", "--input-type=module", "-e", script, json.dumps(asked)],
+        cwd=os.environ["BRINELL_TEST_NPM"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    found = re.search(r"^rebounds (.*)$", run.stdout, re.MULTILINE)
+    assert found, run.stdout[-2000:] + run.stderr[-2000:]
+    return json.loads(found[1])

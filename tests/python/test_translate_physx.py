@@ -1,13 +1,10 @@
 """The compliant contact of PhysX, which Node.js runs: the numbers are used as they are printed, and the ball rebounds as promised."""
 
-import json
-import os
 import re
-import subprocess
 
 import brinell
 import pytest
-from drops import PHASES, SCENE, compare
+from drops import PHASES, SCENE, compare, rebounds_in_node
 
 RADIUS, MASS, SPEED = 5e-3, 4e-3, 1.0
 
@@ -90,16 +87,7 @@ def rebounds_in_physx(block, step):
         "speed": SPEED,
         "time": step,
     }
-    run = subprocess.run(
-        ["node", "--input-type=module", "-e", SCRIPT, json.dumps(asked)],
-        cwd=os.environ["BRINELL_TEST_NPM"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    found = re.search(r"^rebounds (.*)$", run.stdout, re.MULTILINE)
-    assert found, run.stdout[-2000:] + run.stderr[-2000:]
-    return json.loads(found[1])
+    return rebounds_in_node(SCRIPT, asked)
 
 
 @pytest.mark.parametrize("step", [None, "1e-4"])
