@@ -89,7 +89,7 @@ fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<CurveRo
 /// The curves as columns.
 ///
 /// # Errors
-/// [`TooDeep`] if the laws cannot be evaluated up to `largest` [m].
+/// [`TooDeep`] if the laws cannot be evaluated up to `largest` \[m\].
 pub fn columns(choices: &[Choice], largest: f64, impact: &Impact) -> Result<Columns, TooDeep> {
     let names = [
         ("indentation", "m"),

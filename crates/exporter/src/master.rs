@@ -252,7 +252,7 @@ impl Way {
         }
     }
 
-    /// An impact of `mass` \[kg\] at `speed` \[m/s\] with steps of `step` [s], until the bodies separate.
+    /// An impact of `mass` \[kg\] at `speed` \[m/s\] with steps of `step` \[s\], until the bodies separate.
     ///
     /// # Errors
     /// The first call that fails.

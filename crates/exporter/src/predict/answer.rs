@@ -23,7 +23,7 @@ pub struct Answer<'a> {
 }
 
 impl Answer<'_> {
-    /// The predictions for `impact`. `fall` is the height [m] that it results from, if there is one.
+    /// The predictions for `impact`. `fall` is the height \[m\] that it results from, if there is one.
     ///
     /// # Errors
     /// [`PredictError::Beyond`]

@@ -55,7 +55,7 @@ const KEYWORDS: &str = "
     static_cast template this throw try typeid typename using virtual wchar_t
     and and_eq bitand bitor compl not not_eq or or_eq xor xor_eq";
 
-/// What [`check_identifier`] allows, as a pattern of JSON Schema.
+/// What `check_identifier` allows, as a pattern of JSON Schema.
 pub const IDENTIFIER: &str = "^[A-Za-z_][A-Za-z0-9_]{0,99}$";
 
 /// Text that is a C identifier, or a keyword.
