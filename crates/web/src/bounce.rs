@@ -182,7 +182,9 @@ fn edited(asked: &Asked, scene: &Scene, way: &Way) -> Result<String, Refused> {
         };
         edits.extend([Edit::of(&["fmu", "outputs"], json!(outputs)), Edit::of(&["fmu", "parameters"], Value::Null)]);
         if way.needs.knows_mass() {
-            edits.push(Edit::of(&["coupling", "effective_mass"], json!(scene.impact_of(0).mass)));
+            edits.push(Edit::of(&["coupling", "effective_mass"], json!(scene.impact.mass)));
+        } else if is_listed {
+            edits.extend((0..tables).map(|index| Edit::of_contact(index, "effective_mass", Value::Null)));
         }
         if way.needs == Needs::LateMass {
             edits.push(Edit::of(&["coupling", "master"], json!("parallel")));
@@ -239,7 +241,7 @@ pub fn bounce(asked: &Asked) -> Result<Value, Refused> {
     units.iter_mut().try_for_each(|unit| unit.start()).map_err(|fault| refusal(&fault))?;
     let groups = scene.contacts.iter().enumerate().flat_map(|(index, group)| std::iter::repeat_n(index, group.size()));
     let body = |group: usize| {
-        let mass = scene.impact_of(group).mass;
+        let mass = given.impact_of(group).mass;
         let mut body = Body::flying(mass, 0.0);
         body.load = mass * gravity;
         body

@@ -145,3 +145,26 @@ fn every_scene_of_the_repository_bounces() {
     }
     assert!(count > 10);
 }
+
+#[test]
+fn contacts_with_masses_of_their_own_rebound_as_predicted_in_every_right_way() {
+    let text = format!(
+        "{BALL}\n[coupling]\neffective_mass = 4.11e-3\n[[contact]]\nname = \"a\"\neffective_mass = 2e-3\n[[contact]]\nname = \"b\"\n"
+    );
+    let speed = (2.0 * 9.806_65 * 0.05_f64).sqrt();
+    let wanted = [2e-3, 4.11e-3].map(|mass| {
+        let said = ask(&json!({ "method": "predict", "text": BALL, "speed": speed, "mass": mass })).unwrap();
+        said["laws"][0]["restitution"].as_f64().unwrap()
+    });
+    for (way, step) in [("leap-frog", 2.5e-7), ("predicted_force", 2.5e-7), ("mass known", 1e-5)] {
+        let question =
+            json!({ "method": "bounce", "text": text, "way": way, "step": step, "time": 0.102, "height": 0.05 });
+        let said = ask(&question).unwrap_or_else(|refused| panic!("{way}: {refused}"));
+        for (contact, wanted) in wanted.iter().enumerate() {
+            let rebounds = said["seen"]["rebounds"].as_array().unwrap();
+            let rebound = rebounds.iter().find(|rebound| rebound["contact"] == contact).expect("it touches");
+            let found = rebound["restitution"].as_f64().unwrap();
+            assert!((found - wanted).abs() < 2e-3, "{way}, contact {contact}: {found} for {wanted}");
+        }
+    }
+}
