@@ -205,7 +205,10 @@ fn idle<S: Scene>() -> Vec<usize> {
     let course = |words: &[u64], state: &State| course::<S>(words, &state.other_order);
     let expected: Vec<Option<Vec<u64>>> = states.iter().map(|state| course(&state.words, state)).collect();
     let matters = |place: usize| {
-        states.iter().zip(&expected).any(|(state, expected)| {
+        // those first in which the word is in use
+        let used = states.iter().zip(&expected).filter(|(state, _)| state.words[place] != 0);
+        let unused = states.iter().zip(&expected).filter(|(state, _)| state.words[place] == 0);
+        used.chain(unused).any(|(state, expected)| {
             let word = state.words[place];
             let number = f64::from_bits(word);
             let others = [
