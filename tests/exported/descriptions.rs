@@ -92,7 +92,7 @@ fn an_fmu_without_input_derivatives_is_smaller_steps_as_others_do_and_names_the_
         assert!(text.contains("held over a step") && !text.contains("olynomial in time"), "{text}");
     }
     assert!(!page.contains("fmi2SetRealInputDerivatives"), "{page}");
-    let size = |scene: &Path| fs::metadata(unit::library(&unit::export(scene))).unwrap().len();
+    let size = |scene: &Path| fs::metadata(unit::library(&unit::compiled(scene))).unwrap().len();
     assert!(size(&without) + 2500 < size(&with), "{} and {}", size(&without), size(&with));
     let [with, without] = [with, without].map(|scene| Unit::load(&scene));
     let [mut one, mut other] = [with.ready(), without.ready()];

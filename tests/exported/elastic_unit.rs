@@ -30,7 +30,7 @@ fn constants(scene: &Path) -> String {
 }
 
 fn library(scene: &Path) -> Vec<u8> {
-    fs::read(unit::library(&unit::export(scene))).unwrap()
+    fs::read(unit::library(&unit::compiled(scene))).unwrap()
 }
 
 fn contains(bytes: &[u8], part: &[u8]) -> bool {

@@ -5,6 +5,7 @@
 use crate::command::{empty_folder, run};
 use crate::loaded::{OK, Unit};
 use crate::physics::Random;
+use crate::prebuilt;
 use crate::unit::write_scene;
 use std::f64::consts::PI;
 use std::{env, fs};
@@ -81,7 +82,8 @@ fn every_rate_dependent_law_runs_inside_an_fmu_with_nothing_plastic() {
              loading = \"{loading}\"\n{restitution}{damping}[impact]\nmass = 4.11e-3\nspeed = 0.5\n"
         );
         fs::write(folder.path().join("scene.toml"), scene).unwrap();
-        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+        let exported =
+            prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
         let variables: Vec<_> = exported["variables"].as_array().unwrap().iter().map(|v| v.as_str().unwrap()).collect();
         assert_eq!(variables.contains(&"restitution"), asked, "{name}: {variables:?}");
         assert!(!variables.contains(&"target.yield_strength"), "{name}: {variables:?}");

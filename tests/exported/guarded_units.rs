@@ -2,6 +2,7 @@
 
 use crate::command::{self, empty_folder, run};
 use crate::every_law::takes_all;
+use crate::prebuilt;
 use std::fs;
 use std::path::Path;
 
@@ -29,11 +30,12 @@ fn a_guarded_fmu_states_where_the_guard_acts_and_agrees_with_the_prediction() {
     let laws = ["stronge", "ghaednia", "brake-2012-line", "kogut-etsion", "brake-2012-tangent", "brake-2015"];
     for loading in laws.into_iter().take(if takes_all() { laws.len() } else { 3 }) {
         write(folder.path(), loading, "passivity_guard = true");
-        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+        let exported =
+            prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
         let ranges = exported["passivity_guard"].as_array().unwrap().clone();
         assert!(!ranges.is_empty(), "{loading} makes energy: {exported}");
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);
-        let said = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
+        let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
         let words = format!("from {:.4} to {:.4}", ranges[0][0].as_f64().unwrap(), ranges[0][1].as_f64().unwrap());
         assert!(said.contains("guard      acts at largest indentations") && said.contains(&words), "{said}");
         let page = inside(folder.path(), "documentation/index.html");
@@ -72,7 +74,8 @@ fn the_guard_is_off_unless_requested_and_then_not_mentioned() {
 fn the_stated_range_of_the_guard_ends_where_energy_begins_to_be_lost() {
     let folder = empty_folder();
     write(folder.path(), "stronge", "passivity_guard = true");
-    let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+    let exported =
+        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
     let ranges = exported["passivity_guard"].as_array().unwrap();
     let [from, to] = [0, 1].map(|end| ranges[0][end].as_f64().unwrap());
     // d_y = R (3 pi 1.1 S/(4 E*))^2 of 5 mm on mild steel

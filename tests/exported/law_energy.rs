@@ -1,9 +1,10 @@
 //! Passivity of the laws: the table of laws describes it for all bodies that an FMU accepts.
 
-use crate::command::{empty_folder, run};
+use crate::command::empty_folder;
 use crate::physics::{
     self, AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
 };
+use crate::prebuilt;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Model, Pair, Surface};
@@ -140,7 +141,7 @@ fn said(law: &str, parameters: &str) -> String {
          [fmu]\nparameters = {parameters}\n"
     );
     fs::write(folder.path().join("scene.toml"), scene).unwrap();
-    run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+    prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     let mut unit = zip::ZipArchive::new(fs::File::open(folder.path().join("unit.fmu")).unwrap()).unwrap();
     let page = std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap();
     let paragraph = page.split("<p>").find(|paragraph| paragraph.contains("issipated energy"));

@@ -1,6 +1,7 @@
 //! The constants of the laws: as data, in a scene, and in an exported FMU.
 
 use crate::command::{empty_folder, run};
+use crate::prebuilt;
 use brinell_contact::loading::{AnyLoading, Power};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, Loading, Pair};
@@ -135,7 +136,7 @@ fn a_scenes_constants_are_those_of_its_fmu_and_the_fmu_agrees_with_the_predictio
     let constants = run(folder.path(), ["constants", "scene.toml"]).with_status(0).out;
     let law = "Power { yield_pressure_factor: 1.6, coefficient: 2.0, exponent: 1.15 }";
     assert!(constants.contains(law), "{constants}");
-    run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+    prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     let checked = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(0).json();
     let row = |quantity: &str| {
         let rows = checked["rows"].as_array().unwrap();
@@ -157,7 +158,7 @@ fn a_scenes_constants_are_those_of_its_fmu_and_the_fmu_agrees_with_the_predictio
 fn page(law: &str) -> String {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
-    run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+    prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     let mut unit = zip::ZipArchive::new(fs::File::open(folder.path().join("unit.fmu")).unwrap()).unwrap();
     std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap()
 }

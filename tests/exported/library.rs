@@ -91,7 +91,7 @@ fn with_outputs(name: &str, outputs: &str) -> PathBuf {
         "name = \"{name}\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\" }}\n\
          fmu = {{ outputs = [{outputs}] }}\n"
     );
-    unit::library(&unit::export(&unit::write_scene(name, &text)))
+    unit::library(&unit::compiled(&unit::write_scene(name, &text)))
 }
 
 /// The code of an output is in the library only if the scene requests the output.

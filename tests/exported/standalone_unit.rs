@@ -15,7 +15,7 @@ use std::ptr::null_mut;
 
 /// The library of the standalone form of a scene, and that of the unchanged scene.
 fn libraries(scene: &Path) -> [PathBuf; 2] {
-    [standalone::scene(scene), scene.into()].map(|scene| unit::library(&unit::export(&scene)))
+    [standalone::scene(scene), scene.into()].map(|scene| unit::library(&unit::compiled(&scene)))
 }
 
 /// One contact, rate-dependent, and everything at once.

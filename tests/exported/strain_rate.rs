@@ -1,6 +1,7 @@
 //! Scenes with a target whose strength depends on the strain rate.
 
 use crate::command::{empty_folder, run};
+use crate::prebuilt;
 use crate::refusal::refused_text;
 use serde_json::Value;
 use std::fs;
@@ -78,7 +79,7 @@ fn the_fmu_starts_with_the_strength_of_the_impact_and_agrees_with_the_prediction
             let found = rust.contains(&digits) || !more.is_empty() && rust.contains(&exact);
             assert!(value == 0.0 || found, "{name} = {value:e} in {rust}");
         }
-        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);
     }
 }
@@ -89,7 +90,8 @@ fn contacts_with_other_bodies_have_their_own_factor() {
                     [[contact]]\nname = \"large\"\ntarget = { yield_strength = 300e6 }\n";
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene(COWPER_SYMONDS, "brinell", contacts)).unwrap();
-    let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+    let exported =
+        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
     let strength = |index: usize| number(&exported["contacts"][index]["own"]["target.yield_strength"]);
     assert!(strength(0) > 1.05 * strength(1) && strength(1) > 2.0 * 300e6, "{exported}");
 }

@@ -2,6 +2,7 @@
 
 use crate::command::{self, empty_folder, run};
 use crate::physics::{AnyModel, all_models, mild, pair_of};
+use crate::prebuilt;
 use brinell_contact::damped::{self, AnyDamped};
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, largest_speed};
 use brinell_contact::{Contact, History, Loading};
@@ -118,10 +119,11 @@ fn export_and_its_page_say_what_predict_says() {
     let folder = empty_folder();
     let law = "speed = 60.0\n[law]\nloading = \"big-alabo\"";
     fs::write(folder.path().join("scene.toml"), SCENE.replace("speed = 1.0", law)).unwrap();
-    let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+    let exported =
+        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
     let warnings = exported["warnings"].as_array().unwrap();
     assert_eq!(warnings.len(), 2, "{exported}");
-    let said = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
+    let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
     let script = "import zipfile; print(zipfile.ZipFile('unit.fmu').read('documentation/index.html').decode())";
     let unpacked = command::output(Command::new("python3").args(["-c", script]).current_dir(folder.path()));

@@ -30,7 +30,7 @@ struct Case {
 fn cases(host: &Host) -> Vec<Case> {
     let scenes = SCENES.map(unit::scene).into_iter().chain(SCENES.map(|name| standalone::scene(&unit::scene(name))));
     let case = |scene: PathBuf| {
-        let library = unit::library(&unit::export(&scene));
+        let library = unit::library(&unit::compiled(&scene));
         let interface = Interface::beside(&library);
         let expected = host.run(&library, &interface, &courses::history()).unwrap_or_else(|why| panic!("{why}"));
         assert!(expected.host.starts_with("glibc "), "{expected:?}");

@@ -2,7 +2,7 @@
 //!
 //! `cargo test --release --test program commands` runs one of them.
 
-use brinell_testing::{command, laws, skips, unit};
+use brinell_testing::{command, laws, prebuilt, skips, unit};
 
 mod build_failures;
 mod commands;

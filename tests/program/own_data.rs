@@ -2,6 +2,7 @@
 //! no file.
 
 use crate::command::{assert_same, brinell, empty_folder, output, run};
+use crate::prebuilt;
 use serde_json::Value;
 use std::fs;
 use std::io::Read;
@@ -318,7 +319,7 @@ fn a_contact_has_a_hardness_a_tensile_test_or_a_material_of_its_own() {
         );
         let folder = folder_with(&[("alone.toml", &alone), ("own.toml", &own)]);
         let value = |scene: &str, name: &str| {
-            let text = run(folder.path(), ["export", scene, "--output", "unit.fmu"]).with_status(0);
+            let text = prebuilt::run(folder.path(), ["export", scene, "--output", "unit.fmu"]).with_status(0);
             let xml = entry(&folder.path().join("unit.fmu"), "modelDescription.xml");
             let (_, rest) =
                 xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name}: {text:?}"));
@@ -335,7 +336,7 @@ fn a_contact_has_a_hardness_a_tensile_test_or_a_material_of_its_own() {
         "{BALL}[target]\n{STEEL}yield_strength = 9e8\n[[contact]]\nname = \"a\"\nimpactor = {{ material = \"mild steel\", hardness = \"150 HV10\" }}\n"
     );
     let folder = folder_with(&[("scene.toml", &impactor)]);
-    let said = run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
+    let said = prebuilt::run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(said.contains("a: impactor: 150 HV10 is a flow stress of"), "{said}");
 }
@@ -347,7 +348,7 @@ fn a_contact_whose_own_strength_has_no_hardening_doesnt_harden_as_the_others_do(
         "{BALL}[target]\n{STEEL}{test}\n[[contact]]\nname = \"a\"\ntarget = {{ hardness = \"300 HV10\" }}\n[[contact]]\nname = \"b\"\n"
     );
     let folder = folder_with(&[("scene.toml", &scene)]);
-    run(folder.path(), ["export", "scene.toml", "--output", "unit.fmu"]).with_status(0);
+    prebuilt::run(folder.path(), ["export", "scene.toml", "--output", "unit.fmu"]).with_status(0);
     let xml = entry(&folder.path().join("unit.fmu"), "modelDescription.xml");
     let start = |name: &str| {
         let (_, rest) = xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name} in {xml}"));

@@ -1,6 +1,7 @@
 //! What `predict` and `export` say about rods, against waves in rods that are integrated point by point.
 
 use crate::command::{empty_folder, run};
+use crate::prebuilt;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, History, Model, Pair, Surface};
@@ -321,9 +322,10 @@ fn export_and_its_page_say_what_predict_says_of_rods() {
     for (radius, expected) in [(1e3, "the wave in a rod limits"), (0.05, "The wave in a rod limits")] {
         let case = Case { impactor: STEEL, target: None, radius, yield_strength: None, speed: 8.0 };
         fs::write(folder.path().join("scene.toml"), case.text()).unwrap();
-        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+        let exported =
+            prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
         assert_eq!(exported["rods"], case.predicted()["rods"]);
-        let said = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
+        let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
         assert!(said.contains(expected), "{said}");
         let bytes = fs::read(folder.path().join("unit.fmu")).unwrap();
         let mut unit = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();

@@ -4,6 +4,7 @@ use super::command::{Run, brinell, output};
 use crate::places::{build, temporary, test_name};
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap};
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -51,6 +52,12 @@ pub fn without_compiler(in_folder: &Path, store: &Path) -> Command {
     let mut command = brinell(in_folder);
     command.env_remove("CARGO").env("PATH", "/no/path").env("BRINELL_PREBUILT", store);
     command
+}
+
+/// Runs the program in `folder` without a compiler, with the libraries of the shared store.
+#[track_caller]
+pub fn run<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A>) -> Run {
+    output(without_compiler(folder, store()).args(arguments))
 }
 
 /// The FMU of the scene `text`, compiled or with the libraries in `store`.
