@@ -2,11 +2,12 @@
 """Runs the README's test command in the surroundings that its users have: each a row with its result.
 
     python3 packaging/surroundings.py                                       # all rows, each as long as the tests
-    python3 packaging/surroundings.py umask-002 cron -- --test program      # some rows, some tests
     python3 packaging/surroundings.py path+user+umask-077                   # several surroundings at once
+    python3 packaging/surroundings.py umask-002 cron -- --test program      # some rows, some tests
 
-For Linux. Most rows share the target folder of this repository; `path`, `user`, `target-folder` and `flags` compile everything anew
-in a folder below `--scratch`. The output of each row is in `NAME.log` there.
+For Linux. Without names, each of the surroundings stands in one of five rows; if a row fails, its parts can be tried alone. Most
+rows share the target folder of this repository; `path`, `user`, `target-folder` and `flags` compile everything anew in a folder
+below `--scratch`. The output of each row is in `NAME.log` there.
 """
 
 from __future__ import annotations
@@ -42,6 +43,8 @@ class Run:
     variables: dict[str, str] = field(default_factory=lambda: dict(os.environ))
     before: list[list[str]] = field(default_factory=list)
     """Programs that start the command, the outermost first."""
+    terminal: bool = False
+    """Whether the command has a terminal."""
     at_once: int = 1
 
     def shell(self, script: str) -> None:
@@ -84,7 +87,7 @@ def terminal(run: Run) -> None:
     """A small terminal with colours."""
     run.variables |= {"TERM": "xterm-256color", "COLUMNS": "40", "LINES": "10", "CLICOLOR_FORCE": "1"}
     run.variables |= {"FORCE_COLOR": "1", "CARGO_TERM_COLOR": "always"}
-    run.before.append(["script", "-qec", 'stty cols 40 rows 10; sh -c "$COMMAND"', "/dev/null"])
+    run.terminal = True
 
 
 def umask(mode: str) -> Callable[[Run], None]:
@@ -229,16 +232,21 @@ SURROUNDINGS: dict[str, Callable[[Run], None]] = {
     "flags": flags,
 }
 
-# What compiles anew stands together in few rows.
-APART = ["path", "user", "target-folder", "flags"]
-ROWS = [name for name in SURROUNDINGS if name not in APART] + ["umask-077+language-C+path+user", "target-folder+flags"]
+# Each stands in one row: as many together as don't contradict each other, since a row takes as long as the tests.
+ROWS = [
+    "terminal+umask-000+language-latin1+full-home",
+    "ignored-signals+cron+umask-002+language-tr+one-job+no-home+own-settings",
+    "umask-077+language-C+temporary+path+user",
+    "named-target+target-folder+flags",
+    "twice",
+]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__.split("\n")[0], epilog=f"Surroundings: {', '.join(SURROUNDINGS)}."
     )
-    parser.add_argument("rows", nargs="*", metavar="ROW", help="one, or several with + between them [default: all]")
+    parser.add_argument("rows", nargs="*", metavar="ROW", help="one, or several with + between them [default: five rows with all]")
     parser.add_argument("--scratch", type=Path, default=ROOT / "target" / "surroundings", help="[default: %(default)s]")
     rows, _, more = _split(sys.argv[1:])
     given = parser.parse_args(rows)
@@ -266,10 +274,9 @@ def _tried(row: str, more: list[str], scratch: Path) -> bool:
     for name in sorted(row.split("+"), key=list(SURROUNDINGS).index):
         SURROUNDINGS[name](run)
     command = [*COMMAND, *more]
-    run.variables["COMMAND"] = shlex.join(command)
-    starters = [part for program in run.before for part in program]
-    # `script` takes the command as text
-    whole = starters if "script" in starters else starters + command
+    if run.terminal:
+        command = ["script", "-qec", f"stty cols 40 rows 10; {shlex.join(command)}", "/dev/null"]
+    whole = [part for program in run.before for part in program] + command
     logs = [scratch / f"{row}{number or ''}.log" for number in range(run.at_once)]
     begin = time.monotonic()
     children = []
@@ -279,7 +286,7 @@ def _tried(row: str, more: list[str], scratch: Path) -> bool:
                 whole,
                 cwd=run.folder,
                 env=run.variables,
-                stdin=None if "script" in starters else subprocess.DEVNULL,
+                stdin=None if run.terminal else subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,
             )
