@@ -5,6 +5,7 @@ use crate::physics::{
     self, AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
 };
 use crate::prebuilt;
+use crate::unit;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Model, Pair, Surface};
@@ -142,8 +143,7 @@ fn said(law: &str, parameters: &str) -> String {
     );
     fs::write(folder.path().join("scene.toml"), scene).unwrap();
     prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
-    let mut unit = zip::ZipArchive::new(fs::File::open(folder.path().join("unit.fmu")).unwrap()).unwrap();
-    let page = std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap();
+    let page = unit::entry(&folder.path().join("unit.fmu"), "documentation/index.html");
     let paragraph = page.split("<p>").find(|paragraph| paragraph.contains("issipated energy"));
     paragraph.unwrap_or_else(|| panic!("nothing of energy in {page}")).split("</p>").next().unwrap().to_string()
 }

@@ -2,6 +2,7 @@
 
 use crate::command::{empty_folder, run};
 use crate::prebuilt;
+use crate::unit::entry;
 use brinell_contact::loading::{AnyLoading, Power};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, Loading, Pair};
@@ -159,8 +160,7 @@ fn page(law: &str) -> String {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
     prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
-    let mut unit = zip::ZipArchive::new(fs::File::open(folder.path().join("unit.fmu")).unwrap()).unwrap();
-    std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap()
+    entry(&folder.path().join("unit.fmu"), "documentation/index.html")
 }
 
 #[test]

@@ -3,9 +3,9 @@
 
 use crate::command::{assert_same, brinell, empty_folder, output, run};
 use crate::prebuilt;
+use crate::unit::entry;
 use serde_json::Value;
 use std::fs;
-use std::io::Read;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -121,13 +121,6 @@ fn a_law_without_hardening_takes_the_flow_stress_of_a_tensile_test() {
     let said = run(folder.path(), ["hardness", "brinell.toml", "--load", "1000kgf"]).with_status(0).out;
     assert!(said.contains("note: target: A tensile test with a proof stress of 240 MPa"), "{said}");
     assert!((of_tangent / of_stress - 1.0).abs() < 0.07, "{of_tangent} and {of_stress}");
-}
-
-fn entry(unit: &Path, name: &str) -> String {
-    let mut unit = zip::ZipArchive::new(fs::File::open(unit).unwrap()).unwrap();
-    let mut text = String::new();
-    unit.by_name(name).unwrap().read_to_string(&mut text).unwrap();
-    text
 }
 
 const MATERIALS: &str = "\

@@ -2,6 +2,7 @@
 
 use crate::command::{empty_folder, run};
 use crate::prebuilt;
+use crate::unit::entry;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, History, Model, Pair, Surface};
@@ -327,9 +328,7 @@ fn export_and_its_page_say_what_predict_says_of_rods() {
         assert_eq!(exported["rods"], case.predicted()["rods"]);
         let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
         assert!(said.contains(expected), "{said}");
-        let bytes = fs::read(folder.path().join("unit.fmu")).unwrap();
-        let mut unit = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
-        let page = std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap();
+        let page = entry(&folder.path().join("unit.fmu"), "documentation/index.html");
         assert!(page.contains(expected), "{page}");
     }
 }

@@ -6,10 +6,10 @@ use crate::prebuilt;
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
 use std::ffi::OsStr;
-use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
+use std::{fs, io};
 
 /// Results made in this process, by their sources.
 static MADE: LazyLock<Mutex<HashMap<PathBuf, Arc<OnceLock<PathBuf>>>>> = LazyLock::new(Mutex::default);
@@ -95,14 +95,15 @@ pub fn write_scene(name: &str, text: &str) -> PathBuf {
     path
 }
 
-/// The FMU of a scene file: compiled if the scene is one of the project, otherwise from a prebuilt library, with which the same calls
-/// give the same bits and which takes a hundredth of the time.
+/// The FMU of a scene file: compiled if the scene is one of the project or needs it, otherwise from a prebuilt library, with which the
+/// same calls give the same bits and which takes a hundredth of the time.
 pub fn export(scene: &Path) -> PathBuf {
+    let text = fs::read_to_string(scene).unwrap_or_else(|error| panic!("{}: {error}", scene.display()));
     let of_project = scene.starts_with(root().join("scenes"));
-    made(scene, (!of_project).then(prebuilt::store))
+    made(scene, (!of_project && !text.contains("standalone")).then(prebuilt::store))
 }
 
-/// The FMU of a scene file, compiled: for what is in the library, and for scenes that no prebuilt library has room for.
+/// The FMU of a scene file, compiled: for what is in the library.
 pub fn compiled(scene: &Path) -> PathBuf {
     made(scene, None)
 }
@@ -131,6 +132,14 @@ fn made(scene: &Path, store: Option<&Path>) -> PathBuf {
 /// A place beside `path` for this thread alone.
 fn draft_of(path: &Path) -> PathBuf {
     path.with_extension(format!("{}-{:?}", std::process::id(), std::thread::current().id()))
+}
+
+/// The text of a file inside `fmu`.
+pub fn entry(fmu: &Path, name: &str) -> String {
+    let file = fs::File::open(fmu).unwrap_or_else(|error| panic!("{}: {error}", fmu.display()));
+    let mut archive = zip::ZipArchive::new(file).unwrap_or_else(|error| panic!("{}: {error}", fmu.display()));
+    let entry = archive.by_name(name).unwrap_or_else(|error| panic!("{name} in {}: {error}", fmu.display()));
+    io::read_to_string(entry).unwrap_or_else(|error| panic!("{name} in {}: {error}", fmu.display()))
 }
 
 /// Unpacks `fmu` into `folder`.
