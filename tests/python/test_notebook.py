@@ -21,7 +21,9 @@ def shown(cells):
     ]
 
 
-def test_the_notebook_shows_what_it_prints(tmp_path):
+def test_the_notebook_shows_what_it_prints(tmp_path, monkeypatch):
+    # Jupyter and IPython write to the home folder, which may be full
+    monkeypatch.setenv("HOME", str(tmp_path))
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     before = shown(notebook.cells)
     nbclient.NotebookClient(notebook, resources={"metadata": {"path": tmp_path}}).execute()
