@@ -5,6 +5,8 @@
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
 use crate::driver::{arguments, assert_good, attribute, compile, has_valgrind, headers, valgrind};
+use crate::kinds::of_each_kind;
+use crate::prebuilt;
 use crate::unit;
 use brinell_testing::places::temporary;
 use std::fs;
@@ -107,8 +109,11 @@ fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
         let text = text.replace("law = {", &format!("law = {{ {}", restitution.trim().replace("0.7", "0.7,")));
         scenes.push(unit::write_scene(&format!("trapped_{}", law.replace('-', "_")), &text));
     }
-    for scene in scenes {
-        let library = unit::library(&unit::export(&scene));
+    let texts = scenes.iter().map(|scene| fs::read_to_string(scene).expect("a scene"));
+    let prebuilt = texts.chain(of_each_kind().into_iter().map(|(_, text)| text));
+    let prebuilt: Vec<_> = prebuilt.map(|text| prebuilt::export(&text, Some(prebuilt::store()))).collect();
+    for fmu in scenes.iter().map(|scene| unit::export(scene)).chain(prebuilt) {
+        let library = unit::library(&fmu);
         let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
         let elements = || description.split("<ScalarVariable").skip(1);
@@ -130,7 +135,7 @@ fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
         run.arg(&library).arg(attribute(&description, "guid").unwrap()).arg(rates.to_string());
         run.arg(derivatives).args(outputs.take(40));
         let output = run.output().expect("the program was compiled");
-        assert!(output.status.success(), "{}: {}", scene.display(), output.status);
+        assert!(output.status.success(), "{}: {}", fmu.display(), output.status);
     }
 }
 

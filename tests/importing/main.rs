@@ -3,7 +3,7 @@
 //! `cargo test --release --test importing fmpy` runs one of them.
 
 use brinell_testing::{
-    command, debian, driver, fmi_crate, importer_table, loaded, prebuilt, pytest, python, skips, unit,
+    command, debian, driver, fmi_crate, importer_table, kinds, loaded, prebuilt, pytest, python, skips, unit,
 };
 
 mod abi;

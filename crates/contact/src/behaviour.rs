@@ -123,9 +123,7 @@ pub trait Contact<M>: Copy {
     /// Force over contact area \[Pa\]; 0 while apart.
     fn mean_pressure(&self, model: &M, rate: f64) -> f64 {
         let radius = self.contact_radius(model);
-        // a compiler may divide before it compares; the divisor is then 1
-        let area = if radius > 0.0 { PI * radius * radius } else { 1.0 };
-        if radius > 0.0 { self.force(rate) / area } else { 0.0 }
+        quotient(self.force(rate), PI * radius * radius, radius > 0.0, 0.0)
     }
 
     /// Energy that unloading would return \[J\].

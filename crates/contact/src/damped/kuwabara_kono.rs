@@ -2,6 +2,7 @@
 
 use super::{Damped, Factors, Shape};
 use crate::material::Pair;
+use crate::numbers::quotient;
 use libm::sqrt;
 
 /// `F = K_h (d^1.5 + 1.5 A sqrt(d) d')`, with a relaxation time `A` of the material.
@@ -30,6 +31,6 @@ impl Damped for KuwabaraKono {
 
     fn damping(&self, d: f64) -> Shape {
         let value = sqrt(d);
-        Shape { value, slope: if d > 0.0 { 0.5 / value } else { f64::MAX }, integral: d * value / 1.5 }
+        Shape { value, slope: quotient(0.5, value, d > 0.0, f64::MAX), integral: d * value / 1.5 }
     }
 }

@@ -3,6 +3,7 @@
 use super::{Damped, Factors, Shape};
 use crate::laws::numbered;
 use crate::material::Pair;
+use crate::numbers::quotient;
 use core::f64::consts::PI;
 use libm::{exp, log, sqrt};
 
@@ -89,6 +90,6 @@ impl Damped for Tsuji {
 
     fn damping(&self, d: f64) -> Shape {
         let value = sqrt(sqrt(d));
-        Shape { value, slope: if d > 0.0 { 0.25 * value / d } else { f64::MAX }, integral: 0.8 * d * value }
+        Shape { value, slope: quotient(0.25 * value, d, d > 0.0, f64::MAX), integral: 0.8 * d * value }
     }
 }
