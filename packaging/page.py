@@ -79,6 +79,8 @@ def page(scratch: Path, data: Path) -> Path:
     ignored = shutil.ignore_patterns("node_modules", "dist")
     shutil.copytree(source, folder, ignore=ignored, dirs_exist_ok=True)
     variables = {**os.environ, "PATH": node_path(scratch / "node"), "BRINELL_PAGE_DATA": str(data.resolve())}
+    # a home folder may be full
+    variables["npm_config_cache"] = str(scratch / "npm")
     npm = shutil.which("npm", path=variables["PATH"]) or "npm"
     subprocess.run([npm, "ci", "--no-audit", "--no-fund"], cwd=folder, env=variables, check=True)
     subprocess.run([npm, "run", "build"], cwd=folder, env=variables, check=True)

@@ -180,7 +180,7 @@ def test_an_oblique_sweep_has_the_rebound_of_each_angle():
 
 
 def texts(path):
-    return re.findall(r"<!-- (.*?) -->", path.read_text())
+    return re.findall(r"<!-- (.*?) -->", path.read_text(encoding="utf-8"))
 
 
 def test_a_map_over_two_quantities_and_curves_of_several_laws_are_drawn(tmp_path):
