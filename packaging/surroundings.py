@@ -292,7 +292,7 @@ def _tried(row: str, more: list[str], scratch: Path) -> bool:
             )
         children.append(started)
     statuses = [child.wait() for child in children]
-    texts = [re.sub(r"\x1b\[[0-9;]*m", "", log.read_text(encoding="utf-8", errors="replace")) for log in logs]
+    texts = [re.sub(r"\x1b(\[[0-9;]*[A-Za-z]|\(B)", "", log.read_text(encoding="utf-8", errors="replace")) for log in logs]
     good = not any(statuses)
     for text in texts:
         counts = [tuple(map(int, it)) for it in re.findall(r"test result: \w+\. (\d+) passed; (\d+) failed", text)]
