@@ -141,6 +141,8 @@ def temporary(run: Run) -> None:
     """Temporary files in a folder with a difficult name."""
     folder = run.scratch / 'it\'s "tmp" ö'
     folder.mkdir(exist_ok=True)
+    # as /tmp
+    folder.chmod(0o1777)
     run.variables["TMPDIR"] = str(folder)
 
 
