@@ -49,7 +49,10 @@ class Library:
         try:
             identifier = description.coSimulation.modelIdentifier
             slave = fmi2.FMU2Slave(
-                guid=description.guid, unzipDirectory=folder, modelIdentifier=identifier
+                guid=description.guid,
+                unzipDirectory=folder,
+                modelIdentifier=identifier,
+                libraryPath=_named_by_processor(Path(folder), identifier),
             )
         except Exception as error:
             shutil.rmtree(folder, ignore_errors=True)
@@ -96,6 +99,13 @@ def _of_scene(scene: Path) -> Library:
     # the FMU is gone; what it was made from tells people more
     library.path = scene.resolve()
     return library
+
+
+def _named_by_processor(folder: Path, identifier: str) -> str | None:
+    """The library in the folder that is named by the processor, if there is one. fmpy looks only in `linux64`, where an FMU has
+    the library for x86-64, on arm64, too."""
+    library = folder / "binaries" / fmpy.platform_tuple / (identifier + fmpy.sharedLibraryExtension)
+    return str(library) if library.is_file() else None
 
 
 def _close(handle: int, folder: str) -> None:
