@@ -64,6 +64,14 @@ def tarred(files: Files) -> bytes:
     return gzip.compress(buffer.getvalue(), 9, mtime=0)
 
 
+def sums(paths: list[Path]) -> str:
+    """The hashes of files by their names, as `sha256sum --check` reads them."""
+    return "".join(
+        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n"
+        for path in sorted(paths, key=lambda path: path.name)
+    )
+
+
 def _digest(data: bytes) -> str:
     digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest())
     return f"sha256={digest.rstrip(b'=').decode()}"

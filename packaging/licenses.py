@@ -1,4 +1,4 @@
-"""The licenses of the crates that are compiled into the program."""
+"""The licenses of the crates that are compiled into the program, or into the module of the page."""
 
 from __future__ import annotations
 
@@ -10,19 +10,23 @@ from typing import Any
 from platforms import ROOT
 
 _HEAD = """\
-The program contains compiled code of the Rust standard library (MIT or Apache-2.0 license, (c) The Rust
-Project Developers) and of these crates:
+This contains compiled code of the Rust standard library (MIT or Apache-2.0 license, (c) The Rust Project
+Developers){} and of these crates:
 
 """
+
+# Modules for WebAssembly contain their C library; elsewhere it is that of the system.
+_C_LIBRARY = ", of wasi-libc (MIT license, (c) its contributors and those of musl)"
 
 # How the files are called that have a license's text.
 _NAMES = ("LICENSE", "LICENCE", "COPYING", "UNLICENSE", "NOTICE")
 
 
-def third_party(target: str) -> bytes:
-    """A list of the crates in the program for `target`, and the texts of their licenses, each once."""
-    crates = linked_crates(target)
-    text = _HEAD + "".join(f"- {_name(crate)}: {crate['license']}\n" for crate in crates)
+def third_party(target: str, program: str = "brinell") -> bytes:
+    """A list of the crates in the `program` for `target`, and the texts of their licenses, each once."""
+    crates = linked_crates(target, program)
+    text = _HEAD.format(_C_LIBRARY if target.startswith("wasm") else "")
+    text += "".join(f"- {_name(crate)}: {crate['license']}\n" for crate in crates)
     by_text: dict[str, list[str]] = {}
     for crate in crates:
         for path in _files(Path(crate["manifest_path"]).parent):
@@ -32,21 +36,22 @@ def third_party(target: str) -> bytes:
     return text.encode()
 
 
-def linked_crates(target: str) -> list[dict[str, Any]]:
-    """What cargo says about the crates in the program for `target`."""
+def linked_crates(target: str, program: str = "brinell") -> list[dict[str, Any]]:
+    """What cargo says about the crates in the `program`, a package of this workspace, for `target`."""
     command = ["cargo", "metadata", "--format-version=1", "--locked", "--filter-platform", target]
     metadata = subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout
-    return _linked(json.loads(metadata))
+    return _linked(json.loads(metadata), program)
 
 
 def _name(crate: dict[str, Any]) -> str:
     return f"{crate['name']} {crate['version']}"
 
 
-def _linked(metadata: dict[str, Any]) -> list[dict[str, Any]]:
+def _linked(metadata: dict[str, Any], program: str) -> list[dict[str, Any]]:
     """The crates of others that the program depends on, but for those that only build or test it."""
     nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
-    found, waiting = set(), [metadata["resolve"]["root"]]
+    members = [crate for crate in metadata["packages"] if crate["source"] is None]
+    found, waiting = set(), [crate["id"] for crate in members if crate["name"] == program]
     while waiting:
         crate = waiting.pop()
         if crate not in found:

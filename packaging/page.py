@@ -19,7 +19,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+from licenses import third_party
+from platforms import ROOT, has_standard_library
+
 TARGET = "wasm32-wasip1"
 OLDEST_NODE = (20, 19)
 
@@ -43,6 +45,7 @@ def main() -> None:
     for path in libraries:
         shutil.copy(path, data / path.name)
     shutil.copy(module(given.scratch), data / "brinell_web.wasm")
+    (data / "licenses.txt").write_bytes(third_party(TARGET, "brinell-web"))
     shutil.copy(page(given.scratch, data), given.output)
     print(f"{given.output.stat().st_size:>10} {given.output}")
 
@@ -55,7 +58,7 @@ def module(scratch: Path) -> Path:
     variables = {**os.environ, "CARGO_TARGET_DIR": str(scratch / "wasm")}
     # flags for programs of this machine
     variables.pop("RUSTFLAGS", None)
-    if not has_standard_library():
+    if not has_standard_library(TARGET):
         folder = Path(os.environ.get("BRINELL_STD_TOOLCHAIN", scratch / "toolchain"))
         make = [sys.executable, ROOT / "packaging" / "toolchain.py", folder, "--std", "--targets"]
         subprocess.run(make, check=True)
@@ -63,13 +66,6 @@ def module(scratch: Path) -> Path:
         command += ["-Z", "build-std=std,panic_abort"]
     subprocess.run(command, cwd=ROOT, env=variables, check=True)
     return scratch / "wasm" / TARGET / "release" / "brinell_web.wasm"
-
-
-def has_standard_library() -> bool:
-    """Whether the installed Rust has the standard library of modules."""
-    command = ["rustc", "--print", "target-libdir", "--target", TARGET]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
-    return result.returncode == 0 and any(Path(result.stdout.strip()).glob("libstd-*.rlib"))
 
 
 def page(scratch: Path, data: Path) -> Path:

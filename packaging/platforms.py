@@ -101,7 +101,7 @@ def environment(it: Platform, tools: Tools, scratch: Path, source: Path) -> dict
         "CARGO_TARGET_DIR": str(scratch / "target"),
     }
     flags = [f"--remap-path-prefix={old}={new}" for old, new in remapped.items()]
-    if not has_standard_library(it):
+    if not has_standard_library(it.target):
         if tools.toolchain is not None:
             compiler = _wrapper(programs / "rustc-web", tools.toolchain, "rustc")
             variables["RUSTC"] = str(compiler)
@@ -122,9 +122,9 @@ def environment(it: Platform, tools: Tools, scratch: Path, source: Path) -> dict
     return variables
 
 
-def has_standard_library(it: Platform) -> bool:
-    """Whether the installed Rust has the standard library of a platform (`rustup target add`)."""
-    command = ["rustc", "--print", "target-libdir", "--target", it.target]
+def has_standard_library(target: str) -> bool:
+    """Whether the installed Rust has the standard library of a target (`rustup target add`)."""
+    command = ["rustc", "--print", "target-libdir", "--target", target]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     return result.returncode == 0 and any(Path(result.stdout.strip()).glob("libstd-*.rlib"))
 

@@ -26,7 +26,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from page import has_standard_library as has_web_library
+from archives import sums
+from page import TARGET as WEB
 from platforms import PLATFORMS, ROOT, has_standard_library
 from trial import tried
 
@@ -41,7 +42,8 @@ SCENES = ["steel_ball", "mass_known", "elastic"]
 NEVER = [
     "publishing to crates.io, PyPI and GitHub, and its short-lived passwords",
     "the provenance that GitHub attests",
-    "macOS: no program has run on it here",
+    "macOS: no program has run on it here; Windows but for Wine, arm64 but for QEMU",
+    "the Python module on Windows and on musl, whose Python is in no registry",
     "the warnings of Windows and macOS about programs from the internet",
 ]
 
@@ -116,8 +118,8 @@ class Rehearsal:
             shutil.rmtree(folder / path.stem, ignore_errors=True)
             with tarfile.open(path) as archive:
                 archive.extractall(folder, filter="data")
-            sums = {"files": {}, "package": hashlib.sha256(path.read_bytes()).hexdigest()}
-            (folder / path.stem / ".cargo-checksum.json").write_text(json.dumps(sums))
+            checksum = {"files": {}, "package": hashlib.sha256(path.read_bytes()).hexdigest()}
+            (folder / path.stem / ".cargo-checksum.json").write_text(json.dumps(checksum))
         home.mkdir()
         replaced = f'[source.crates-io]\nreplace-with = "here"\n[source.here]\ndirectory = {json.dumps(str(folder))}\n'
         (home / "config.toml").write_text(replaced, encoding="utf-8")
@@ -183,7 +185,7 @@ class Rehearsal:
         variables = dict(os.environ)
         if self.given.toolchain is not None:
             variables["BRINELL_STD_TOOLCHAIN"] = str(self.given.toolchain.resolve())
-        elif not has_web_library():
+        elif not has_standard_library(WEB):
             self.not_tried.append("the page for a browser: Rust hasn't its target, and there is no --toolchain")
             return "-"
         made = self.folder / "brinell.html"
@@ -200,7 +202,7 @@ class Rehearsal:
                 tools += [f"--{name}", folder]
         for name, it in PLATFORMS.items():
             linker = it.zig or self.given.mingw is not None or shutil.which("x86_64-w64-mingw32-gcc") is not None
-            if linker and (self.given.toolchain is not None or has_standard_library(it)):
+            if linker and (self.given.toolchain is not None or has_standard_library(it.target)):
                 chosen.append(name)
             else:
                 self.not_tried.append(f"the wheel for {name}: there is no {'standard library' if linker else 'linker'}")
@@ -227,11 +229,8 @@ class Rehearsal:
         python = sorted((self.folder / "python").iterdir())
         run(self.tool("twine"), "check", "--strict", *python)
         run(self.tool("check-wheel-contents"), *(path for path in python if path.suffix == ".whl"))
-        for line in (archives / "SHA256SUMS").read_text().splitlines():
-            digest, name = line.split("  ")
-            path = next(folder / name for folder in (archives, self.folder / "python") if (folder / name).is_file())
-            if hashlib.sha256(path.read_bytes()).hexdigest() != digest:
-                raise SystemExit(f"{name}: SHA256SUMS has another hash")
+        files = [path for path in archives.iterdir() if path.name != "SHA256SUMS"]
+        (archives / "SHA256SUMS").write_text(sums([*files, *python]))
         (archives / "NOTES.md").write_text(self.notes(), encoding="utf-8")
         return "; ".join(f"{path.name} {path.stat().st_size:,} bytes" for path in python if path.suffix == ".whl")
 
@@ -245,11 +244,15 @@ class Rehearsal:
         return text.replace("CHANGES", entry[0].strip()).replace("VERSION", self.version)
 
     def trial(self) -> str:
-        """The wheel for this machine, as its user has it."""
-        self.not_tried.append(
-            "other wheels than that of this machine (`platforms` tests run those for Windows and arm64 in Wine and QEMU)"
-        )
-        return re.sub(r"\s+", " ", tried(self.folder / "python"))[:100]
+        """The wheel for this machine, as its user has it; those for musl, arm64 and Windows without glibc, in QEMU and in Wine."""
+        said = re.sub(r"\s+", " ", tried(self.folder / "python"))[:100]
+        # at a tag, jobs on those systems do it
+        if self.given.tag is None and len(list((self.folder / "python").glob("*.whl"))) == len(PLATFORMS):
+            variables = {**os.environ, "BRINELL_WHEELS": str(self.folder / "python")}
+            run("cargo", "test", "--release", "--test", "platforms", "elsewhere", "--", "--ignored", env=variables)
+        else:
+            self.not_tried.append("other wheels than that of this machine")
+        return said
 
     def book(self) -> str:
         """The guide as a site, and the page beside it."""
@@ -307,6 +310,8 @@ def main() -> None:
     for name in given.steps:
         if name not in STEPS:
             parser.error(f"there is no step {name}: {', '.join(STEPS)}")
+    if given.toolchain is not None and '"std": true' not in (given.toolchain / "packages.json").read_text():
+        parser.error(f"--toolchain {given.toolchain}: packaging/toolchain.py made it without --std")
     rehearsal = Rehearsal(given)
     if given.tag is not None and given.tag.startswith("v") and given.tag != f"v{rehearsal.version}":
         parser.error(f"--tag {given.tag}: the version in Cargo.toml is {rehearsal.version}")

@@ -9,7 +9,6 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 import os
 import subprocess
 import sys
@@ -63,8 +62,7 @@ def main() -> None:
         else:
             tag, base = _maturins_wheel(name, tools, given.scratch, given.source)
         written += _pack(name, tag, base, share, given.output)
-    hashes = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n" for path in written]
-    (given.output / "SHA256SUMS").write_text("".join(sorted(hashes, key=lambda line: line[66:])))
+    (given.output / "SHA256SUMS").write_text(archives.sums(written))
     for path in written:
         print(f"{path.stat().st_size:>10} {path}")
 
@@ -143,7 +141,7 @@ def _maturins_wheel(name: str, tools: Tools, scratch: Path, source: Path) -> tup
     command += ["--strip", "false" if it.oldest_macos else "true", "--target", it.target]
     if it.zig:
         command.append("--zig")
-    if not has_standard_library(it):
+    if not has_standard_library(it.target):
         command += ["-Z", "build-std=std,panic_unwind"]
     with tempfile.TemporaryDirectory() as folder:
         variables = environment(it, tools, scratch, ROOT if source == ROOT / "python" else source)

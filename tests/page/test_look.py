@@ -128,3 +128,9 @@ def test_a_link_opens_the_same_scene(opened: ScenePage, page: Page) -> None:
     opened.page.wait_for_function("() => document.querySelector('[data-test=link]').value !== ''")
     link = opened.at("link").input_value()
     assert ScenePage(page, "#" + link.partition("#")[2]).text == text
+
+
+def test_the_page_names_whose_code_it_has(opened: ScenePage) -> None:
+    opened.at("tab.link").click()
+    licenses = opened.at("fold.licenses").text_content() or ""
+    assert all(name in licenses for name in ["- brotli ", "@codemirror/view", "Permission is hereby granted"])

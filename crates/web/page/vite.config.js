@@ -16,8 +16,8 @@ function data(folder) {
   ].join("\n");
 }
 
-/** The licenses of the packages whose code is in the page. */
-function licenses(bundle) {
+/** The licenses of the packages whose code is in the page, after those of the crates in its module. */
+function licenses(bundle, crates) {
   const modules = Object.values(bundle).flatMap((chunk) => Object.keys(chunk.modules ?? {}));
   const found = modules.map((path) => /^.*\/node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(path)).filter(Boolean);
   const folders = new Map(found.map(([folder, name]) => [name, folder]));
@@ -26,7 +26,7 @@ function licenses(bundle) {
     if (!file) throw new Error(`${name} has no license`);
     return `${name}\n\n${readFileSync(join(folder, file), "utf8").trim()}`;
   });
-  return `<script type="text/plain" id="licenses">${text.join("\n\n\n").replaceAll("</", "<\\/")}</script>`;
+  return `<script type="text/plain" id="licenses">${[crates, ...text].join("\n\n\n").replaceAll("</", "<\\/")}</script>`;
 }
 
 const folder = process.env.BRINELL_PAGE_DATA;
@@ -38,7 +38,7 @@ export default defineConfig({
     {
       name: "data",
       enforce: "post",
-      transformIndexHtml: { order: "post", handler: (html, { bundle }) => html.replace("<!-- data -->", () => `${licenses(bundle)}\n${data(folder)}`) },
+      transformIndexHtml: { order: "post", handler: (html, { bundle }) => html.replace("<!-- data -->", () => `${licenses(bundle, readFileSync(join(folder, "licenses.txt"), "utf8").trim())}\n${data(folder)}`) },
     },
   ],
   build: { target: "es2022", modulePreload: false },
