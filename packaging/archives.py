@@ -112,7 +112,7 @@ def check_wheel(path: Path, platform: Platform, version: str) -> None:
 
 
 def check_program(name: str, program: bytes, platform: Platform) -> None:
-    """Rejects a program for another operating system or processor."""
+    """Rejects a program for another operating system or processor, or one that can load no library."""
     offset, machine = platform.machine
     if platform.magic == b"MZ":
         (start,) = struct.unpack_from("<I", program, 0x3C)
@@ -120,6 +120,8 @@ def check_program(name: str, program: bytes, platform: Platform) -> None:
         offset += start
     _same(f"{name}: format", program[: len(platform.magic)], platform.magic)
     _same(f"{name}: processor", program[offset : offset + len(machine)], machine)
+    if platform.target.endswith("-musl"):
+        _same(f"{name}: has a loader, which FMUs need", b"/lib/ld-musl-x86_64.so.1\0" in program, True)
 
 
 def _same(what: str, found: object, expected: object) -> None:

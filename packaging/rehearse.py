@@ -43,7 +43,7 @@ NEVER = [
     "publishing to crates.io, PyPI and GitHub, and its short-lived passwords",
     "the provenance that GitHub attests",
     "macOS: no program has run on it here; Windows but for Wine, arm64 but for QEMU",
-    "the Python module on Windows and on musl, whose Python is in no registry",
+    "the Python module on Windows and on musl: there is no Python for them here",
     "the warnings of Windows and macOS about programs from the internet",
 ]
 
@@ -156,6 +156,12 @@ class Rehearsal:
         unpacked = self.new("scratch/source")
         with tarfile.open(archive) as files:
             files.extractall(unpacked, filter="data")
+        # maturin leaves out crates that nobody needs who builds the program, but not their lines of the lock file
+        lock = next(unpacked.glob("*/Cargo.lock"))
+        before = lock.read_text()
+        run("cargo", "metadata", "--format-version=1", cwd=lock.parent)
+        if not set(lock.read_text().splitlines()) <= set(before.splitlines()):
+            raise SystemExit(f"{archive.name}: its lock file is not that of the repository")
         variables, empty, made = self.registry(), self.new("scratch/empty"), self.new("scratch/from-source")
         # files of a source distribution have one time: what an earlier one has left in a target folder would pass for new
         del variables["CARGO_TARGET_DIR"]

@@ -145,7 +145,8 @@ def _maturins_wheel(name: str, tools: Tools, scratch: Path, source: Path) -> tup
         command += ["-Z", "build-std=std,panic_unwind"]
     with tempfile.TemporaryDirectory() as folder:
         variables = environment(it, tools, scratch, ROOT if source == ROOT / "python" else source)
-        linked = ["-s", *STUBS] if it.oldest_macos else []
+        # what zig links for musl is static otherwise, whatever rustc says
+        linked = ["-s", *STUBS] if it.oldest_macos else ["-dynamic"] if it.target.endswith("-musl") else []
         command += ["--out", folder, "--", *(f"-Clink-arg={argument}" for argument in linked)]
         subprocess.run(command, cwd=source, env=variables, check=True)
         (wheel,) = Path(folder).glob("*.whl")

@@ -7,11 +7,10 @@ use brinell_testing::{
     toolchain, unit,
 };
 
-mod arm64_program;
 mod c_source;
 mod cross_compiled;
+mod elsewhere;
 mod first_export;
 mod kinds_of_hosts;
 mod other_systems;
 mod wheel;
-mod windows_program;

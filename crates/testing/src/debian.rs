@@ -86,6 +86,9 @@ impl Apt {
             // the folders belong to the user, who also downloads
             "APT::Sandbox::User=".into(),
             "APT::Architecture=amd64".into(),
+            // for `package:arm64`
+            "APT::Architectures::=amd64".into(),
+            "APT::Architectures::=arm64".into(),
         ];
         let mut apt = Apt { options: options.into() };
         if !installed {

@@ -1,9 +1,9 @@
-//! The program for another system, from an archive made by `packaging/release.py`: its answers and files equal those of
-//! this system, byte by byte.
+//! The program for another system, from its wheel: its answers and files equal those of this system, byte by byte.
 
 use super::command::{Run, brinell, contents, empty_folder, output, scene};
-use super::python::target_folder;
+use super::python::{python, target_folder};
 use crate::places::{root, temporary};
+use std::env;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,24 +11,36 @@ use std::process::Command;
 
 /// A program and how it is started here.
 pub struct Program {
-    /// Its unpacked archive.
+    /// Its wheel, installed.
     pub folder: PathBuf,
     file: PathBuf,
+    /// The folder in FMUs of its platform, and the target of its prebuilt libraries.
+    platform: (&'static str, &'static str),
     start: fn(&Path) -> Command,
 }
 
+/// The folder of wheels.
+///
+/// # Panics
+/// If there is none.
+pub fn wheels() -> PathBuf {
+    let named = env::var_os("BRINELL_WHEELS").filter(|value| !value.is_empty());
+    let folder = named.map_or_else(|| target_folder().join("rehearsal/python"), PathBuf::from);
+    assert!(folder.is_dir(), "{} is missing: packaging/rehearse.py makes it, with wheels", folder.display());
+    folder
+}
+
 impl Program {
-    /// The program in the archive for `platform`; `start` gives the command that runs the program at a path.
-    pub fn unpacked(platform: &str, (ending, suffix): (&str, &str), start: fn(&Path) -> Command) -> Program {
-        let name = format!("brinell-{}-{platform}", env!("CARGO_PKG_VERSION"));
-        let archive = target_folder().join("packaging/dist").join(format!("{name}.{ending}"));
-        assert!(archive.is_file(), "{} is missing: packaging/release.py {platform} makes it", archive.display());
-        let folder = temporary().join(platform);
+    /// The program in the wheel with this `tag`; `start` gives the command that runs the program at a path.
+    pub fn installed(tag: &str, platform: (&'static str, &'static str), start: fn(&Path) -> Command) -> Program {
+        let folder = temporary().join(tag);
         let _ = fs::remove_dir_all(&folder);
-        let unpack = "import sys, shutil; shutil.unpack_archive(sys.argv[1], sys.argv[2])";
-        output(Command::new("python3").args(["-c", unpack]).arg(archive).arg(&folder)).with_status(0);
-        let folder = folder.join(name);
-        Program { file: folder.join("bin").join(format!("brinell{suffix}")), folder, start }
+        let mut pip = Command::new(python());
+        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--no-index"]);
+        pip.args(["--no-compile", "--only-binary", ":all:", "--platform", tag, "--target"]).arg(&folder);
+        output(pip.arg("--find-links").arg(wheels()).arg("brinell")).with_status(0);
+        let suffix = if tag.starts_with("win") { ".exe" } else { "" };
+        Program { file: folder.join(format!("bin/brinell{suffix}")), folder, platform, start }
     }
 
     /// Its output on its system, in `folder`.
@@ -36,16 +48,16 @@ impl Program {
         output((self.start)(&self.file).args(arguments).current_dir(folder))
     }
 
-    /// The output on this system, with the prebuilt libraries of the archive.
+    /// The output on this system, with the prebuilt libraries of the wheel.
     fn here<A: AsRef<OsStr>>(&self, folder: &Path, arguments: impl IntoIterator<Item = A>) -> Run {
         output(brinell(folder).args(arguments).env("BRINELL_PREBUILT", self.folder.join("share/brinell/prebuilt")))
     }
 
-    /// It says that it is the program for the platform with this folder in FMUs.
-    pub fn knows_its_platform(&self, folder: &str) {
+    /// It says which platform it is for.
+    pub fn knows_its_platform(&self) {
         let version = self.there(root(), ["--version", "--json"]).with_status(0).json();
         assert_eq!(version["version"], env!("CARGO_PKG_VERSION"));
-        assert_eq!(version["platform"]["folder"], folder);
+        assert_eq!(version["platform"]["folder"], self.platform.0);
         assert_eq!(version["library"], self.here(root(), ["--version", "--json"]).json()["library"]);
     }
 
@@ -91,11 +103,11 @@ impl Program {
         }
     }
 
-    /// It exports the same FMU for every platform and checks it in a process of its own, for whose platform the archive
-    /// must have prebuilt libraries.
-    pub fn exports_the_same_unit_and_checks_it(&self, target: &str) {
-        let list = self.folder.join(format!("share/brinell/prebuilt/{target}.json"));
-        assert!(list.is_file(), "the archive was made without prebuilt libraries");
+    /// It exports the same FMU for every platform and checks it in a process of its own, for whose platform the wheel must
+    /// have prebuilt libraries.
+    pub fn exports_the_same_unit_and_checks_it(&self) {
+        let list = self.folder.join(format!("share/brinell/prebuilt/{}.json", self.platform.1));
+        assert!(list.is_file(), "the wheel was made without prebuilt libraries");
         let folders = [empty_folder(), empty_folder()];
         let scene = scene("mass_known");
         let scene = scene.to_str().expect("UTF-8");

@@ -32,6 +32,17 @@ fn compiler(target: &str) -> Result<Vec<PathBuf>, String> {
     Ok(compiler)
 }
 
+/// A call of the C compiler for `target`.
+///
+/// # Errors
+/// The reason why it is not available.
+pub fn compile_for(target: &str) -> Result<Command, String> {
+    let compiler = compiler(target)?;
+    let mut command = Command::new(&compiler[0]);
+    command.args(&compiler[1..]);
+    Ok(command)
+}
+
 /// The host in tests/platforms, compiled for `target`.
 fn compiled(target: &str, ending: &str) -> Result<PathBuf, String> {
     let compiler = compiler(target)?;
@@ -128,9 +139,8 @@ pub fn linked(name: &str, source: &Path, (target, processor): (&str, &str), opti
 /// The reason why there is none: that it is not available, or what the compiler says.
 pub fn by_microsofts_rules(name: &str, source: &Path, options: &[&str]) -> Result<PathBuf, String> {
     let object = folder_of_hosts().join(format!("{name}.obj"));
-    let compiler = compiler("x86_64-windows-msvc")?;
-    let mut command = Command::new(&compiler[0]);
-    command.args(&compiler[1..]).args(["-nostdlibinc", "-fms-compatibility-version=19.30", "-fms-extensions"]);
+    let mut command = compile_for("x86_64-windows-msvc")?;
+    command.args(["-nostdlibinc", "-fms-compatibility-version=19.30", "-fms-extensions"]);
     command.arg("-isystem").arg(folder().join("msvc")).arg("-I").arg(site_packages_file("fmpy/c-code"));
     command.args(["-DFMI2_OVERRIDE_FUNCTION_PREFIX", "-O1", "-Wall", "-Wextra", "-Werror"]).args(options);
     let output = command.arg("-c").arg(source).arg("-o").arg(&object).output().map_err(|error| error.to_string())?;
@@ -158,7 +168,7 @@ pub fn linked_by_microsofts_rules(name: &str, source: &Path) -> Result<Host, Str
 pub struct Qemu {
     /// Its name and version.
     pub name: String,
-    /// The program that starts an arm64 program.
+    /// The program that starts an arm64 program; it looks for libraries in the folders `ARM64_LIBRARIES`, too.
     pub start: PathBuf,
     /// The program that runs any command, and every arm64 program that it starts, by `start`.
     pub with_arm64: PathBuf,
@@ -181,7 +191,7 @@ pub fn qemu() -> Result<Qemu, String> {
     let [start, with_arm64] = ["arm64", "with_arm64"].map(|name| programs.join(name));
     // its libraries are not those of the program
     let by_qemu = format!(
-        "#!/bin/sh\nLD_LIBRARY_PATH='{libraries}' exec '{qemu}' -E LD_LIBRARY_PATH= -L '{root}' \"$@\"\n",
+        "#!/bin/sh\nLD_LIBRARY_PATH='{libraries}' exec '{qemu}' -E LD_LIBRARY_PATH=\"$ARM64_LIBRARIES\" -L '{root}' \"$@\"\n",
         libraries = folder.join("usr/lib/x86_64-linux-gnu").display(),
         qemu = folder.join("usr/bin/qemu-aarch64").display(),
         root = folder.join("usr/aarch64-linux-gnu").display(),
