@@ -301,7 +301,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     add = parser.add_argument
     add("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} [default: all]")
-    add("--toolchain", type=Path, help="the folder of packaging/toolchain.py, for all platforms")
+    add("--toolchain", type=Path, help="the folder of packaging/toolchain.py FOLDER --std, for all platforms")
     add("--mingw", type=Path, help="the folder that Debian's mingw-w64 is unpacked in")
     add(
         "--platform",
@@ -316,8 +316,10 @@ def main() -> None:
     for name in given.steps:
         if name not in STEPS:
             parser.error(f"there is no step {name}: {', '.join(STEPS)}")
-    if given.toolchain is not None and '"std": true' not in (given.toolchain / "packages.json").read_text():
-        parser.error(f"--toolchain {given.toolchain}: packaging/toolchain.py made it without --std")
+    if given.toolchain is not None:
+        packages = given.toolchain / "packages.json"
+        if not packages.is_file() or '"std": true' not in packages.read_text():
+            parser.error(f"--toolchain {given.toolchain}: it is not the folder of packaging/toolchain.py FOLDER --std")
     rehearsal = Rehearsal(given)
     if given.tag is not None and given.tag.startswith("v") and given.tag != f"v{rehearsal.version}":
         parser.error(f"--tag {given.tag}: the version in Cargo.toml is {rehearsal.version}")
