@@ -202,7 +202,8 @@ def user(run: Run) -> None:
     others = [it for it in run.variables["PATH"].split(":") if not Path(it).is_relative_to(mine)]
     run.variables |= {"PATH": ":".join([*map(str, programs), *others]), "HOME": str(home)}
     run.variables |= {"RUSTUP_HOME": str(tools / "rustup"), "CARGO_HOME": str(home / ".cargo")}
-    run.variables |= {"USER": "nobody", "LOGNAME": "nobody"}
+    # a Python that was built at another place finds its library by this
+    run.variables |= {"USER": "nobody", "LOGNAME": "nobody", "LD_LIBRARY_PATH": str(tools / "python" / "lib")}
     binds = [f"mount --bind {shlex.quote(str(it))} {shlex.quote(str(place))}" for it, place in bound.items()]
     run.mounts(" && ".join([*binds, f"chown -R {USER}:{USER} {shlex.quote(str(home))} {shlex.quote(str(run.folder))}"]))
     run.before.append(["chown", f"{USER}:{USER}", str(run.scratch)])
