@@ -222,7 +222,7 @@ pub fn user_folder(
 }
 
 /// Path of what is installed with the program, relative to its installation folder.
-const INSTALLED: &str = "share/brinell";
+const INSTALLED: [&str; 2] = ["share", "brinell"];
 
 /// Number of folders above the program that are searched. A wheel puts programs into `bin` or `Scripts`; on Windows, the
 /// programs of a single user are in `Python311\Scripts`. `share` is beside `bin`, `Scripts` or `Python311`.
@@ -230,14 +230,18 @@ const LEVELS: usize = 3;
 
 /// The file or folder `name` that was installed with this program; `None` if there is none.
 pub fn installed(name: &str) -> Option<PathBuf> {
-    // a symbolic link to the program, such as that of pipx, has no `share` beside it
-    installed_with(&std::env::current_exe().and_then(fs::canonicalize).ok()?, name)
+    let program = std::env::current_exe().ok()?;
+    // a symbolic link to the program, such as that of pipx, has no `share` beside it; on Windows pipx copies the program, and a
+    // canonical path begins with `\\?\`
+    let program = if cfg!(windows) { program } else { fs::canonicalize(program).ok()? };
+    installed_with(&program, name)
 }
 
 /// The same for the program at `program`.
 fn installed_with(program: &Path, name: &str) -> Option<PathBuf> {
     let above = program.ancestors().skip(1).take(LEVELS);
-    above.map(|folder| folder.join(INSTALLED).join(name)).find(|path| path.exists())
+    let below: PathBuf = INSTALLED.into_iter().chain([name]).collect();
+    above.map(|folder| folder.join(&below)).find(|path| path.exists())
 }
 
 /// The folder that contains `path`.
@@ -287,13 +291,13 @@ pub fn ending(output: Option<&Path>, allowed: &[&'static str]) -> Result<&'stati
 
 #[cfg(test)]
 mod tests {
-    use super::{INSTALLED, installed_with};
+    use super::installed_with;
     use std::fs;
 
     #[test]
     fn what_is_installed_is_beside_the_program_or_beside_one_of_two_folders_above() {
         let root = tempfile::tempdir().unwrap();
-        let there = root.path().join(INSTALLED).join("prebuilt");
+        let there = root.path().join("share/brinell/prebuilt");
         fs::create_dir_all(&there).unwrap();
         for program in ["brinell", "bin/brinell", "Python311/Scripts/brinell.exe"] {
             let found = installed_with(&root.path().join(program), "prebuilt");

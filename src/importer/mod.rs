@@ -60,8 +60,9 @@ pub enum ImportError {
     Binary { wanted: String, present: String },
     #[error("{0}")]
     Platform(#[from] NoPlatform),
-    #[error("the library can't be loaded: {}", chain(.0))]
-    Library(libloading::Error),
+    // Windows says what is wrong, but not with which file
+    #[error("the library {name} can't be loaded: {}", chain(.source))]
+    Library { name: String, source: libloading::Error },
     #[error("the library has no function {name}: {}", chain(.source))]
     Function { name: &'static str, source: libloading::Error },
     #[error("fmi2Instantiate gave no instance: {0}")]

@@ -117,7 +117,10 @@ impl Unit {
         let text = |text: String| CString::new(text).map_err(|error| ImportError::Xml(error.to_string()));
         let (guid, resources) = (text(guid.into())?, text(address(&folder.join("resources")))?);
         // SAFETY: loading runs the library's initializers; an FMU has none that could do harm.
-        let library = unsafe { libloading::Library::new(path) }.map_err(ImportError::Library)?;
+        let library = unsafe { libloading::Library::new(path) }.map_err(|source| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into();
+            ImportError::Library { name, source }
+        })?;
         Ok(Unit { library, guid, resources })
     }
 

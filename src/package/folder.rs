@@ -157,7 +157,7 @@ fn not_ours(_folder: &Path) -> io::Result<Option<&'static str>> {
     Ok(None)
 }
 
-#[cfg(test)]
+#[cfg(all(test, unix))]
 mod tests {
     use super::cache_folder;
     use std::path::PathBuf;
@@ -169,7 +169,6 @@ mod tests {
     }
 
     #[test]
-    #[cfg(unix)]
     fn an_empty_or_relative_xdg_cache_home_counts_as_unset() {
         let folder = |variables: &[(&str, &str)]| chosen("linux", variables);
         assert_eq!(folder(&[("HOME", "/home/a"), ("XDG_CACHE_HOME", "/c")]), Some("/c/brinell".into()));
@@ -184,7 +183,6 @@ mod tests {
     }
 
     #[test]
-    #[cfg(unix)]
     fn each_system_has_its_own_cache() {
         assert_eq!(chosen("macos", &[("HOME", "/Users/a")]), Some("/Users/a/Library/Caches/brinell".into()));
         assert_eq!(chosen("windows", &[("LOCALAPPDATA", "/local"), ("HOME", "/h")]), Some("/local/brinell".into()));
