@@ -1,6 +1,7 @@
 //! The first test program, because cargo runs them in alphabetical order: this machine has what the tests need, and the list of
 //! what is skipped begins anew. docs/guide/tests.md lists the packages for each system.
 
+use brinell_testing::python::INSTALLED;
 use brinell_testing::skips;
 use std::process::{Command, Output, Stdio};
 
@@ -12,8 +13,12 @@ fn run(command: &str, arguments: &[&str]) -> Option<Output> {
     Command::new(command).args(arguments).stdin(Stdio::null()).output().ok()
 }
 
-/// What is wrong with the C compiler, which links FMUs and compiles importers for tests.
+/// What is wrong with the C compiler, which links FMUs and compiles importers for tests. On Windows cargo names the linker if there
+/// is none, and the importers are left out.
 fn c_compiler() -> Option<String> {
+    if cfg!(windows) {
+        return None;
+    }
     match run("cc", &["--version"]) {
         Some(output) if output.status.success() => None,
         _ => Some(
@@ -39,14 +44,14 @@ fn too_old(version: &str) -> Option<String> {
 fn python() -> Option<String> {
     let missing = || "there is no `python3` (Debian and Ubuntu: apt install python3 python3-venv)".to_string();
     let version = "import sys; print('%d.%d' % sys.version_info[:2])";
-    let Some(output) = run("python3", &["-c", version]).filter(|output| output.status.success()) else {
+    let Some(output) = run(INSTALLED, &["-c", version]).filter(|output| output.status.success()) else {
         return Some(missing());
     };
     if let Some(old) = too_old(&String::from_utf8_lossy(&output.stdout)) {
         return Some(old);
     }
     // Debian has the modules that make an environment in a package of their own
-    let venv = run("python3", &["-c", "import venv, ensurepip"]);
+    let venv = run(INSTALLED, &["-c", "import venv, ensurepip"]);
     let has = venv.is_some_and(|output| output.status.success());
     (!has).then(|| "`python3 -m venv` doesn't work (Debian and Ubuntu: apt install python3-venv)".into())
 }

@@ -346,7 +346,7 @@ fn a_file_that_is_not_toml_is_refused() {
 fn a_missing_file_is_named() {
     let folder = empty_folder();
     let run = run(folder.path(), ["export", "no such.toml"]).with_status(1);
-    assert!(run.err.starts_with("brinell: no such.toml: ") && run.err.contains("No such file"), "{run:#?}");
+    assert!(run.err.starts_with("brinell: no such.toml: ") && run.err.contains(&command::missing()), "{run:#?}");
     assert!(contents(folder.path()).is_empty());
 }
 

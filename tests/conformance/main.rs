@@ -7,7 +7,6 @@
 //!
 //! `cargo test --release --test conformance` checks the FMUs of all scenes. The units of every law are checked by
 //! `cargo test --release --test conformance -- --ignored every_law --nocapture`.
-#![cfg(all(target_os = "linux", target_env = "gnu"))]
 
 #[path = "../../src/parallel.rs"]
 mod parallel;

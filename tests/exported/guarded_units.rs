@@ -1,9 +1,9 @@
 //! FMUs with the passivity guard: their texts, and their agreement with the prediction.
 
+use crate::archive;
 use crate::command::{empty_folder, run};
 use crate::every_law::takes_all;
 use crate::prebuilt;
-use crate::unit::entry;
 use std::fs;
 use std::path::Path;
 
@@ -31,10 +31,10 @@ fn a_guarded_fmu_states_where_the_guard_acts_and_agrees_with_the_prediction() {
         let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
         let words = format!("from {:.4} to {:.4}", ranges[0][0].as_f64().unwrap(), ranges[0][1].as_f64().unwrap());
         assert!(said.contains("guard      acts at largest indentations") && said.contains(&words), "{said}");
-        let page = entry(&folder.path().join("unit.fmu"), "documentation/index.html");
+        let page = archive::text(&folder.path().join("unit.fmu"), "documentation/index.html");
         assert!(page.contains("Passivity guard") && page.contains(&words), "{loading}");
         assert!(
-            entry(&folder.path().join("unit.fmu"), "modelDescription.xml").contains("logStatusWarning"),
+            archive::text(&folder.path().join("unit.fmu"), "modelDescription.xml").contains("logStatusWarning"),
             "{loading}"
         );
     }
@@ -53,7 +53,7 @@ fn the_guard_is_off_unless_requested_and_then_not_mentioned() {
     let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
     assert!(exported["passivity_guard"].is_null(), "{exported}");
     let bytes = exported["library_size"].as_u64().unwrap();
-    assert!(!entry(&folder.path().join("unit.fmu"), "documentation/index.html").contains("Passivity guard"));
+    assert!(!archive::text(&folder.path().join("unit.fmu"), "documentation/index.html").contains("Passivity guard"));
     let restitution = |expected: &dyn Fn(f64) -> bool| {
         let predicted = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
         let restitution = predicted["laws"][0]["restitution"].as_f64().unwrap();

@@ -1,8 +1,8 @@
 //! The constants of the laws: as data, in a scene, and in an exported FMU.
 
+use crate::archive;
 use crate::command::{empty_folder, run};
 use crate::prebuilt;
-use crate::unit::entry;
 use brinell_contact::loading::{AnyLoading, Power};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, Loading, Pair};
@@ -160,7 +160,7 @@ fn page(law: &str) -> String {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
     prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
-    entry(&folder.path().join("unit.fmu"), "documentation/index.html")
+    archive::text(&folder.path().join("unit.fmu"), "documentation/index.html")
 }
 
 #[test]

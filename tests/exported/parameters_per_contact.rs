@@ -1,6 +1,5 @@
 //! FMUs whose contacts have their own parameters: each contact equals that of an FMU of one contact with these parameters, to
 //! the last bit.
-#![cfg(target_os = "linux")]
 
 use crate::loaded::{ERROR, Instance, OK, Unit};
 use crate::unit::write_scene;

@@ -1,5 +1,4 @@
 //! FMUs from prebuilt libraries have the same outputs as compiled ones, bit for bit.
-#![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 use crate::both_ways::Both;
 use crate::command::{self, assert_same, brinell, empty_folder, output, run};

@@ -1,6 +1,5 @@
 //! FMUs with several contacts, called like by an importer: each contact equals that of a separate FMU to the last bit, however
 //! it is addressed; either all of them move or none.
-#![cfg(target_os = "linux")]
 
 use crate::loaded::{ERROR, Instance, OK, Unit};
 use crate::unit::write_scene;

@@ -1,5 +1,4 @@
 //! FMUs whose contacts share bodies, called like by an importer: they move as the library moves them, all of them or none.
-#![cfg(target_os = "linux")]
 
 use crate::loaded::{ERROR, Instance, OK, Unit};
 use crate::physics::{AnyModel, Random, model, pair_of};

@@ -1,6 +1,5 @@
 //! FMUs whose contacts share bodies with friction, called like by an importer: the body that it moves by their forces keeps momentum
 //! and energy, in either order of execution, and a saved state continues with the same bits.
-#![cfg(target_os = "linux")]
 
 use crate::loaded::{Instance, OK, Unit};
 use crate::unit::write_scene;

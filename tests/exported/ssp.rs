@@ -1,6 +1,7 @@
 //! `brinell ssp` from the user's point of view; tests/fmpy/test_ssp.py examines the packages.
 
-use crate::command::{self, Run, assert_same, contents, empty_folder, run, scene};
+use crate::archive;
+use crate::command::{Run, assert_same, contents, empty_folder, run, scene};
 use crate::unit;
 use std::fs;
 use std::path::Path;
@@ -62,9 +63,7 @@ fn with_units(path: &Path, units: &[(&str, &str)]) {
         "<fmiModelDescription fmiVersion=\"2.0\" guid=\"g\"><CoSimulation modelIdentifier=\"mass\"/>\
          <UnitDefinitions>{definitions}</UnitDefinitions><ModelVariables>{variables}</ModelVariables></fmiModelDescription>"
     );
-    let script = "import sys, zipfile\nwith zipfile.ZipFile(sys.argv[1], 'w') as archive: archive.writestr('modelDescription.xml', sys.argv[2])";
-    let mut python = std::process::Command::new("python3");
-    command::output(python.args(["-c", script]).arg(path).arg(description)).with_status(0);
+    archive::write(path, [("modelDescription.xml", description)]);
 }
 
 const UNITS: [(&str, &str); 8] = [
@@ -123,8 +122,8 @@ fn a_unit_that_is_unknown_is_a_warning() {
 fn other_fmus_are_packed_with_the_contact_and_connected_to_it() {
     let folder = empty_folder();
     connected(folder.path(), "mass.out0=contact.indentation_rate").with_status(0);
-    let mut archive = zip_of(&folder.path().join("mass_known.ssp"));
-    let text = archive.remove("SystemStructure.ssd").map(|bytes| String::from_utf8(bytes).unwrap()).unwrap();
+    let system = folder.path().join("mass_known.ssp");
+    let text = archive::text(&system, "SystemStructure.ssd");
     let ends = r#"startElement="mass" startConnector="out0" endElement="contact" endConnector="indentation_rate""#;
     assert!(text.contains(ends), "{text}");
     assert_eq!(text.matches("<ssd:Connection ").count(), 1);
@@ -132,7 +131,13 @@ fn other_fmus_are_packed_with_the_contact_and_connected_to_it() {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains(r#"<ssd:Connector name="out0" kind="output"> <ssc:Real unit="m/s"/>"#), "{text}");
     assert!(!text.contains("out1"), "{text}");
-    assert_eq!(archive["resources/mass.fmu"], fs::read(folder.path().join("mass.fmu")).unwrap());
+    let packed: Vec<_> = archive::files(&system).into_iter().map(|(name, _)| name).collect();
+    for name in ["resources/mass_known.ssv", "resources/mass_known.fmu"] {
+        assert!(packed.contains(&name.to_string()), "{packed:?}");
+    }
+    let (_, bytes) =
+        archive::files(&system).into_iter().find(|(name, _)| name == "resources/mass.fmu").expect("it is packed");
+    assert_eq!(bytes, fs::read(folder.path().join("mass.fmu")).unwrap());
 }
 
 /// Tools read the definition that belongs to the name.
@@ -143,8 +148,7 @@ fn a_unit_of_another_fmu_with_the_name_of_another_unit_is_listed_by_itself() {
     with_units(&folder.path().join("mass.fmu"), &[("m/s", base)]);
     let scene = scene("mass_known").display().to_string();
     run(folder.path(), ["ssp", &scene, "--with", "mass.fmu", "--connect", "mass.out0=mass.in0"]).with_status(0);
-    let mut archive = zip_of(&folder.path().join("mass_known.ssp"));
-    let text = archive.remove("SystemStructure.ssd").map(|bytes| String::from_utf8(bytes).unwrap()).unwrap();
+    let text = archive::text(&folder.path().join("mass_known.ssp"), "SystemStructure.ssd");
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for (name, kind) in [("in0", "input"), ("out0", "output")] {
         let connector = format!(r#"<ssd:Connector name="{name}" kind="{kind}"> <ssc:Real unit="m/s (mass)"/>"#);
@@ -153,15 +157,6 @@ fn a_unit_of_another_fmu_with_the_name_of_another_unit_is_listed_by_itself() {
     assert!(words.contains(r#"<ssc:Unit name="m/s"> <ssc:BaseUnit m="1" s="-1"/>"#), "{text}");
     let of_mass = words.split_once(r#"<ssc:Unit name="m/s (mass)">"#).expect("it is listed").1;
     assert!(of_mass.split("/>").next().unwrap().contains("factor="), "{text}");
-}
-
-/// The files of an archive by name.
-fn zip_of(path: &Path) -> std::collections::HashMap<String, Vec<u8>> {
-    let folder = path.with_extension("");
-    let mut python = std::process::Command::new("python3");
-    command::output(python.args(["-m", "zipfile", "-e"]).args([path, &folder])).with_status(0);
-    let names = ["SystemStructure.ssd", "resources/mass_known.ssv", "resources/mass_known.fmu", "resources/mass.fmu"];
-    names.into_iter().map(|name| (name.to_string(), fs::read(folder.join(name)).expect(name))).collect()
 }
 
 #[test]

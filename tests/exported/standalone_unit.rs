@@ -3,8 +3,8 @@
 #![cfg(target_os = "linux")]
 
 use crate::command;
-use crate::standalone;
 use crate::unit;
+use brinell_testing::standalone;
 use libloading::Library;
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString, c_char, c_int, c_void};

@@ -1,9 +1,9 @@
 //! The valid range of the laws, and the messages of the program about an impact beyond.
 
+use crate::archive;
 use crate::command::{empty_folder, run};
 use crate::physics::{AnyModel, all_models, mild, pair_of};
 use crate::prebuilt;
-use crate::unit::entry;
 use brinell_contact::damped::{self, AnyDamped};
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, largest_speed};
 use brinell_contact::{Contact, History, Loading};
@@ -125,7 +125,7 @@ fn export_and_its_page_say_what_predict_says() {
     assert_eq!(warnings.len(), 2, "{exported}");
     let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    let page = entry(&folder.path().join("unit.fmu"), "documentation/index.html");
+    let page = archive::text(&folder.path().join("unit.fmu"), "documentation/index.html");
     for warning in warnings {
         let warning = warning.as_str().unwrap();
         assert!(said.contains(&format!("warning {warning}")), "{said}");

@@ -3,8 +3,8 @@
 //! A function of the wrong type would still link and load, but read its arguments from the wrong registers. The header
 //! generated from the Rust source is therefore compiled together with the standard's own.
 
-use crate::python;
-use crate::skips;
+use brinell_testing::python;
+use brinell_testing::skips;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

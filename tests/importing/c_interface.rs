@@ -4,10 +4,10 @@
 //! the default scene, and reads its list of checks.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
-use crate::driver::{arguments, assert_good, attribute, compile, has_valgrind, headers, valgrind};
 use crate::kinds::of_each_kind;
 use crate::prebuilt;
 use crate::unit;
+use brinell_testing::driver::{arguments, assert_good, attribute, compile, has_valgrind, headers, valgrind};
 use brinell_testing::places::temporary;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -6,14 +6,14 @@
 //! interpreter with tools that no registry provides, `BRINELL_WRITE=1` writes the table to docs/importers.md.
 #![cfg(target_os = "linux")]
 
-use crate::command;
-use crate::fmi_crate;
-use crate::importer_table::{self, Row, Table};
-use crate::loaded::{OK, Unit};
-use crate::python;
-use crate::skips;
-use crate::unit;
+use brinell_testing::command;
+use brinell_testing::fmi_crate;
+use brinell_testing::importer_table::{self, Row, Table};
+use brinell_testing::loaded::{OK, Unit};
 use brinell_testing::places::temporary;
+use brinell_testing::python;
+use brinell_testing::skips;
+use brinell_testing::unit;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::env;

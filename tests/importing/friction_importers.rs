@@ -1,11 +1,11 @@
 //! FMUs with friction in a C program, and in tools other than fmpy.
 #![cfg(target_os = "linux")]
 
-use crate::driver::{assert_good, attribute, headers};
 use crate::every_importer;
-use crate::loaded::{OK, Unit};
 use crate::skips;
 use crate::unit;
+use brinell_testing::driver::{assert_good, attribute, headers};
+use brinell_testing::loaded::{OK, Unit};
 use brinell_testing::places::temporary;
 use std::fs;
 use std::path::{Path, PathBuf};

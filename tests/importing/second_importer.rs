@@ -1,9 +1,9 @@
 //! An FMU in another importer: the `fmi` crate must read it and get the same bits as fmpy.
 
-use crate::fmi_crate::{forces_by_fmi_crate, output_of};
-use crate::python;
-use crate::unit;
+use brinell_testing::fmi_crate::{forces_by_fmi_crate, output_of};
 use brinell_testing::places::temporary;
+use brinell_testing::python;
+use brinell_testing::unit;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -2,9 +2,9 @@
 //! roundings only.
 #![cfg(target_arch = "x86_64")]
 
-use crate::arithmetic::{MODES, control, set_control};
 use crate::physics::{AnyModel, TURNS, advance, all_models, mild, model, on_grid, pressed};
 use brinell_contact::History;
+use brinell_testing::arithmetic::{MODES, control, set_control};
 use std::hint::black_box;
 
 /// The result of `work` in a mode of arithmetic.

@@ -2,7 +2,7 @@
 //!
 //! `cargo test --release --test physics law_suite` runs one of them.
 
-use brinell_testing::{arithmetic, friction, physics, printed};
+use brinell_testing::{friction, physics, printed};
 
 mod arithmetic_modes;
 mod corners;

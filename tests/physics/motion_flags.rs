@@ -1,7 +1,6 @@
 //! A successful step raises no floating-point exception except inexact and underflow: a host may trap the others.
 #![cfg(target_arch = "x86_64")]
 
-use crate::arithmetic::{control, set_control};
 use crate::physics::{AnyModel, Random, all_models, pair_of};
 use crate::shared_losses::random_losing_bodies;
 use crate::shared_motion::random_bodies;
@@ -10,6 +9,7 @@ use brinell_contact::motion::{Drive, follow};
 use brinell_contact::path::Course;
 use brinell_contact::shared::{self, InverseMasses, SharedContact, Work};
 use brinell_contact::{Contact, History, Model, Surface, loading, unloading};
+use brinell_testing::arithmetic::{control, set_control};
 use std::fmt::Debug;
 
 /// Invalid operation, division by zero and overflow, as bits of the control and status register.

@@ -172,10 +172,10 @@ fn check_next_branches<L: Loading + Copy, U: Unloading + Copy>(name: &str, dente
         for _ in 0..40 {
             let mut known = History::start(&model, 0.0).expect("within range");
             let mut searched = known;
-            let scale = unit * 10f64.powf(4.0 * random.next() - 2.0);
+            let scale = unit * libm::pow(10.0, 4.0 * random.next() - 2.0);
             for number in 0..60 {
                 // sometimes to a corner, to the surface, and to the end of the dent
-                let part = 10f64.powf(-4.0 * random.next());
+                let part = libm::pow(10.0, -4.0 * random.next());
                 let increment = match number % 7 {
                     3 => known.max_indentation() - known.indentation(),
                     4 => known.residual_indentation(&model) - known.indentation(),

@@ -1,5 +1,6 @@
 //! FMUs for several platforms. Other systems are tested if their toolchain is available; BRINELL_PLATFORMS=all downloads it.
 
+use crate::archive;
 use crate::command::{Run, assert_same, brinell, contents, empty_folder, output, run, scene};
 use crate::toolchain;
 use std::collections::BTreeMap;
@@ -11,23 +12,7 @@ const ALL: [&str; 5] = ["linux64", "aarch64-linux", "win64", "darwin64", "aarch6
 
 /// The files of an FMU by name.
 fn files(fmu: &Path) -> BTreeMap<String, Vec<u8>> {
-    let folder = empty_folder();
-    let mut python = std::process::Command::new("python3");
-    output(python.args(["-m", "zipfile", "-e"]).args([fmu, folder.path()])).with_status(0);
-    let mut files = BTreeMap::new();
-    let mut folders = vec![folder.path().to_path_buf()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(&next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let name = path.strip_prefix(folder.path()).unwrap().display().to_string();
-                files.insert(name, fs::read(&path).unwrap());
-            }
-        }
-    }
-    files
+    archive::files(fmu).into_iter().collect()
 }
 
 /// The library of a platform.

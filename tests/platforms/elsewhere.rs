@@ -13,6 +13,7 @@ use crate::programs::{Program, wheels};
 use crate::systems::{self, Qemu};
 use crate::{debian, python};
 use brinell_testing::places::{root, temporary};
+use brinell_testing::windows::Wine;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -54,30 +55,17 @@ fn qemu(path: &Path) -> Command {
     command
 }
 
-/// The program that starts Wine.
-static WINE: LazyLock<PathBuf> = LazyLock::new(|| match std::env::var_os("WINE") {
-    Some(named) => named.into(),
-    None => systems::wine().unwrap_or_else(|why| panic!("there is no Wine: {why}")).0,
-});
+static WINE: LazyLock<Wine> = LazyLock::new(|| Wine::find().unwrap_or_else(|why| panic!("there is no Wine: {why}")));
 
 /// A call of the program for Windows at `path`.
 fn wine(path: &Path) -> Command {
-    let mut command = Command::new(&*WINE);
-    command.arg(path);
-    command.env("WINEPREFIX", temporary().join("wine")).env("WINEDEBUG", "-all");
-    command.env("WINEDLLOVERRIDES", "mscoree,mshtml=").env_remove("DISPLAY");
-    command
+    WINE.command(path)
 }
 
-/// The program for Windows. Wine below version 9 has no bcryptprimitives.dll, and gets a replacement.
+/// The program for Windows.
 fn for_windows() -> Program {
     let program = Program::installed("win_amd64", ("win64", "x86_64-pc-windows-msvc"), wine);
-    if program.there(Path::new("."), ["--version"]).status != Some(0) {
-        let mut compile = systems::compile_for("x86_64-windows-gnu").unwrap_or_else(|why| panic!("{why}"));
-        compile.args(["-shared", "-O1"]).arg(root().join("tests/c/bcryptprimitives.c")).arg("-ladvapi32");
-        compile.arg("-o").arg(program.folder.join("bin/bcryptprimitives.dll"));
-        command::output(&mut compile).with_status(0);
-    }
+    WINE.settle(&program.folder.join("bin"));
     program
 }
 

@@ -6,12 +6,12 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 use crate::command::{brinell, contents, empty_folder, output, scene};
-use crate::courses;
-use crate::hosts::{Host, Interface, Loading, cc, compile};
 use crate::python;
-use crate::skips;
-use crate::systems;
 use crate::toolchain;
+use brinell_testing::courses;
+use brinell_testing::hosts::{Host, Interface, Loading, cc, compile};
+use brinell_testing::skips;
+use brinell_testing::systems;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -4,13 +4,13 @@
 //! target folder (crates/testing/src/debian.rs). If a host is not available, it is skipped with a message.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
-use crate::courses;
-use crate::debian;
-use crate::hosts::{Host, Interface, Loading, Said, cc, compile};
-use crate::skips::skipped;
-use crate::standalone;
-use crate::unit;
+use brinell_testing::courses;
+use brinell_testing::debian;
+use brinell_testing::hosts::{Host, Interface, Loading, Said, cc, compile};
 use brinell_testing::places::temporary;
+use brinell_testing::skips::skipped;
+use brinell_testing::standalone;
+use brinell_testing::unit;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;

@@ -2,10 +2,7 @@
 //!
 //! `cargo test --release --test platforms cross_compiled wheel` runs one of them.
 
-use brinell_testing::{
-    both_ways, command, courses, debian, hosts, kinds, physics, prebuilt, programs, python, skips, standalone, systems,
-    toolchain, unit,
-};
+use brinell_testing::{archive, command, debian, prebuilt, programs, python, systems, toolchain};
 
 mod c_source;
 mod cross_compiled;
@@ -13,4 +10,5 @@ mod elsewhere;
 mod first_export;
 mod kinds_of_hosts;
 mod other_systems;
+mod portable;
 mod wheel;

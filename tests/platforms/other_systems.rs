@@ -8,14 +8,14 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 use crate::command;
-use crate::courses;
-use crate::hosts::{Host, Interface, Loading, Said, cc, compile};
-use crate::kinds;
 use crate::prebuilt;
-use crate::skips::skipped;
-use crate::systems::{self, System};
 use crate::toolchain;
+use brinell_testing::courses;
+use brinell_testing::hosts::{Host, Interface, Loading, Said, cc, compile};
+use brinell_testing::kinds;
 use brinell_testing::places::temporary;
+use brinell_testing::skips::skipped;
+use brinell_testing::systems::{self, System};
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -17,7 +17,7 @@ fn root() -> &'static Path {
 
 /// Makes wheel and archive in `folder`.
 fn release(folder: &Path) {
-    let mut command = Command::new("python3");
+    let mut command = Command::new(python::INSTALLED);
     command.arg(root().join("packaging/release.py")).args(["--program", env!("CARGO_BIN_EXE_brinell")]);
     command.arg("--scratch").arg(python::target_folder().join("packaging")).arg("-o").arg(folder);
     command.arg("--prebuilt").arg(prebuilt::store());
@@ -74,7 +74,7 @@ static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
     let environment = folder.join("environment");
     // the tests wait for both
     thread::scope(|scope| {
-        let made = scope.spawn(|| output(Command::new("python3").args(["-m", "venv"]).arg(&environment)));
+        let made = scope.spawn(|| output(Command::new(python::INSTALLED).args(["-m", "venv"]).arg(&environment)));
         release(&folder);
         made.join().expect("a command that can be started").with_status(0);
     });

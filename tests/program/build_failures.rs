@@ -2,7 +2,7 @@
 #![cfg(target_os = "linux")]
 
 use crate::command::{brinell, cache, contents, empty_folder, output, scene, settled};
-use crate::skips;
+use brinell_testing::skips;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Stdio};

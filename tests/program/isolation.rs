@@ -2,8 +2,8 @@
 #![cfg(unix)]
 
 use crate::command::{assert_same, brinell, cache, contents, empty_folder, exported, output, scene};
-use crate::skips;
 use brinell_testing::places::temporary;
+use brinell_testing::skips;
 use std::ffi::OsStr;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};

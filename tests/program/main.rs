@@ -2,7 +2,7 @@
 //!
 //! `cargo test --release --test program commands` runs one of them.
 
-use brinell_testing::{command, laws, prebuilt, skips, unit};
+use brinell_testing::{archive, command, laws, prebuilt};
 
 mod build_failures;
 mod commands;

@@ -1,9 +1,9 @@
 //! People's own data: tensile tests in files, tables of materials, strengths of single contacts. What is exported has the numbers, and
 //! no file.
 
+use crate::archive;
 use crate::command::{assert_same, brinell, empty_folder, output, run};
 use crate::prebuilt;
-use crate::unit::entry;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -180,13 +180,13 @@ fn a_unit_has_the_numbers_of_the_files_beside_the_scene_and_not_the_files() {
     }
     let [one, two] = ["one", "two"].map(|place| folder.path().join(place).join("unit.fmu"));
     assert_same(&fs::read(&one).unwrap(), &fs::read(&two).unwrap());
-    let inside = entry(&one, "resources/scene.toml");
+    let inside = archive::text(&one, "resources/scene.toml");
     assert!(inside.contains("true_strain = [") && !inside.contains(".csv"), "{inside}");
     fs::write(folder.path().join("inside.toml"), inside).unwrap();
     assert_eq!(predicted(folder.path(), "inside.toml")["laws"], predicted(folder.path(), "one/scene.toml")["laws"]);
-    let page = entry(&one, "documentation/index.html");
+    let page = archive::text(&one, "documentation/index.html");
     assert!(page.contains("<h3>Strength</h3>") && page.contains("power law") && page.contains("<svg"), "{page}");
-    for text in [page, entry(&one, "modelDescription.xml")] {
+    for text in [page, archive::text(&one, "modelDescription.xml")] {
         assert!(!text.contains("curve.csv") && !text.contains("materials.toml"), "{text}");
     }
     run(folder.path(), ["check", "one/unit.fmu"]).with_status(0);
@@ -313,7 +313,7 @@ fn a_contact_has_a_hardness_a_tensile_test_or_a_material_of_its_own() {
         let folder = folder_with(&[("alone.toml", &alone), ("own.toml", &own)]);
         let value = |scene: &str, name: &str| {
             let text = prebuilt::run(folder.path(), ["export", scene, "--output", "unit.fmu"]).with_status(0);
-            let xml = entry(&folder.path().join("unit.fmu"), "modelDescription.xml");
+            let xml = archive::text(&folder.path().join("unit.fmu"), "modelDescription.xml");
             let (_, rest) =
                 xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name}: {text:?}"));
             let (_, rest) = rest.split_once("start=\"").unwrap();
@@ -342,7 +342,7 @@ fn a_contact_whose_own_strength_has_no_hardening_doesnt_harden_as_the_others_do(
     );
     let folder = folder_with(&[("scene.toml", &scene)]);
     prebuilt::run(folder.path(), ["export", "scene.toml", "--output", "unit.fmu"]).with_status(0);
-    let xml = entry(&folder.path().join("unit.fmu"), "modelDescription.xml");
+    let xml = archive::text(&folder.path().join("unit.fmu"), "modelDescription.xml");
     let start = |name: &str| {
         let (_, rest) = xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name} in {xml}"));
         rest.split_once("start=\"").unwrap().1.split('"').next().unwrap().parse::<f64>().unwrap()

@@ -2,7 +2,7 @@
 #![cfg(target_os = "linux")]
 
 use crate::command::{self, Run, empty_folder, run, scene};
-use crate::unit;
+use brinell_testing::unit;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -136,7 +136,7 @@ fn a_peer_that_cannot_be_run_is_named_with_the_reason_and_nothing_is_written() {
         }
         assert!(run.out.is_empty() && command::contents(folder.path()).is_empty(), "{run:#?}");
     };
-    refused(&missing, &["No such file"]);
+    refused(&missing, &[&command::missing()]);
     let packed = |option: &str, xml: &str| {
         let folder = empty_folder();
         (pack(folder.path(), option, xml), folder)

@@ -1,8 +1,8 @@
 //! What `predict` and `export` say about rods, against waves in rods that are integrated point by point.
 
+use crate::archive;
 use crate::command::{empty_folder, run};
 use crate::prebuilt;
-use crate::unit::entry;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, History, Model, Pair, Surface};
@@ -328,7 +328,7 @@ fn export_and_its_page_say_what_predict_says_of_rods() {
         assert_eq!(exported["rods"], case.predicted()["rods"]);
         let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
         assert!(said.contains(expected), "{said}");
-        let page = entry(&folder.path().join("unit.fmu"), "documentation/index.html");
+        let page = archive::text(&folder.path().join("unit.fmu"), "documentation/index.html");
         assert!(page.contains(expected), "{page}");
     }
 }

@@ -2,7 +2,7 @@
 #![cfg(target_os = "linux")]
 
 use crate::command::{Run, brinell, contents, empty_folder, output, run};
-use crate::unit;
+use brinell_testing::unit;
 use std::fs;
 use std::path::Path;
 use std::process::Command;

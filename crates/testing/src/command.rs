@@ -4,6 +4,7 @@ use crate::places::program;
 use crate::places::{root, temporary};
 use std::ffi::OsStr;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
@@ -105,7 +106,7 @@ pub fn empty_folder() -> TempDir {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-    builder.tempdir().expect("a folder for temporary files")
+    builder.prefix("brinell-test-").tempdir().expect("a folder for temporary files")
 }
 
 /// The names of the entries of `folder`, including hidden files.
@@ -114,6 +115,11 @@ pub fn contents(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> = entries.map(|e| e.expect("a readable folder").file_name().into_string().unwrap()).collect();
     names.sort();
     names
+}
+
+/// What the operating system says of a file that isn't there.
+pub fn missing() -> String {
+    io::Error::from_raw_os_error(2).to_string()
 }
 
 /// A scene file of the project by its name without `.toml`.

@@ -1,5 +1,6 @@
 //! What the tests share: places and commands, units for tests and their libraries, masters, models and random numbers.
 
+pub mod archive;
 pub mod arithmetic;
 pub mod both_ways;
 pub mod browser;
@@ -28,6 +29,7 @@ pub mod printed;
 pub mod programs;
 pub mod pytest;
 pub mod python;
+#[cfg(target_os = "linux")]
 pub mod rebuilt;
 pub mod refusal;
 pub mod scenes;
@@ -35,10 +37,13 @@ pub mod schema;
 pub mod skips;
 pub mod standalone;
 pub mod suites;
+#[cfg(unix)]
 pub mod systems;
 pub mod targets;
 pub mod toolchain;
 pub mod unit;
+#[cfg(unix)]
+pub mod windows;
 
 /// The Rust code of the guide, as tests.
 #[cfg(doctest)]

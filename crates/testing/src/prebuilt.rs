@@ -1,7 +1,7 @@
 //! Prebuilt libraries for tests, and FMUs made from them or compiled.
 
 use super::command::{Run, brinell, output};
-use crate::places::{build, temporary, test_name};
+use crate::places::{build, program, temporary, test_name};
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap};
 use std::ffi::OsStr;
@@ -18,10 +18,21 @@ pub fn folder() -> PathBuf {
     folder
 }
 
-/// A folder with all libraries for this machine, shared by the test programs.
+/// A folder with all libraries for this machine, shared by the test programs: the one that lies beside the program, for a system
+/// without compiler, otherwise made once.
 pub fn store() -> &'static Path {
     static STORE: OnceLock<PathBuf> = OnceLock::new();
-    STORE.get_or_init(|| made_once("all-kinds", &[]))
+    STORE.get_or_init(|| {
+        let beside = program().with_file_name("share").join("brinell/prebuilt");
+        if beside.is_dir() { beside } else { made_once("all-kinds", &[]) }
+    })
+}
+
+/// What the program says of this machine: the folder of its libraries in an FMU, and the target of its compiler.
+fn platform() -> &'static Value {
+    static PLATFORM: LazyLock<Value> =
+        LazyLock::new(|| output(brinell(temporary()).args(["--version", "--json"])).json()["platform"].clone());
+    &PLATFORM
 }
 
 /// The folder of libraries made by `brinell prebuild` with these arguments. The first test program that needs it
@@ -98,14 +109,15 @@ pub fn export_anew(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
         None => (brinell(&folder), "--compile"),
     };
     // the libraries may be for all platforms
-    command.args(["export", "scene.toml", "-o", "unit.fmu", "--json", way, "--platforms", "linux64"]);
+    let platform = platform()["folder"].as_str().expect("a name");
+    command.args(["export", "scene.toml", "-o", "unit.fmu", "--json", way, "--platforms", platform]);
     let run = output(&mut command).with_status(0);
     (folder.join("unit.fmu"), run.json())
 }
 
 /// The names of the files of `store` for this machine with this ending.
 pub fn file(ending: &str) -> String {
-    format!("x86_64-unknown-linux-gnu.{ending}")
+    format!("{}.{ending}", platform()["target"].as_str().expect("a name"))
 }
 
 /// The list of the libraries in `store`.

@@ -8,6 +8,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
+/// The installed interpreter. On Windows, `python3` may be a program that opens a shop.
+pub const INSTALLED: &str = if cfg!(windows) { "python" } else { "python3" };
+
 const REQUIREMENTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/requirements.txt");
 
 /// The target folder of cargo, which contains its folder for tests.
@@ -120,7 +123,7 @@ fn environment(
     lock.lock().expect("the target folder is on a file system with locks");
     let hint = "the tests in Python need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
     // another version doesn't find the packages
-    let version = succeed(Command::new("python3").arg("--version"), hint)?.stdout;
+    let version = succeed(Command::new(INSTALLED).arg("--version"), hint)?.stdout;
     let wanted = [b"# ", &*version, wanted].concat();
     // the copy of the requirements is written last: an environment without it is incomplete
     let marker = folder.join("requirements.txt");
@@ -128,7 +131,7 @@ fn environment(
         return Ok(interpreter);
     }
     let _ = fs::remove_dir_all(&folder);
-    succeed(Command::new("python3").args(["-m", "venv"]).args(options).arg(&folder), hint)?;
+    succeed(Command::new(INSTALLED).args(["-m", "venv"]).args(options).arg(&folder), hint)?;
     if install(&interpreter)? {
         fs::write(&marker, wanted).expect("the target folder can be written to");
     }

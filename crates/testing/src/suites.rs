@@ -2,6 +2,7 @@
 
 use super::child;
 use crate::places::root;
+use crate::toolchain::test_programs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -28,28 +29,11 @@ impl Suites {
     /// The programs of this build.
     pub fn build() -> Suites {
         let mut cargo = Command::new(env!("CARGO"));
-        cargo.current_dir(root());
-        cargo.args([
-            "test",
-            "--release",
-            "--no-run",
-            "--message-format=json",
-            "--test",
-            "conformance",
-            "--test",
-            "fuzz",
-        ]);
-        let output = cargo.output().expect("cargo runs this test");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let messages = String::from_utf8(output.stdout).expect("UTF-8");
-        let messages = messages.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
-        let messages: Vec<_> = messages.collect();
+        cargo.current_dir(root()).args(["test", "--release", "--test", "conformance", "--test", "fuzz"]);
+        let programs = test_programs(&mut cargo);
         let program = |name: &str| {
-            let made =
-                messages.iter().find(|message| message["target"]["name"] == name && message["executable"].is_string());
-            PathBuf::from(
-                made.and_then(|made| made["executable"].as_str()).unwrap_or_else(|| panic!("no program {name}")),
-            )
+            let found = programs.iter().find(|program| program.name == name);
+            found.unwrap_or_else(|| panic!("no program {name}")).file.clone()
         };
         let scratch = tempfile::tempdir().expect("a folder for temporary files");
         Suites { conformance: program("conformance"), fuzz: program("fuzz"), scratch }

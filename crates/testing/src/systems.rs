@@ -90,7 +90,7 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
     // without a display, and without the questions of the first start. fmpy's server for other platforms exits if it
     // can open its lock file, which is always possible in wine; it therefore gets no lock file.
     let text = format!(
-        "#!/bin/sh\nexport LD_LIBRARY_PATH='{libraries}' WINEPREFIX='{prefix}' WINEARCH=win64 WINEDEBUG=-all\n\
+        "#!/bin/sh\nexport LD_LIBRARY_PATH='{libraries}' WINEPREFIX=\"${{WINEPREFIX:-{prefix}}}\" WINEARCH=win64 WINEDEBUG=-all\n\
          export WINEDLLOVERRIDES='mscoree,mshtml=' DISPLAY=\n\
          case \"$1\" in */server_tcp.exe) set -- \"$1\" \"$2\" ;; esac\nexec '{wine}' \"$@\"\n",
         libraries = folder.join("usr/lib/x86_64-linux-gnu").display(),
@@ -102,7 +102,10 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
 }
 
 /// Writes a script.
-fn executable(path: &Path, text: &str) -> io::Result<()> {
+///
+/// # Errors
+/// Those of the file system.
+pub fn executable(path: &Path, text: &str) -> io::Result<()> {
     fs::write(path, text)?;
     fs::set_permissions(path, fs::Permissions::from_mode(0o755))
 }

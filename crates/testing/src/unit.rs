@@ -6,10 +6,10 @@ use crate::prebuilt;
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
 use std::ffi::OsStr;
+use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
-use std::{fs, io};
 
 /// Results made in this process, by their sources.
 static MADE: LazyLock<Mutex<HashMap<PathBuf, Arc<OnceLock<PathBuf>>>>> = LazyLock::new(Mutex::default);
@@ -132,14 +132,6 @@ fn made(scene: &Path, store: Option<&Path>) -> PathBuf {
 /// A place beside `path` for this thread alone.
 fn draft_of(path: &Path) -> PathBuf {
     path.with_extension(format!("{}-{:?}", std::process::id(), std::thread::current().id()))
-}
-
-/// The text of a file inside `fmu`.
-pub fn entry(fmu: &Path, name: &str) -> String {
-    let file = fs::File::open(fmu).unwrap_or_else(|error| panic!("{}: {error}", fmu.display()));
-    let mut archive = zip::ZipArchive::new(file).unwrap_or_else(|error| panic!("{}: {error}", fmu.display()));
-    let entry = archive.by_name(name).unwrap_or_else(|error| panic!("{name} in {}: {error}", fmu.display()));
-    io::read_to_string(entry).unwrap_or_else(|error| panic!("{name} in {}: {error}", fmu.display()))
 }
 
 /// Unpacks `fmu` into `folder`.

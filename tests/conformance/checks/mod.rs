@@ -4,6 +4,8 @@ mod arguments;
 mod arithmetic;
 mod courses;
 mod derivatives;
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+mod glibc;
 mod initial;
 mod instances;
 mod logging;
@@ -61,9 +63,11 @@ pub const CHECKS: &[Check] = &[
     check("derivatives before the first step", initial::derivatives),
     check("instances in turn", process::instances_in_turn),
     check("instances in threads", process::instances_in_threads),
-    check("memory", process::memory),
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    check("memory", glibc::memory),
     check("a small stack", process::small_stack),
-    check("floating-point traps", process::floating_point_traps),
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    check("floating-point traps", glibc::floating_point_traps),
     check("modes of arithmetic", arithmetic::modes),
     check("values along a course", courses::values_along_a_course),
     check("work", courses::work),
