@@ -25,12 +25,15 @@ static STANDARD: LazyLock<PathBuf> = LazyLock::new(|| {
     folder
 });
 
-/// Compiles `source` with `compiler`, without output, with the strictest settings.
-fn compile(compiler: &str, language: &str, source: &Path, header: &Path) -> Output {
+/// Compiles `source` with `compiler`, without output, with the strictest settings; brinell.h is in `folder`.
+fn compile(compiler: &str, language: &str, source: &Path, folder: &Path) -> Output {
     Command::new(compiler)
         .args([language, "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I"])
         .arg(&*STANDARD)
-        .arg(format!("-DBRINELL_HEADER=\"{}\"", header.display()))
+        // a folder whose name has quotes can't be part of an #include
+        .arg("-I")
+        .arg(folder)
+        .arg("-DBRINELL_HEADER=\"brinell.h\"")
         .arg(source)
         .output()
         .unwrap_or_else(|error| panic!("{compiler}: {error}"))
@@ -47,7 +50,7 @@ fn prove(compiler: &str, language: &str, header: &str) -> Result<(), String> {
         source = folder.path().join("abi.cpp");
         fs::copy(PROOF, &source).expect("a temporary file");
     }
-    let output = compile(compiler, language, &source, &path);
+    let output = compile(compiler, language, &source, folder.path());
     if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
 }
 
@@ -137,7 +140,7 @@ fn compile_types(proof: &str) -> Result<(), String> {
     let source = folder.path().join("types.c");
     fs::write(&source, proof).expect("a temporary file");
     // C11 allows a typedef to be repeated
-    let output = compile("cc", "-std=c11", &source, Path::new("unused"));
+    let output = compile("cc", "-std=c11", &source, folder.path());
     if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
 }
 
