@@ -19,12 +19,13 @@ pub fn target_folder() -> PathBuf {
     temporary.parent().expect("cargo's folder for tests lies in the target folder").to_path_buf()
 }
 
+/// The environment that others are beside.
+const COMMON: &str = "test-venv";
+
 /// The interpreter with fmpy, pytest and libclang.
 pub fn python() -> PathBuf {
     static PYTHON: OnceLock<PathBuf> = OnceLock::new();
-    PYTHON
-        .get_or_init(|| environment_of("test-venv", Path::new(REQUIREMENTS)).unwrap_or_else(|why| panic!("{why}")))
-        .clone()
+    PYTHON.get_or_init(|| environment_of(COMMON, Path::new(REQUIREMENTS)).unwrap_or_else(|why| panic!("{why}"))).clone()
 }
 
 /// The interpreter with MuJoCo and the packages for studies, or with the large engines also.
@@ -79,14 +80,16 @@ pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String
 /// The reason why the environment cannot be created.
 pub fn environment_beside(name: &str, more: &Path, rest: Option<&Path>) -> Result<PathBuf, String> {
     let common = python();
-    let packages = packages_of(&common)?;
     let script = rest.map_or_else(|| Ok(Vec::new()), read)?;
     let wanted = [read(Path::new(REQUIREMENTS))?, read(more)?, script].concat();
     // the installer of the common environment installs here, too
     environment(name, &wanted, &["--without-pip"], |interpreter| {
-        // a path file: its lines are added to those where Python looks for packages
-        let link = Path::new(&packages_of(interpreter)?).join("of_the_tests.pth");
-        fs::write(link, &packages).expect("the target folder can be written to");
+        // a path file: its lines are added to those where Python looks for packages; it reads them in the language of the user, who
+        // may know only ASCII, and both environments are beside each other
+        let packages = packages_of(interpreter)?;
+        let up = "../".repeat(1 + Path::new(&packages).components().count());
+        let link = target_folder().join(name).join(&packages).join("of_the_tests.pth");
+        fs::write(link, format!("{up}{COMMON}/{packages}\n")).expect("the target folder can be written to");
         let complete = install_what_can_be(&common, interpreter, more);
         if let Some(script) = rest {
             let hint = format!("{} can't install its part; the first run needs its registry", script.display());
@@ -96,10 +99,11 @@ pub fn environment_beside(name: &str, more: &Path, rest: Option<&Path>) -> Resul
     })
 }
 
-/// The folder with the packages of `interpreter`.
+/// The folder with the packages of `interpreter`, in its environment.
 fn packages_of(interpreter: &Path) -> Result<String, String> {
     let mut command = Command::new(interpreter);
-    command.args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]);
+    command
+        .args(["-c", "import os, sys, sysconfig; print(os.path.relpath(sysconfig.get_path('purelib'), sys.prefix))"]);
     let output = succeed(&mut command, "the virtual environment is broken; delete it")?;
     Ok(String::from_utf8_lossy(&output.stdout).trim().into())
 }
