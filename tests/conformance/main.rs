@@ -70,7 +70,7 @@ struct Target {
 impl Target {
     fn of_scene(scene: &Path, passive: bool) -> Target {
         let name = scene.file_stem().expect("a name").to_string_lossy().into_owned();
-        Target { name, file: unit::export(scene), passive }
+        Target { name, file: unit::compiled(scene), passive }
     }
 }
 

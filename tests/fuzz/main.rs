@@ -161,7 +161,7 @@ fn targets() -> Vec<Target> {
     let scenes = targets::scenes().into_iter().filter(|scene| !scene.ends_with("many_contacts.toml"));
     let compiled = scenes.map(|scene| {
         let name = scene.file_stem().expect("a name").to_string_lossy().into_owned();
-        (name, unit::export(&scene))
+        (name, unit::compiled(&scene))
     });
     let target = |(name, fmu): (String, PathBuf)| Target {
         name,

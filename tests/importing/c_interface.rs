@@ -91,8 +91,8 @@ fn a_c_program_uses_fmus_with_losses() {
     }
 }
 
-/// Every scene of the project, each rate-dependent law, each loss, and a law without segments, with every output, in a host
-/// that traps.
+/// Every scene of the project, each rate-dependent law, each loss, and a law without segments, with every output, compiled and from
+/// prebuilt libraries, and every kind of these, in a host that traps.
 #[test]
 fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
     let program = compile_one("exceptions");
@@ -112,7 +112,7 @@ fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
     let texts = scenes.iter().map(|scene| fs::read_to_string(scene).expect("a scene"));
     let prebuilt = texts.chain(of_each_kind().into_iter().map(|(_, text)| text));
     let prebuilt: Vec<_> = prebuilt.map(|text| prebuilt::export(&text, Some(prebuilt::store()))).collect();
-    for fmu in scenes.iter().map(|scene| unit::export(scene)).chain(prebuilt) {
+    for fmu in scenes.iter().map(|scene| unit::compiled(scene)).chain(prebuilt) {
         let library = unit::library(&fmu);
         let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");

@@ -42,7 +42,7 @@ pub fn scene() -> PathBuf {
 
 /// The program's arguments: the library of the FMU of [`scene`], its GUID, and four value references.
 pub fn arguments() -> Vec<String> {
-    let library = unit::library(&unit::export(&scene()));
+    let library = unit::library(&unit::compiled(&scene()));
     let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
     let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
     let guid = attribute(&description, "guid").expect("a unit has a GUID");

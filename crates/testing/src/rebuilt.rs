@@ -70,7 +70,7 @@ impl Sources {
 
     /// Makes the library that of `scene`, with the GUID of its FMU; the place of the FMU's own library.
     pub fn use_scene(&self, scene: &Path) -> PathBuf {
-        let place = unit::library(&unit::export(scene));
+        let place = unit::library(&unit::compiled(scene));
         let root = place.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
         let guid = description.split(" guid=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a GUID");
