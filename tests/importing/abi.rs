@@ -30,10 +30,8 @@ fn compile(compiler: &str, language: &str, source: &Path, folder: &Path) -> Outp
     Command::new(compiler)
         .args([language, "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I"])
         .arg(&*STANDARD)
-        // a folder whose name has quotes can't be part of an #include
         .arg("-I")
         .arg(folder)
-        .arg("-DBRINELL_HEADER=\"brinell.h\"")
         .arg(source)
         .output()
         .unwrap_or_else(|error| panic!("{compiler}: {error}"))
