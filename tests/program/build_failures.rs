@@ -182,11 +182,12 @@ fn a_file_that_cannot_grow_is_reported_with_the_folder() {
     }
 }
 
-/// A file system of this number of kilobytes, if one can be created.
+/// On file systems of several sizes, if they can be mounted.
 #[test]
 fn a_full_disk_is_reported_with_the_folder() {
     let can_mount = Command::new("unshare")
-        .args(["-rm", "true"])
+        .args(["-rm", "mount", "-t", "tmpfs", "tmpfs"])
+        .arg(empty_folder().path())
         .stderr(Stdio::null())
         .status()
         .is_ok_and(|status| status.success());
