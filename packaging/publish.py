@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Publishes those crates on crates.io that aren't there yet in this version. Run again, it goes on where it stopped.
 
-python3 packaging/publish.py     # after `cargo login`, or with CARGO_REGISTRY_TOKEN
+    python3 packaging/publish.py     # at the tag; after `cargo login`, or with CARGO_REGISTRY_TOKEN
 """
 
 from __future__ import annotations
 
 import json
 import subprocess
+import sys
 import time
 
 from platforms import ROOT
@@ -16,12 +17,18 @@ from platforms import ROOT
 WAIT = 610
 
 
-def missing() -> list[str]:
-    """The crates that are published, and aren't."""
-    command = ["cargo", "metadata", "--format-version=1", "--no-deps", "--locked"]
-    packages = json.loads(subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout)["packages"]
-    names = [(it["name"], it["version"]) for it in packages if it["publish"] is None]
-    return [name for name, version in names if not _is_known(f"{name}@{version}")]
+def crates() -> dict[str, str]:
+    """The versions of the crates that are to be published; an error if the commit isn't that of their tag."""
+
+    def said(*command: str) -> str:
+        return subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, check=True, encoding="utf-8").stdout
+
+    packages = json.loads(said("cargo", "metadata", "--format-version=1", "--no-deps", "--locked"))["packages"]
+    found = {it["name"]: it["version"] for it in packages if it["publish"] is None}
+    tag = f"v{found['brinell']}"
+    if tag not in said("git", "tag", "--points-at", "HEAD").split():
+        raise SystemExit(f"this commit has no tag {tag}: git checkout {tag}")
+    return found
 
 
 def _is_known(crate: str) -> bool:
@@ -33,19 +40,25 @@ def _is_known(crate: str) -> bool:
 
 
 def main() -> None:
-    while names := missing():
+    known = crates()
+    while names := [name for name, version in known.items() if not _is_known(f"{name}@{version}")]:
         print("publishing", ", ".join(names), flush=True)
         chosen = [part for name in names for part in ("--package", name)]
-        ended = subprocess.run(
-            ["cargo", "publish", "--locked", *chosen], cwd=ROOT, stderr=subprocess.PIPE, text=True, check=False
-        )
-        if ended.returncode:
-            print(ended.stderr, flush=True)
-            if "too many" not in ended.stderr.lower():
-                raise SystemExit(ended.returncode)
+        command = ["cargo", "publish", "--locked", *chosen]
+        too_many = False
+        with subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE, encoding="utf-8") as cargo:
+            for line in cargo.stderr or []:
+                print(line, end="", flush=True)
+                too_many |= "too many" in line.lower()
+        if cargo.returncode:
+            if not too_many:
+                raise SystemExit(cargo.returncode)
+            print(f"crates.io takes the next one in ten minutes: waiting {WAIT} s", flush=True)
             time.sleep(WAIT)
     print("every crate is published")
 
 
 if __name__ == "__main__":
+    if sys.argv[1:]:
+        raise SystemExit(__doc__)
     main()

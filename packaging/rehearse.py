@@ -6,7 +6,7 @@ At its end it says what it could not try here.
     python3 packaging/rehearse.py --toolchain FOLDER [--mingw FOLDER]        # for all platforms
     python3 packaging/rehearse.py crates source                              # some of the steps
 
-The files are below target/rehearsal: crates/, python/ (wheels and source distribution), archives/ (with hashes and notes), site/.
+The files are below target/rehearsal: crates/, python/ (wheels and source distribution), archives/ (with hashes), NOTES.md, site/.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import argparse
 import hashlib
 import json
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -38,6 +39,9 @@ FOLDERS = {"src", "data", "scenes"}
 # The scenes whose FMUs the program from packages and that of the repository must write with the same bytes.
 SCENES = ["steel_ball", "mass_known", "elastic"]
 
+# With it, programs for arm64 start others in QEMU.
+KERNEL = (6, 7)
+
 # Which can't be tried without accounts, or on other systems.
 NEVER = [
     "publishing to crates.io, PyPI and GitHub, and its short-lived passwords",
@@ -57,7 +61,10 @@ class Rehearsal:
         self.scratch = self.folder / "scratch"
         self.scratch.mkdir(parents=True, exist_ok=True)
         self.not_tried: list[str] = []
-        self.version = re.findall(r'^version = "(.*)"', (ROOT / "Cargo.toml").read_text(encoding="utf-8"), re.M)[0]
+        settings = (ROOT / "Cargo.toml").read_text(encoding="utf-8")
+        self.version = re.findall(r'^version = "(.*)"', settings, re.M)[0]
+        # as GitHub names it, OWNER/brinell
+        self.repository = "".join(re.findall(r'^repository = "https://[^/]*/(.*)"', settings, re.M))
 
     def new(self, name: str) -> Path:
         """An empty folder for files of the release."""
@@ -237,7 +244,7 @@ class Rehearsal:
         run(self.tool("check-wheel-contents"), *(path for path in python if path.suffix == ".whl"))
         files = [path for path in archives.iterdir() if path.name != "SHA256SUMS"]
         (archives / "SHA256SUMS").write_text(sums([*files, *python]))
-        (archives / "NOTES.md").write_text(self.notes(), encoding="utf-8")
+        (self.folder / "NOTES.md").write_text(self.notes(), encoding="utf-8")
         return "; ".join(f"{path.name} {path.stat().st_size:,} bytes" for path in python if path.suffix == ".whl")
 
     def notes(self) -> str:
@@ -247,17 +254,22 @@ class Rehearsal:
         if not entry:
             raise SystemExit(f"CHANGELOG.md has no entry of {self.version}")
         text = (ROOT / "packaging" / "notes.md").read_text(encoding="utf-8")
-        return text.replace("CHANGES", entry[0].strip()).replace("VERSION", self.version)
+        text = text.replace("VERSION", self.version).replace("REPOSITORY", self.repository)
+        return text.replace("CHANGES", entry[0].strip())
 
     def trial(self) -> str:
         """The wheel for this machine, as its user has it; those for musl, arm64 and Windows without glibc, in QEMU and in Wine."""
         said = re.sub(r"\s+", " ", tried(self.folder / "python"))[:100]
         # at a tag, jobs on those systems do it
-        if self.given.tag is None and len(list((self.folder / "python").glob("*.whl"))) == len(PLATFORMS):
+        if self.given.tag is not None:
+            return said
+        wheels = len(list((self.folder / "python").glob("*.whl")))
+        kernel = tuple(map(int, platform.release().split(".")[:2])) if sys.platform == "linux" else (0, 0)
+        if wheels == len(PLATFORMS) and kernel >= KERNEL:
             variables = {**os.environ, "BRINELL_WHEELS": str(self.folder / "python")}
             run("cargo", "test", "--release", "--test", "platforms", "elsewhere", "--", "--ignored", env=variables)
         else:
-            self.not_tried.append("other wheels than that of this machine")
+            self.not_tried.append("other wheels than that of this machine: it takes all of them, and Linux 6.7")
         return said
 
     def book(self) -> str:
@@ -323,6 +335,11 @@ def main() -> None:
     rehearsal = Rehearsal(given)
     if given.tag is not None and given.tag.startswith("v") and given.tag != f"v{rehearsal.version}":
         parser.error(f"--tag {given.tag}: the version in Cargo.toml is {rehearsal.version}")
+    if given.tag == f"v{rehearsal.version}":
+        if not rehearsal.repository:
+            parser.error(f"--tag {given.tag}: Cargo.toml has no repository; packaging/addresses.py writes it")
+        if f"## {rehearsal.version} (unreleased)" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"):
+            parser.error(f"--tag {given.tag}: CHANGELOG.md says unreleased; packaging/version.py writes the date")
     for name in given.steps or STEPS:
         begin = time.monotonic()
         said = STEPS[name](rehearsal)
