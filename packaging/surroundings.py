@@ -62,10 +62,19 @@ class Run:
                 shutil.copy2(ROOT / file, copy / file)
         self.folder = copy
 
-    def mounts(self, script: str) -> None:
+    def mounts(self, script: str, then: str = 'exec "$@"') -> None:
         """Starts the command after a `script` that mounts something, where nobody else sees it."""
         rights = ["-m"] if os.geteuid() == 0 else ["-rm"]
-        self.before.append(["unshare", *rights, "sh", "-c", f'{script}; exec "$@"', "sh"])
+        self.before.append(["unshare", *rights, "sh", "-c", f"{script}; {then}", "sh"])
+
+    def home(self, name: str) -> str:
+        """Uses a new home, with the toolchain where it is; the quoted name of its folder."""
+        mine, folder = Path(self.variables["HOME"]), self.scratch / name
+        for variable, known in {"CARGO_HOME": ".cargo", "RUSTUP_HOME": ".rustup"}.items():
+            self.variables.setdefault(variable, str(mine / known))
+        folder.mkdir(exist_ok=True)
+        self.variables["HOME"] = str(folder)
+        return shlex.quote(str(folder))
 
 
 def ignored_signals(run: Run) -> None:
@@ -147,22 +156,26 @@ def temporary(run: Run) -> None:
 
 
 def full_home(run: Run) -> None:
-    """A home without room for a byte; the toolchain is elsewhere."""
-    home = Path(run.variables["HOME"])
-    for name, folder in {"CARGO_HOME": ".cargo", "RUSTUP_HOME": ".rustup"}.items():
-        run.variables.setdefault(name, str(home / folder))
-    full = run.scratch / "full home"
-    full.mkdir(exist_ok=True)
-    run.variables["HOME"] = str(full)
-    name = shlex.quote(str(full))
-    run.mounts(f"mount -t tmpfs -o size=64k tmpfs {name}; cat /dev/zero >{name}/all 2>/dev/null")
+    """A home without room for a byte."""
+    home = run.home("full home")
+    run.mounts(f"mount -t tmpfs -o size=64k tmpfs {home}; cat /dev/zero >{home}/all 2>/dev/null")
 
 
 def no_home(run: Run) -> None:
     """A home that doesn't exist, as services have."""
-    full_home(run)
-    run.before.pop()
+    run.home("no home")
     run.variables["HOME"] = "/nonexistent"
+
+
+def slow_home(run: Run) -> None:
+    """A home that takes and gives two megabytes in a second, by bindfs."""
+    home = run.home("slow home")
+    files = run.scratch / "files of the slow home"
+    files.mkdir(exist_ok=True)
+    run.mounts(
+        f"bindfs --read-rate=2M --write-rate=2M {shlex.quote(str(files))} {home} || exit",
+        f'"$@"; code=$?; umount {home}; exit $code',
+    )
 
 
 def own_settings(run: Run) -> None:
@@ -227,6 +240,7 @@ SURROUNDINGS: dict[str, Callable[[Run], None]] = {
     "temporary": temporary,
     "full-home": full_home,
     "no-home": no_home,
+    "slow-home": slow_home,
     "own-settings": own_settings,
     "twice": twice,
     "path": path,
@@ -240,7 +254,7 @@ ROWS = [
     "terminal+umask-000+language-latin1+full-home",
     "ignored-signals+cron+umask-002+language-tr+one-job+no-home+own-settings",
     "umask-077+language-C+temporary+path+user",
-    "named-target+target-folder+flags",
+    "named-target+target-folder+flags+slow-home",
     "twice",
 ]
 
