@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, Cursor, Write};
 use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+use zip::{CompressionMethod, System, ZipWriter};
 
 /// An archive under construction.
 pub struct Archive(ZipWriter<Cursor<Vec<u8>>>);
@@ -35,7 +35,9 @@ impl Archive {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
             .compression_level(Some(9))
+            // the same bytes on every system
             .last_modified_time(zip::DateTime::default())
+            .system(System::Unix)
             .unix_permissions(0o644);
         self.0.start_file(name, options)?;
         let mut buffer = BufWriter::new(&mut self.0);
@@ -62,4 +64,17 @@ pub fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ZipError> {
         archive.add(name, bytes)?;
     }
     archive.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::archive;
+
+    #[test]
+    fn an_archive_does_not_say_on_which_system_it_was_made() {
+        let bytes = archive(&[("a.txt".into(), b"a")]).expect("an archive");
+        let entry = bytes.windows(4).position(|it| it == b"PK\x01\x02").expect("a central directory");
+        let unix = 3;
+        assert_eq!(bytes[entry + 5], unix);
+    }
 }
