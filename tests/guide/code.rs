@@ -9,7 +9,6 @@
 
 use crate::markdown::{Block, Page};
 use crate::{is_writing, pages, parallel, python, read, root, skips};
-use brinell_testing::command::settled;
 use brinell_testing::schema;
 use std::convert::Infallible;
 use std::env;
@@ -134,7 +133,7 @@ impl Run {
         let mut path = vec![program.parent().unwrap().to_path_buf(), python::python().parent().unwrap().to_path_buf()];
         path.extend(env::split_paths(&env::var_os("PATH").unwrap_or_default()));
         let path: OsString = env::join_paths(path).expect("folders without colons");
-        python::keeping_modules(settled(&mut command))
+        python::keeping_modules(&mut command)
             .current_dir(self.folder.path())
             .env("PATH", path)
             .env("PYTHONPATH", root().join("python"))

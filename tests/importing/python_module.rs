@@ -2,7 +2,6 @@
 
 use crate::python;
 use crate::unit::{export, scene, write_scene};
-use brinell_testing::command::settled;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -64,7 +63,7 @@ fn pytest(file: &str) {
         .iter()
         .map(|scene| (scene.file_stem().unwrap().to_string_lossy().into_owned(), export(scene)))
         .collect();
-    let output = python::keeping_modules(settled(&mut Command::new(python::python())))
+    let output = python::keeping_modules(&mut Command::new(python::python()))
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
         .current_dir(folder)
         .env("PYTHONPATH", root.join("python"))

@@ -1,20 +1,20 @@
 //! C source as a platform: it gives the bits and messages of the native library, and compiles wherever it says so.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
-use crate::command::{self, empty_folder, output};
-use crate::prebuilt::without_compiler;
-use crate::python::{keeping_modules, python, site_packages_file};
-use crate::toolchain;
 use brinell_exporter::symbols::FUNCTIONS;
 use brinell_testing::both_ways::Both;
+use brinell_testing::command::{self, empty_folder, output};
 use brinell_testing::courses;
 use brinell_testing::debian::{Packages, packages};
 use brinell_testing::hosts::{Host, Interface, Loading, cc, compile, folder};
 use brinell_testing::kinds::of_each_kind;
 use brinell_testing::physics::Random;
 use brinell_testing::places::temporary;
+use brinell_testing::prebuilt::without_compiler;
+use brinell_testing::python::{keeping_modules, python, site_packages_file};
 use brinell_testing::skips::skipped;
 use brinell_testing::systems;
+use brinell_testing::toolchain;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

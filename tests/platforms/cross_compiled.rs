@@ -1,8 +1,8 @@
 //! FMUs for several platforms. Other systems are tested if their toolchain is available; BRINELL_PLATFORMS=all downloads it.
 
-use crate::archive;
-use crate::command::{Run, assert_same, brinell, contents, empty_folder, output, run, scene};
-use crate::toolchain;
+use brinell_testing::archive;
+use brinell_testing::command::{Run, assert_same, brinell, contents, empty_folder, output, run, scene};
+use brinell_testing::toolchain;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

@@ -8,12 +8,12 @@
 //! QEMU, which takes Linux 6.7 or newer.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
-use crate::command::{self, empty_folder, output};
-use crate::programs::{Program, wheels};
-use crate::systems::{self, Qemu};
-use crate::{debian, python};
+use brinell_testing::command::{self, empty_folder, output};
 use brinell_testing::places::{root, temporary};
+use brinell_testing::programs::{Program, wheels};
+use brinell_testing::systems::{self, Qemu};
 use brinell_testing::windows::Wine;
+use brinell_testing::{debian, python};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -5,13 +5,13 @@
 //! in it are those of BRINELL_PREBUILT, otherwise of `brinell prebuild` with the toolchain of BRINELL_TOOLCHAIN.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
-use crate::command::{brinell, contents, empty_folder, output, scene};
-use crate::python;
-use crate::toolchain;
+use brinell_testing::command::{brinell, contents, empty_folder, output, scene};
 use brinell_testing::courses;
 use brinell_testing::hosts::{Host, Interface, Loading, cc, compile};
+use brinell_testing::python;
 use brinell_testing::skips;
 use brinell_testing::systems;
+use brinell_testing::toolchain;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;

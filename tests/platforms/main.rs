@@ -2,8 +2,6 @@
 //!
 //! `cargo test --release --test platforms cross_compiled wheel` runs one of them.
 
-use brinell_testing::{archive, command, debian, prebuilt, programs, python, systems, toolchain};
-
 mod c_source;
 mod cross_compiled;
 mod elsewhere;

@@ -7,15 +7,15 @@
 //! skipped with a message.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
-use crate::command;
-use crate::prebuilt;
-use crate::toolchain;
+use brinell_testing::command;
 use brinell_testing::courses;
 use brinell_testing::hosts::{Host, Interface, Loading, Said, cc, compile};
 use brinell_testing::kinds;
 use brinell_testing::places::temporary;
+use brinell_testing::prebuilt;
 use brinell_testing::skips::skipped;
 use brinell_testing::systems::{self, System};
+use brinell_testing::toolchain;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;

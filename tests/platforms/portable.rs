@@ -5,10 +5,10 @@
 //! `OF_COMPILED`.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
-use crate::command::{brinell, output};
-use crate::toolchain::{self, TestProgram, cargo_for, test_programs};
+use brinell_testing::command::{brinell, output};
 use brinell_testing::places::{root, temporary};
 use brinell_testing::skips::skipped;
+use brinell_testing::toolchain::{self, TestProgram, cargo_for, test_programs};
 use brinell_testing::windows::{TARGET, Wine};
 use serde_json::Value;
 use std::collections::BTreeMap;

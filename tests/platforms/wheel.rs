@@ -1,10 +1,10 @@
 //! The wheel and the archive made by packaging/release.py from the program of the tests: installed, and used without cargo and
 //! rustc.
 
-use crate::command::{Run, contents, empty_folder, output, scene};
-use crate::prebuilt;
-use crate::python;
+use brinell_testing::command::{Run, contents, empty_folder, output, scene};
 use brinell_testing::places::temporary;
+use brinell_testing::prebuilt;
+use brinell_testing::python;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

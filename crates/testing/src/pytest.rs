@@ -1,7 +1,6 @@
 //! Tests in Python on existing FMUs.
 
 use super::python;
-use crate::command::settled;
 use crate::places::{program, root};
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -12,7 +11,7 @@ use std::process::Command;
 pub fn pytest(file: &str, units: &HashMap<String, PathBuf>) {
     let folder = root().join("tests/fmpy");
     assert!(folder.join(file).is_file(), "there is no tests/fmpy/{file}");
-    let output = python::keeping_modules(settled(&mut Command::new(python::python())))
+    let output = python::keeping_modules(&mut Command::new(python::python()))
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
         .current_dir(folder)
         .env("BRINELL_TEST_UNITS", serde_json::to_string(units).unwrap())

@@ -1,6 +1,7 @@
 //! Python for tests: a virtual environment in the target folder. It is created from `tests/requirements.txt` on first use, and
 //! again when that file changes.
 
+use crate::command::settled;
 use crate::places::{root, temporary};
 use std::fs::{self, File};
 use std::io::Write;
@@ -38,13 +39,14 @@ pub fn engines(large: bool) -> PathBuf {
 }
 
 /// `command` of Python, which keeps compiled modules in the target folder: the source tree stays clean, and no process
-/// compiles what another one has compiled. Temporary files and settings are there, too: fmpy leaves unpacked FMUs behind.
+/// compiles what another one has compiled. Temporary files and settings are there, too: fmpy leaves unpacked FMUs behind. Our program
+/// has nothing of the user's.
 pub fn keeping_modules(command: &mut Command) -> &mut Command {
     let [modules, temporary, settings] =
         ["python-modules", "python-temporary", "python-settings"].map(|name| target_folder().join(name));
     fs::create_dir_all(&temporary).expect("the target folder can be written to");
     command.env_remove("PYTHONDONTWRITEBYTECODE").env("PYTHONPYCACHEPREFIX", modules);
-    command.env("TMPDIR", temporary).env("MPLCONFIGDIR", settings)
+    settled(command).env("TMPDIR", temporary).env("MPLCONFIGDIR", settings)
 }
 
 /// The path of a file of the installed packages, such as `fmpy/c-code` with the official C headers and `fmpy/schema/fmi2` with

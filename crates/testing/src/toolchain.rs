@@ -95,7 +95,7 @@ pub struct TestProgram {
 
 /// The test programs that `cargo` builds, a call of `cargo test`, which isn't to run them.
 pub fn test_programs(cargo: &mut Command) -> Vec<TestProgram> {
-    cargo.args(["--no-run", "--message-format=json"]).stderr(Stdio::inherit());
+    cargo.args(["--no-run", "--message-format=json-render-diagnostics"]).stderr(Stdio::inherit());
     let output = cargo.output().expect("cargo runs this test");
     assert!(output.status.success(), "{cargo:?} fails: {}", output.status);
     let messages = String::from_utf8(output.stdout).expect("UTF-8");
