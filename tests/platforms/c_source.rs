@@ -21,12 +21,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-/// The folder of the prebuilt libraries for this system and as C source: that of BRINELL_PREBUILT, otherwise made once; `None` without a
-/// toolchain to make them.
+/// The folder of the prebuilt libraries for this system and as C source; `None` without a toolchain to make them. They are made once.
 static STORE: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
-    if let Some(named) = std::env::var_os("BRINELL_PREBUILT").filter(|value| !value.is_empty()) {
-        return Some(named.into());
-    }
     let folder = toolchain::toolchain_for_c()?;
     let place = temporary().join("prebuilt").join("c-code");
     let mut command = command::brinell(temporary());

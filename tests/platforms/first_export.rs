@@ -1,8 +1,8 @@
 //! The whole way of a user without a compiler: an empty Python environment, the wheel, exports of all scenes for every machine and
 //! as C source, and their FMUs on Linux, Windows and arm64 Linux and from their source.
 //!
-//! The wheel is that of BRINELL_WHEEL, otherwise packaging/release.py makes one of the program under test. The prebuilt libraries
-//! in it are those of BRINELL_PREBUILT, otherwise of `brinell prebuild` with the toolchain of BRINELL_TOOLCHAIN.
+//! packaging/release.py makes the wheel of the program under test, with the prebuilt libraries of `brinell prebuild` and the toolchain
+//! of BRINELL_TOOLCHAIN.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 use brinell_testing::command::{brinell, contents, empty_folder, output, scene};
@@ -12,22 +12,14 @@ use brinell_testing::python;
 use brinell_testing::skips;
 use brinell_testing::systems;
 use brinell_testing::toolchain;
+use std::fs;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
-use std::{env, fs};
-
-/// The path that an environment variable names.
-fn named(variable: &str) -> Option<PathBuf> {
-    env::var_os(variable).filter(|value| !value.is_empty()).map(Into::into)
-}
 
 /// The prebuilt libraries for all platforms; `None` without a toolchain to make them.
 fn store(folder: &Path) -> Option<PathBuf> {
-    if let Some(store) = named("BRINELL_PREBUILT") {
-        return Some(store);
-    }
     let toolchain = toolchain::toolchain_for_c()?;
     let store = folder.join("store");
     let mut prebuild = brinell(folder);
@@ -38,9 +30,6 @@ fn store(folder: &Path) -> Option<PathBuf> {
 
 /// The wheel.
 fn wheel(folder: &Path) -> Option<PathBuf> {
-    if let Some(wheel) = named("BRINELL_WHEEL") {
-        return Some(wheel);
-    }
     let mut release = Command::new("python3");
     release.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("packaging/release.py"));
     release.args(["--program", env!("CARGO_BIN_EXE_brinell"), "--prebuilt"]).arg(store(folder)?);

@@ -1,8 +1,7 @@
 //! FMUs on Windows, arm64 Linux and macOS, as far as they are available: for every law, the same history gives the
 //! same bits as on this system. docs/platforms.md has the results.
 //!
-//! The libraries are the prebuilt ones: those in the folder of BRINELL_PREBUILT, otherwise those that
-//! `brinell prebuild` makes with the toolchain of BRINELL_TOOLCHAIN. Wine, QEMU, a C compiler for all systems and an
+//! The libraries are the prebuilt ones that `brinell prebuild` makes with the toolchain of BRINELL_TOOLCHAIN. Wine, QEMU, a C compiler for all systems and an
 //! emulator for macOS are unpacked in the target folder (350 MB to download). Systems that are not available are
 //! skipped with a message.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
@@ -16,18 +15,15 @@ use brinell_testing::prebuilt;
 use brinell_testing::skips::skipped;
 use brinell_testing::systems::{self, System};
 use brinell_testing::toolchain;
+use std::fs;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::{env, fs};
 
 /// The folder of the prebuilt libraries for all platforms; `None` without a toolchain to make them. They are made once.
 static STORE: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
-    if let Some(named) = env::var_os("BRINELL_PREBUILT").filter(|value| !value.is_empty()) {
-        return Some(named.into());
-    }
     let folder = toolchain::toolchain()?;
     let place = temporary().join("prebuilt").join("all");
     let mut command = command::brinell(temporary());

@@ -1,7 +1,7 @@
 //! The wheel and the archive made by packaging/release.py from the program of the tests: installed, and used without cargo and
 //! rustc.
 
-use brinell_testing::command::{Run, contents, empty_folder, output, scene};
+use brinell_testing::command::{Run, brinell, contents, empty_folder, output, scene};
 use brinell_testing::places::temporary;
 use brinell_testing::prebuilt;
 use brinell_testing::python;
@@ -88,7 +88,7 @@ static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
 #[test]
 fn the_installed_program_answers_as_the_one_it_was_made_of() {
     let answers = |mut command: Command| output(command.arg("predict").arg(scene("mass_known"))).with_status(0).out;
-    let built = answers(Command::new(env!("CARGO_BIN_EXE_brinell")));
+    let built = answers(brinell(root()));
     assert!(built.contains("restitution"), "{built}");
     assert_eq!(answers(INSTALLED.command("brinell")), built);
     // if the folder of programs is not on PATH
