@@ -254,7 +254,7 @@ class Rehearsal:
         if not entry:
             raise SystemExit(f"CHANGELOG.md has no entry of {self.version}")
         text = (ROOT / "packaging" / "notes.md").read_text(encoding="utf-8")
-        text = text.replace("VERSION", self.version).replace("REPOSITORY", self.repository)
+        text = text.replace("VERSION", self.version).replace("REPOSITORY", self.repository or "OWNER/brinell")
         return text.replace("CHANGES", entry[0].strip())
 
     def trial(self) -> str:
