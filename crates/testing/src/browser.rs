@@ -44,6 +44,8 @@ pub fn pytest(what: &str, files: &[&str], given: impl FnOnce(&mut Command) -> &m
     let mut command = Command::new(&browser.python);
     keeping_modules(&mut command).args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"]).args(files);
     command.current_dir(root().join("tests/page")).env("BRINELL_TEST_CHROMIUM", &browser.program);
+    // scenes are UTF-8, whatever the user's language
+    command.env("PYTHONUTF8", "1");
     let output = given(&mut command).output().expect("the virtual environment has an interpreter");
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{files:?} failed:\n{text}");
