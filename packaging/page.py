@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import os
 import platform
+import shlex
 import shutil
 import subprocess
 import sys
@@ -105,7 +106,8 @@ def node_path(own: Path) -> str:
     own.mkdir(parents=True, exist_ok=True)
     for name in ("npm", "npx"):
         program = here / "lib/node_modules/npm/bin" / f"{name}-cli.js"
-        (own / name).write_text(f"#!/bin/sh\nexec '{here}/bin/node' '{program}' \"$@\"\n")
+        words = shlex.join([str(here / "bin/node"), str(program)])
+        (own / name).write_text(f'#!/bin/sh\nexec {words} "$@"\n', encoding="utf-8")
         (own / name).chmod(0o755)
     return os.pathsep.join([str(own), str(here / "bin"), path])
 

@@ -8,6 +8,7 @@ import base64
 import hashlib
 import io
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -27,7 +28,7 @@ FONTS = """<?xml version="1.0"?>
 """
 
 START = """#!/bin/sh
-LC_ALL=en_US.UTF-8 LD_LIBRARY_PATH='{libraries}' FONTCONFIG_PATH='{fonts}' exec '{program}' "$@"
+LC_ALL=en_US.UTF-8 LD_LIBRARY_PATH={libraries} FONTCONFIG_PATH={fonts} exec {program} "$@"
 """
 
 
@@ -51,7 +52,8 @@ def main(environment: Path) -> None:
                 archive.extractall(folder, filter="data")
     (folder / "fonts.conf").write_text(FONTS.format(fonts=folder / "fonts", cache=folder / "cache"))
     start = environment / "bin/chromium"
-    start.write_text(START.format(libraries=folder / "lib", fonts=folder, program=program))
+    paths = {"libraries": folder / "lib", "fonts": folder, "program": program}
+    start.write_text(START.format(**{name: shlex.quote(str(path)) for name, path in paths.items()}), encoding="utf-8")
     start.chmod(0o755)
 
 
