@@ -1,6 +1,6 @@
 //! Libraries for other systems, unusual hosts, and the program as it is installed. Each file is a topic.
 //!
-//! `cargo test --release --test platforms cross_compiled wheel` runs one of them.
+//! `cargo test --release --test platforms wheel` runs one of them.
 
 mod c_source;
 mod cross_compiled;
