@@ -269,7 +269,7 @@ class Rehearsal:
             variables = {**os.environ, "BRINELL_WHEELS": str(self.folder / "python")}
             run("cargo", "test", "--release", "--test", "platforms", "elsewhere", "--", "--ignored", env=variables)
         else:
-            self.not_tried.append("other wheels than that of this machine: it takes all of them, and Linux 6.7")
+            self.not_tried.append(f"other wheels than that of this machine: that takes wheels for all platforms, and Linux {KERNEL[0]}.{KERNEL[1]}")
         return said
 
     def book(self) -> str:

@@ -1,9 +1,9 @@
 //! FMUs on Windows, arm64 Linux and macOS, as far as they are available: for every law, the same history gives the
 //! same bits as on this system. docs/platforms.md has the results.
 //!
-//! The libraries are the prebuilt ones that `brinell prebuild` makes with the toolchain of BRINELL_TOOLCHAIN. Wine, QEMU, a C compiler for all systems and an
-//! emulator for macOS are unpacked in the target folder (350 MB to download). Systems that are not available are
-//! skipped with a message.
+//! The libraries are the prebuilt ones that `brinell prebuild` makes with the toolchain of BRINELL_TOOLCHAIN. Wine, QEMU, a C
+//! compiler for all systems and an emulator for macOS are unpacked in the target folder (350 MB to download). Systems that
+//! are not available are skipped with a message.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 use brinell_testing::command;
