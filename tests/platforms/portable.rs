@@ -155,6 +155,12 @@ fn the_tests_pass_on_windows_as_far_as_wine_shows() {
             }
         }
     }
+    // cargo belongs to this system: a path of Windows is a name for it
+    for entry in fs::read_dir(root()).expect("the repository can be read").flatten() {
+        if entry.file_name().to_string_lossy().starts_with("Z:\\") {
+            fs::remove_dir_all(entry.path()).expect("a folder of this test");
+        }
+    }
     let counted: usize = counts.values().sum::<usize>() + wrong.len();
     let said: String = counts.iter().map(|(kind, count)| format!("\n{count:>5} {kind}")).collect();
     let _ = writeln!(stderr(), "{here} tests, {there} of them for Windows:{said}\n{:>5} fail", wrong.len());
