@@ -7,10 +7,11 @@
 use crate::kinds::of_each_kind;
 use crate::prebuilt;
 use crate::unit;
-use brinell_testing::driver::{arguments, assert_good, attribute, compile, has_valgrind, headers, valgrind};
-use brinell_testing::places::temporary;
+use brinell_testing::driver::{
+    arguments, assert_good, assert_never_trapped, attribute, compile, compile_one, has_valgrind, valgrind,
+};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// Least number of checks by the program: fewer would mean that it ended early, or that a part is not called.
@@ -38,17 +39,6 @@ fn valgrind_finds_no_wrong_access_and_no_leak() {
     let output = valgrind("memcheck").arg(program).args(arguments()).output().expect("valgrind is there");
     let checks = assert_good(&output);
     assert!(checks >= CHECKS - 2 * COUNTS, "only {checks} checks:\n{}", String::from_utf8_lossy(&output.stdout));
-}
-
-/// Compiles the program of one file `tests/c/NAME.c`.
-fn compile_one(name: &str) -> PathBuf {
-    let program = temporary().join(name);
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/c/{name}.c"));
-    let mut compiler = Command::new("cc");
-    compiler.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"]).arg(headers()).arg(source);
-    let output = compiler.arg("-o").arg(&program).args(["-ldl", "-lm"]).output().expect("there is a C compiler");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    program
 }
 
 const MOMENTUM: &str = "\"indentation\", \"stiffness\", \"mean_pressure\", \"elastic_energy\", \"dissipated_energy\", \
@@ -95,7 +85,7 @@ fn a_c_program_uses_fmus_with_losses() {
 /// prebuilt libraries, and every kind of these, in a host that traps.
 #[test]
 fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
-    let program = compile_one("exceptions");
+    let host = compile_one("exceptions");
     let bodies = "impactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
     let mut scenes = unit::scenes();
     scenes.extend(losses().map(|(_, scene)| scene));
@@ -116,26 +106,7 @@ fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
         let library = unit::library(&fmu);
         let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
-        let elements = || description.split("<ScalarVariable").skip(1);
-        let of = |causality: &'static str| {
-            elements().filter(move |element| attribute(element, "causality") == Some(causality))
-        };
-        let outputs = of("output").filter(|element| element.contains("<Real"));
-        let outputs = outputs.filter_map(|element| attribute(element, "valueReference").map(str::to_string));
-        let has = |what: &str| description.contains(what);
-        let derivatives = match () {
-            () if has("canInterpolateInputs=\"true\"") => "d",
-            () if has("maxOutputDerivativeOrder=\"0\"") => "p",
-            () if has("name=\"lossy\"") || has("modelName=\"lossy\"") => "l",
-            () => "-",
-        };
-        let mut run = Command::new(&program);
-        // the rates come first; other inputs keep their values
-        let rates = of("input").filter(|element| element.contains("indentation_rate\"")).count();
-        run.arg(&library).arg(attribute(&description, "guid").unwrap()).arg(rates.to_string());
-        run.arg(derivatives).args(outputs.take(40));
-        let output = run.output().expect("the program was compiled");
-        assert!(output.status.success(), "{}: {}", fmu.display(), output.status);
+        assert_never_trapped(&host, &library, &description, &fmu.display().to_string());
     }
 }
 

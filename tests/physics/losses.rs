@@ -331,8 +331,7 @@ fn stiffness_and_damping_are_the_slopes_of_the_force() {
     }
 }
 
-// with AVX-512, for which no FMU is compiled, the compiler computes both sides of a condition in `libm`
-#[cfg(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "avx512f")))]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod exceptions {
     use super::*;
 

@@ -6,8 +6,9 @@ use brinell_testing::both_ways::Both;
 use brinell_testing::command::{self, empty_folder, output};
 use brinell_testing::courses;
 use brinell_testing::debian::{Packages, packages};
+use brinell_testing::driver::{assert_never_trapped, compile_one};
 use brinell_testing::hosts::{Host, Interface, Loading, cc, compile, folder};
-use brinell_testing::kinds::of_each_kind;
+use brinell_testing::kinds::{is_rate_dependent, of_each_kind, of_every_law};
 use brinell_testing::physics::Random;
 use brinell_testing::places::temporary;
 use brinell_testing::prebuilt::without_compiler;
@@ -119,6 +120,29 @@ fn c_source_of_every_kind_gives_the_bits_and_messages_of_the_native_library() {
     }
     kinds.dedup();
     assert!(kinds.len() == 10 && messages > 500, "{messages} messages of {kinds:?} were compared");
+}
+
+/// WebAssembly, from which the source is made, computes both sides of a choice between two numbers. Every law, alone, with known
+/// mass and with a loss.
+#[test]
+fn c_source_of_every_law_never_triggers_a_trap() {
+    let host = compile_one("exceptions");
+    let outlives = |law: &str, way: &str, scene: &str| {
+        let Some(fmu) = Fmu::of(scene) else { return };
+        let description = fs::read_to_string(fmu.folder.path().join("modelDescription.xml")).unwrap();
+        assert_never_trapped(&host, &fmu.compiled("gcc", &["-O1"]), &description, &format!("{law}, {way}"));
+    };
+    for (law, alone) in of_every_law() {
+        let moved = format!("{alone}[coupling]\neffective_mass = 4e-3\n");
+        let lossy = alone.replace("[law]", "[law]\nelastic_restitution = 0.9").replace("\"unit\"", "\"lossy\"");
+        std::thread::scope(|scope| {
+            scope.spawn(|| outlives(law, "alone", &alone));
+            scope.spawn(|| outlives(law, "with known mass", &moved));
+            if !is_rate_dependent(law) {
+                scope.spawn(|| outlives(law, "with a loss", &lossy));
+            }
+        });
+    }
 }
 
 /// gcc's own C joins products and sums where the processor can.

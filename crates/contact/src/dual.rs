@@ -1,7 +1,8 @@
 //! A number with its derivative. It gives the slope of a long formula without a second formula.
 
+use crate::numbers::saturation;
 use core::ops::{Add, Mul, Sub};
-use libm::{cos, cosh, exp, expm1, pow, sin, sinh, sqrt};
+use libm::{cos, exp, pow, sin, sqrt};
 
 /// `value` and its derivative with respect to the one variable of the formula.
 ///
@@ -33,7 +34,7 @@ impl Dual {
 
     /// `1 - e^(-u)` without cancellation.
     pub fn saturation(self) -> Dual {
-        Dual { value: -expm1(-self.value), slope: exp(-self.value) * self.slope }
+        Dual { value: saturation(self.value), slope: exp(-self.value) * self.slope }
     }
 
     /// `u^exponent` for `u > 0`.
@@ -59,19 +60,18 @@ impl Dual {
         Dual { value: cos(self.value), slope: -sin(self.value) * self.slope }
     }
 
-    /// `1 / cosh u` for `u >= 0`.
+    /// `1 / cosh u` for `u >= 0`: with `e = e^(-u)`, `2 e / (1 + e^2)`; its slope is `-tanh u / cosh u`.
     pub fn sech(self) -> Dual {
-        let cosine = cosh(self.value);
-        let value = 1.0 / cosine;
-        // beyond 40 the hyperbolic tangent is 1, and sinh may overflow
-        let tangent = if self.value < 40.0 { sinh(self.value) / cosine } else { 1.0 };
-        Dual { value, slope: -value * tangent * self.slope }
+        let decayed = exp(-self.value);
+        let whole = 1.0 + decayed * decayed;
+        let value = 2.0 * decayed / whole;
+        Dual { value, slope: -value * (saturation(2.0 * self.value) / whole) * self.slope }
     }
 
-    /// `1 - 1 / cosh u` for `u >= 0`, without cancellation: `2 sinh(u/2)^2 / cosh u`. `u` must be below 700.
+    /// `1 - 1 / cosh u` for `u >= 0`, without cancellation: with `e = e^(-u)`, `(1 - e)^2 / (1 + e^2)`.
     pub fn one_less_sech(self) -> Dual {
-        let half = sinh(0.5 * self.value);
-        Dual { value: 2.0 * half * half / cosh(self.value), slope: -self.sech().slope }
+        let (decayed, growing) = (exp(-self.value), saturation(self.value));
+        Dual { value: growing * growing / (1.0 + decayed * decayed), slope: -self.sech().slope }
     }
 }
 

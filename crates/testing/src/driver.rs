@@ -3,7 +3,7 @@
 use super::{python, skips, unit};
 use crate::places::{root, temporary};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files of the program.
@@ -33,6 +33,43 @@ pub fn compile(name: &str, options: &[&str]) -> PathBuf {
     let output = compiler.output().expect("there is a C compiler");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     program
+}
+
+/// Compiles the program of one file `tests/c/NAME.c`.
+pub fn compile_one(name: &str) -> PathBuf {
+    let program = temporary().join(name);
+    let mut compiler = Command::new("cc");
+    compiler.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"]).arg(headers());
+    compiler.arg(root().join(format!("tests/c/{name}.c"))).arg("-o").arg(&program).args(["-ldl", "-lm"]);
+    let output = compiler.output().expect("there is a C compiler");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    program
+}
+
+/// Runs an FMU in `host`, the program of `tests/c/exceptions.c`, which traps floating-point exceptions.
+///
+/// # Panics
+/// If it traps one, or a call fails.
+#[track_caller]
+pub fn assert_never_trapped(host: &Path, library: &Path, description: &str, what: &str) {
+    let elements = || description.split("<ScalarVariable").skip(1);
+    let of =
+        |causality: &'static str| elements().filter(move |element| attribute(element, "causality") == Some(causality));
+    let outputs = of("output").filter(|element| element.contains("<Real"));
+    let outputs = outputs.filter_map(|element| attribute(element, "valueReference").map(str::to_string));
+    let has = |what: &str| description.contains(what);
+    let derivatives = match () {
+        () if has("canInterpolateInputs=\"true\"") => "d",
+        () if has("maxOutputDerivativeOrder=\"0\"") => "p",
+        () if has("name=\"lossy\"") || has("modelName=\"lossy\"") => "l",
+        () => "-",
+    };
+    // the rates come first; other inputs keep their values
+    let rates = of("input").filter(|element| element.contains("indentation_rate\"")).count();
+    let mut run = Command::new(host);
+    run.arg(library).arg(attribute(description, "guid").expect("a unit has a GUID")).arg(rates.to_string());
+    let output = run.arg(derivatives).args(outputs.take(40)).output().expect("the program was compiled");
+    assert!(output.status.success(), "{what}: {}", output.status);
 }
 
 /// The scene of the FMU on which the program runs.

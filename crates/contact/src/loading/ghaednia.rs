@@ -4,11 +4,12 @@ use super::jackson_green::{JacksonGreen, Scale};
 use super::{Loading, hertz};
 use crate::dual::Dual;
 use crate::material::{Pair, YieldPoint};
+use crate::numbers::saturation;
 use crate::quadrature::logarithmic_integral;
 use crate::regime::{LARGEST_INDENTATION, Regime};
 use crate::segment::Segment;
 use core::f64::consts::PI;
-use libm::{exp, expm1, log, sqrt};
+use libm::{exp, log, sqrt};
 
 /// The loading curve of Ghaednia et al. for a target that hardens with the tangent modulus `E_t = t E`. `d_c`, `F_c`, `C`, `B`
 /// and `y` are those of [`JacksonGreen`]:
@@ -85,7 +86,7 @@ impl Ghaednia {
         let hardness = Dual::constant(self.hardness_factor - self.hardness_loss) + self.hardness_loss * cosine;
         let y = Dual::variable(y);
         let plastic = scale.force(y, hardness);
-        let share = -expm1(-self.hardening_rate * self.hardening);
+        let share = saturation(self.hardening_rate * self.hardening);
         scale.unit.force * (plastic + share * (y.power(1.5) - plastic))
     }
 
