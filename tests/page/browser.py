@@ -27,8 +27,9 @@ FONTS = """<?xml version="1.0"?>
 <fontconfig><dir>{fonts}</dir><cachedir>{cache}</cachedir></fontconfig>
 """
 
+# Every system has C.UTF-8. In a language that it doesn't have, Chromium loses downloads in a folder with letters beyond ASCII.
 START = """#!/bin/sh
-LC_ALL=en_US.UTF-8 LD_LIBRARY_PATH={libraries} FONTCONFIG_PATH={fonts} exec {program} "$@"
+LC_ALL=C.UTF-8 LD_LIBRARY_PATH={libraries} FONTCONFIG_PATH={fonts} exec {program} --accept-lang=en-US "$@"
 """
 
 
