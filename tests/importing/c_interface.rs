@@ -4,12 +4,12 @@
 //! the default scene, and reads its list of checks.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
-use crate::kinds::of_each_kind;
 use crate::prebuilt;
 use crate::unit;
 use brinell_testing::driver::{
     arguments, assert_good, assert_never_trapped, attribute, compile, compile_one, has_valgrind, valgrind,
 };
+use brinell_testing::kinds::of_each_kind;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;

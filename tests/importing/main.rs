@@ -2,7 +2,7 @@
 //!
 //! `cargo test --release --test importing fmpy` runs one of them.
 
-use brinell_testing::{debian, kinds, prebuilt, pytest, python, skips, unit};
+use brinell_testing::{debian, prebuilt, pytest, python, skips, unit};
 
 // the C compiler of Unix has one name
 #[cfg(unix)]
