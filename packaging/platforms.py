@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import shlex
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -132,9 +133,10 @@ def has_standard_library(target: str) -> bool:
 def _wrapper(script: Path, folder: Path, program: str) -> Path:
     """A script that calls `program` of the packages in `folder` with their libraries."""
     root = folder.resolve() / "usr"
+    programs, libraries = (shlex.quote(str(root / it)) for it in ("bin", "lib/x86_64-linux-gnu"))
     script.write_text(
-        f'#!/bin/sh\nexport PATH="{root}/bin:$PATH"\n'
-        f'LD_LIBRARY_PATH="{root}/lib/x86_64-linux-gnu" exec "{root}/bin/{program}" "$@"\n'
+        f'#!/bin/sh\nexport PATH={programs}:"$PATH"\nLD_LIBRARY_PATH={libraries} exec {programs}/{program} "$@"\n',
+        encoding="utf-8",
     )
     script.chmod(0o755)
     return script

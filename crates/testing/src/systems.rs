@@ -85,20 +85,25 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
     let programs_of_wine = folder.join("usr/lib/wine");
     let server = programs_of_wine.join("wineserver64");
     // it ends with the last program, because it holds the output pipe
-    let text = format!("#!/bin/sh\nexec '{}' -p0 \"$@\"\n", server.display());
+    let text = format!("#!/bin/sh\nexec {} -p0 \"$@\"\n", quoted(&server));
     executable(&programs_of_wine.join("wineserver"), &text)?;
     // without a display, and without the questions of the first start. fmpy's server for other platforms exits if it
     // can open its lock file, which is always possible in wine; it therefore gets no lock file.
     let text = format!(
-        "#!/bin/sh\nexport LD_LIBRARY_PATH='{libraries}' WINEPREFIX=\"${{WINEPREFIX:-{prefix}}}\" WINEARCH=win64 WINEDEBUG=-all\n\
-         export WINEDLLOVERRIDES='mscoree,mshtml=' DISPLAY=\n\
-         case \"$1\" in */server_tcp.exe) set -- \"$1\" \"$2\" ;; esac\nexec '{wine}' \"$@\"\n",
-        libraries = folder.join("usr/lib/x86_64-linux-gnu").display(),
-        prefix = folder.join("prefix").display(),
-        wine = programs_of_wine.join("wine64").display(),
+        "#!/bin/sh\nexport LD_LIBRARY_PATH={libraries} WINEARCH=win64 WINEDEBUG=-all\n\
+         [ -n \"$WINEPREFIX\" ] || export WINEPREFIX={prefix}\nexport WINEDLLOVERRIDES='mscoree,mshtml=' DISPLAY=\n\
+         case \"$1\" in */server_tcp.exe) set -- \"$1\" \"$2\" ;; esac\nexec {wine} \"$@\"\n",
+        libraries = quoted(&folder.join("usr/lib/x86_64-linux-gnu")),
+        prefix = quoted(&folder.join("prefix")),
+        wine = quoted(&programs_of_wine.join("wine64")),
     );
     executable(&start, &text)?;
     Ok(start)
+}
+
+/// A path as a word of the shell.
+pub fn quoted(path: &Path) -> String {
+    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
 }
 
 /// Writes a script.
@@ -194,17 +199,17 @@ pub fn qemu() -> Result<Qemu, String> {
     let [start, with_arm64] = ["arm64", "with_arm64"].map(|name| programs.join(name));
     // its libraries are not those of the program
     let by_qemu = format!(
-        "#!/bin/sh\nLD_LIBRARY_PATH='{libraries}' exec '{qemu}' -E LD_LIBRARY_PATH=\"$ARM64_LIBRARIES\" -L '{root}' \"$@\"\n",
-        libraries = folder.join("usr/lib/x86_64-linux-gnu").display(),
-        qemu = folder.join("usr/bin/qemu-aarch64").display(),
-        root = folder.join("usr/aarch64-linux-gnu").display(),
+        "#!/bin/sh\nLD_LIBRARY_PATH={libraries} exec {qemu} -E LD_LIBRARY_PATH=\"$ARM64_LIBRARIES\" -L {root} \"$@\"\n",
+        libraries = quoted(&folder.join("usr/lib/x86_64-linux-gnu")),
+        qemu = quoted(&folder.join("usr/bin/qemu-aarch64")),
+        root = quoted(&folder.join("usr/aarch64-linux-gnu")),
     );
     // the kernel's list of interpreters, in a namespace of its own: no root, and nothing changes outside of it
     let formats = "/proc/sys/fs/binfmt_misc";
     let in_namespace = format!(
         "#!/bin/sh\nexec unshare --user --map-root-user --mount sh -c 'mount -t binfmt_misc none {formats} &&\n\
-         printf %s \":arm64:M:{ARM64_PROGRAM}{start}:\" > {formats}/register && exec \"$@\"' sh \"$@\"\n",
-        start = start.display(),
+         printf %s \":arm64:M:{ARM64_PROGRAM}$0:\" > {formats}/register && exec \"$@\"' {start} \"$@\"\n",
+        start = quoted(&start),
     );
     let written = fs::create_dir_all(&programs)
         .and_then(|()| executable(&start, &by_qemu))

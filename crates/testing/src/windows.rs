@@ -2,7 +2,7 @@
 
 use super::command::output;
 use super::debian::{Packages, packages};
-use super::systems::{executable, wine};
+use super::systems::{executable, quoted, wine};
 use crate::places::{root, temporary};
 use std::env;
 use std::ffi::OsString;
@@ -41,11 +41,8 @@ impl Mingw {
         let script = |name: &str| {
             let usr = folder.join("usr");
             let libraries = usr.join("lib/x86_64-linux-gnu");
-            format!(
-                "#!/bin/sh\nLD_LIBRARY_PATH='{}' exec '{}/bin/{MINGW}{name}' \"$@\"\n",
-                libraries.display(),
-                usr.display()
-            )
+            let program = usr.join(format!("bin/{MINGW}{name}"));
+            format!("#!/bin/sh\nLD_LIBRARY_PATH={} exec {} \"$@\"\n", quoted(&libraries), quoted(&program))
         };
         let written = fs::create_dir_all(&programs).and_then(|()| {
             PROGRAMS
