@@ -101,7 +101,7 @@ pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
         groups: scene.group_count() as u64,
         values: runs.last().map_or(0, |run| run.end),
         kinds: kinds.len() as u64,
-        impact_mass: if scene.watches { scene.impact.mass } else { f64::NAN },
+        impact_mass: if scene.watches { scene.impact.mass } else { 0.0 },
         rates: [scene.rates.target, scene.rates.impactor].map(|rate| RateNumbers::of(rate.unwrap_or(Rate::NONE))),
         sources,
         guid: guid.as_bytes().try_into().expect("a GUID has 32 digits"),

@@ -254,10 +254,10 @@ pub trait Scene: Sized {
     /// Density of the target of a group \[kg/m^3\], if it is known.
     fn density(group: usize) -> Option<f64>;
 
-    /// Effective mass of the scene's impact \[kg\]; NaN if it names none.
+    /// Effective mass of the scene's impact \[kg\]; 0 if it names none.
     #[inline(always)]
     fn impact_mass() -> f64 {
-        f64::NAN
+        0.0
     }
 
     /// The inverse effective masses of contacts that share bodies, or their start values if they are inputs: the upper triangle of the

@@ -65,7 +65,7 @@ pub struct Data {
     pub values: u64,
     /// Number of kinds of variables of a contact.
     pub kinds: u64,
-    /// Effective mass of the scene's impact \[kg\] if the step size is to be checked, otherwise NaN.
+    /// Effective mass of the scene's impact \[kg\] if the step size is to be checked, otherwise 0: C compares NaN with a trap.
     pub impact_mass: f64,
     /// The loading law, or the rate-dependent law.
     pub loading: LawNumbers,
@@ -386,7 +386,7 @@ impl Data {
         groups: 0,
         values: 0,
         kinds: 0,
-        impact_mass: f64::NAN,
+        impact_mass: 0.0,
         loading: LawNumbers::NONE,
         unloading: LawNumbers::NONE,
         loss: 0,

@@ -221,7 +221,7 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
     }
 
     fn watched() -> usize {
-        let watches = <K::Watch as Presence>::IS_PRESENT && !Self::data().impact_mass.is_nan();
+        let watches = <K::Watch as Presence>::IS_PRESENT && Self::data().impact_mass > 0.0;
         if watches { Self::contacts() } else { 0 }
     }
 
