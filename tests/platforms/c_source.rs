@@ -16,6 +16,7 @@ use brinell_testing::python::{keeping_modules, python, site_packages_file};
 use brinell_testing::skips::skipped;
 use brinell_testing::systems;
 use brinell_testing::toolchain;
+use brinell_testing::unit;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -123,7 +124,7 @@ fn c_source_of_every_kind_gives_the_bits_and_messages_of_the_native_library() {
 }
 
 /// WebAssembly, from which the source is made, computes both sides of a choice between two numbers. Every law, alone, with known
-/// mass and with a loss.
+/// mass and with a loss, and every scene of the repository. C's comparisons of NaN trap, too.
 #[test]
 fn c_source_of_every_law_never_triggers_a_trap() {
     let host = compile_one("exceptions");
@@ -142,6 +143,9 @@ fn c_source_of_every_law_never_triggers_a_trap() {
                 scope.spawn(|| outlives(law, "with a loss", &lossy));
             }
         });
+    }
+    for scene in unit::scenes() {
+        outlives(&scene.display().to_string(), "of the repository", &fs::read_to_string(&scene).unwrap());
     }
 }
 
