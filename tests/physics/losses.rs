@@ -62,6 +62,25 @@ fn an_elastic_impact_has_the_fitted_restitution_at_any_speed() {
     }
 }
 
+#[test]
+fn a_fresh_surface_answers_its_first_impact_as_one_that_keeps_dents() {
+    for (name, plastic) in all_models(mild()) {
+        // below and above the yield of most laws
+        for (loss, speed) in losses().into_iter().flat_map(|loss| [(loss, 1e-3), (loss, 2.0)]) {
+            let [dented, fresh] = [Surface::Dented, Surface::Fresh].map(|surface| {
+                let lossy = with(&AnyModel { surface, ..plastic }, loss);
+                let mut contact = History::start(&lossy, 1e-6).unwrap();
+                let drive = Drive { mass: MASS, acceleration: 0.0 };
+                // over the whole impact
+                let outcome = follow(&mut contact, &lossy, &drive, speed, 1e-6 / speed + 1e-3).unwrap();
+                (hit(&lossy, speed), outcome.deepest)
+            });
+            assert!(fresh == dented, "{name} {loss:?} at {speed}: {fresh:?}\nfor {dented:?}");
+            assert!(fresh.0.max_contact_radius > 0.0 && fresh.1 > 0.0);
+        }
+    }
+}
+
 /// The energy that an undamped elastic impact would lose in the same motion, by quadrature: `integral of p(F, K, v) dt`.
 fn lost_in_hertz(speed: f64, power: impl Fn(f64, f64, f64) -> f64) -> f64 {
     let pair = mild();

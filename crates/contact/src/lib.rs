@@ -249,6 +249,11 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         self.unloading.path(&self.pair, peak)
     }
 
+    /// Depth of the dent that unloading from `max_indentation` \[m\] leaves \[m\].
+    pub fn residual_indentation(&self, max_indentation: f64) -> f64 {
+        if self.is_elastic_at(max_indentation) { 0.0 } else { self.unloading_path(max_indentation).lower }
+    }
+
     /// The segment of the unloading path at `indentation` \[m\].
     pub fn unloading_segment(&self, max_indentation: f64, indentation: f64) -> Segment {
         let path = self.unloading_path(max_indentation);

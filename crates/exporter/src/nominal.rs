@@ -1,5 +1,6 @@
 //! Typical values of the variables, for solvers that scale by them, and a suitable step size and stop time for a scene.
 
+use crate::numbers::one_digit;
 use crate::scene::Scene;
 use crate::table::Variable;
 use brinell_contact::impact::Prediction;
@@ -47,16 +48,9 @@ impl Nominal {
             "moment" => energy / self.speed * self.prediction.contact_time(),
             other => unreachable!("variables.toml names the nominal size {other}, which nobody computes"),
         };
-        Some(one_digit(size, f64::round))
+        // a typical value is neither zero nor infinite
+        Some(one_digit(size, f64::round)).filter(|nominal| nominal.is_normal())
     }
-}
-
-/// `value` > 0 with one significant digit; `round` rounds its mantissa.
-fn one_digit(value: f64, round: fn(f64) -> f64) -> f64 {
-    let exponent = libm::log10(value).floor() as i32;
-    let mantissa = round(value / libm::pow(10.0, f64::from(exponent)));
-    // converted through text, so that the result is the nearest number to what a person would write
-    format!("{mantissa}e{exponent}").parse().expect("a number and an exponent")
 }
 
 /// Step size and stop time that an importer may take if its user says nothing else.

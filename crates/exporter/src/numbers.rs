@@ -22,7 +22,20 @@ pub fn significant(value: f64, count: usize) -> String {
 const DIGITS: usize = 4;
 
 fn rounded(value: f64, count: usize) -> f64 {
-    format!("{value:.*e}", count - 1).parse().expect("a number")
+    let rounded = format!("{value:.*e}", count - 1).parse().expect("a number");
+    // the largest numbers would become infinite
+    if f64::is_infinite(rounded) { value } else { rounded }
+}
+
+/// `value` with one significant digit, the nearest number to what a person would write; `round` rounds its mantissa, from 1 to 10.
+/// Numbers without their full digits (zero, subnormal or not finite) stay as they are.
+pub fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> f64 {
+    if !value.is_normal() {
+        return value;
+    }
+    let exponent = libm::log10(value.abs()).floor() as i32;
+    let mantissa = round(value / libm::pow(10.0, f64::from(exponent)));
+    format!("{mantissa}e{exponent}").parse().unwrap_or(value)
 }
 
 /// The SI prefixes, with their powers of ten.
@@ -137,7 +150,9 @@ pub fn plain(value: f64) -> String {
         return format!("{value}");
     }
     let power = (size.log10().floor() as i32).div_euclid(3) * 3;
-    format!("{}e{power}", rounded(value / 10f64.powi(power), 12))
+    let mantissa = rounded(value / 10f64.powi(power), 12);
+    // of the smallest numbers, the power of ten would be zero
+    if mantissa.is_finite() { format!("{mantissa}e{power}") } else { format!("{value:e}") }
 }
 
 #[cfg(test)]
@@ -210,6 +225,50 @@ mod tests {
             (1.0000000001, 0.0..=1.0, "", "= 1.0000000001 is out of range: allowed is 0 to 1"),
         ] {
             assert_eq!(out_of_range(value, &allowed, unit), text);
+        }
+    }
+
+    /// Zeros, what is no number, the ends of all doubles, and numbers of all sizes.
+    fn any_numbers() -> impl Iterator<Item = f64> {
+        let special = [0.0, f64::MIN_POSITIVE, f64::from_bits(1), f64::MAX, f64::INFINITY, f64::NAN, 1.0, 9.5, 999.9996];
+        // every exponent, with a mantissa of all digits
+        let sizes = (0..2047_u64).map(|exponent| f64::from_bits(exponent << 52 | exponent.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 12));
+        special.into_iter().chain(sizes).flat_map(|value| [value, -value])
+    }
+
+    #[test]
+    fn every_double_has_a_text_that_reads_back_as_it() {
+        let near = |text: &str, value: f64, digits: i32| {
+            let read: f64 = text.parse().unwrap_or_else(|_| panic!("{text:?} for {value:e}"));
+            // a subnormal number has fewer digits than its text
+            let allowed = 0.501 * 10f64.powi(1 - digits) * value.abs() + f64::from_bits(1);
+            let is_near = if value.is_finite() { (read - value).abs() <= allowed } else { !read.is_finite() };
+            assert!(is_near, "{text} for {value:e}");
+        };
+        for value in any_numbers() {
+            near(&digits(value), value, 6);
+            near(&plain(value), value, 12);
+            near(&in_message(value), value, 17);
+            near(&crate::model_description::number(value), value, 17);
+            for count in [1, 3, 17] {
+                near(&significant(value, count), value, count as i32);
+            }
+            for unit in ["m", "s", "m/s", "kg", "N", "J", "Pa", "N/m", "N.s", "", "kg/m^3"] {
+                let size = prefixed(value, unit).size;
+                for (text, digits) in [(quantity(value, unit), DIGITS as i32), (precise(value, unit), 6)] {
+                    let number = text.split(' ').next().unwrap().parse::<f64>().unwrap();
+                    // the number may be beyond all doubles in the unit itself
+                    near(&format!("{number:e}"), value / size, digits);
+                }
+            }
+            for round in [f64::round, f64::floor, f64::ceil] {
+                let short = one_digit(value, round);
+                assert!((short - value).abs() <= value.abs() || !value.is_normal() || !short.is_finite(), "{value:e}: {short:e}");
+            }
+            // a number that isn't finite is named as it is
+            let _ = percent(value);
+            let _ = cell(value, 1e-3);
+            assert!(out_of_range(value, &(-1.0..=1.0), "m").starts_with(&format!("= {}", in_message(value))));
         }
     }
 

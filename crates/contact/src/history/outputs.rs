@@ -45,11 +45,7 @@ impl History {
 
     /// Depth of the dent that would remain if the load were removed now \[m\].
     pub fn residual_indentation<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
-        if model.is_elastic_at(self.max_indentation()) {
-            0.0
-        } else {
-            model.unloading_path(self.max_indentation()).lower
-        }
+        model.residual_indentation(self.max_indentation())
     }
 
     /// Contact radius \[m\], 0 while apart. While loading it follows the loading law, below the largest indentation the

@@ -48,7 +48,7 @@ pub(super) struct Bodies<'a, L, U, K> {
     pub guess: f64,
     /// Evaluations left.
     evaluations: u32,
-    /// The largest indentation so far of a dent that was left behind \[m\].
+    /// The largest indentation before the last event \[m\], whatever a fresh surface has forgotten there.
     deepest: f64,
 }
 
@@ -133,8 +133,14 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
         indentation < surface || (indentation == surface && !closes)
     }
 
+    /// The largest indentation of the motion so far \[m\], also where a fresh surface has forgotten it.
+    pub fn deepest(&self) -> f64 {
+        largest(self.deepest, self.contact.plastic.max_indentation())
+    }
+
     /// Puts the contact at `indentation` \[m\].
     fn go_to(&mut self, indentation: f64, rising: bool) -> Result<(), TooDeep> {
+        self.deepest = self.deepest();
         self.contact.plastic.go_to(&self.model.plastic, indentation, rising)
     }
 
@@ -150,7 +156,6 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
         let parting = if forgets { flight.reversed().arrival(indentation, end) } else { None };
         self.turned = None;
         if let Some(arrival) = parting {
-            self.deepest = largest(self.deepest, self.contact.plastic.max_indentation());
             self.left -= arrival.time;
             self.speed = -arrival.speed;
             return self.go_to(0.0, false);
@@ -291,13 +296,13 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
     let before = history.plastic.work(&model.plastic);
     let mut bodies = Bodies::new(history, model, (1.0 / mass, acceleration, speed), step)?;
     bodies.run()?;
-    let Bodies { contact: mut next, speed: end, spent, taken, evaluations, deepest, .. } = bodies;
+    let deepest = bodies.deepest();
+    let Bodies { contact: mut next, speed: end, spent, taken, evaluations, .. } = bodies;
     // also without force a surface that lags behind the bodies relaxes
     let heat = mass * spent - (next.plastic.work(&model.plastic) - before);
     next.take(model, heat)?;
     *history = next;
     let most = if model.plastic.is_segmented() { MOST_EVALUATIONS } else { MOST_EVALUATIONS / COSTLY };
-    let deepest = largest(deepest, next.plastic.max_indentation());
     Ok(Outcome { speed: end, taken: largest(taken, 0.0), evaluations: most.saturating_sub(evaluations), deepest })
 }
 

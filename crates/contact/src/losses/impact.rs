@@ -68,8 +68,7 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
                 watch(&State { time: time + state.time, indentation, speed: state.speed }, force);
             })
             .ok()?;
-        let contact = bodies.contact.plastic();
-        if deepest.1 >= contact.max_indentation() && deepest.0 > 0.0 {
+        if deepest.1 >= bodies.deepest() && deepest.0 > 0.0 {
             turning = time + deepest.0;
         }
         time += last;
@@ -88,15 +87,15 @@ fn prediction<L: Loading, U: Unloading, K: Loss>(
     bodies: &Bodies<L, U, K>,
     (max_force, turning, time): (f64, f64, f64),
 ) -> Prediction {
-    let (plastic, contact) = (&model.plastic, bodies.contact.plastic());
-    let max_indentation = contact.max_indentation();
+    // the contact of a fresh surface has forgotten the impact
+    let (plastic, max_indentation) = (&model.plastic, bodies.deepest());
     let end = bodies.speed;
     Prediction {
         max_indentation,
         max_force,
         max_contact_radius: plastic.loading.contact_radius(&plastic.pair, max_indentation),
         regime: plastic.loading.regime(&plastic.pair, max_indentation),
-        residual_indentation: contact.residual_indentation(plastic),
+        residual_indentation: plastic.residual_indentation(max_indentation),
         energy: impact.energy(),
         rebound_energy: 0.5 * impact.mass * end * end,
         restitution: -end / impact.speed,

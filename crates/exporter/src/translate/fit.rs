@@ -2,6 +2,7 @@
 
 use super::law::{Form, Law, Scales, Shape};
 use super::motion::{Outcome, Promise, Stepping, exact};
+use crate::numbers::one_digit;
 use libm::{log, pow};
 
 /// A law with its numbers.
@@ -197,10 +198,7 @@ impl Question<'_> {
 
 /// The number of one digit that is just below.
 fn rounded_down(value: f64) -> f64 {
-    let power = value.log10().floor() as i32;
-    let digit = (value / 10f64.powi(power)).floor().clamp(1.0, 9.0);
-    // through text: the number that a person would write
-    format!("{digit}e{power}").parse().expect("a number")
+    one_digit(value, |mantissa| mantissa.floor().clamp(1.0, 9.0))
 }
 
 /// A root of `f`, which has different signs at the two ends.
