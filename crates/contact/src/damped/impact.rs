@@ -3,7 +3,7 @@
 use super::{Damped, Model};
 use crate::Regime;
 use crate::impact::{Impact, Prediction};
-use crate::numbers::largest;
+use crate::numbers::{largest, smallest};
 use crate::regime::LARGEST_INDENTATION;
 use crate::runge_kutta;
 use libm::{fabs, sqrt};
@@ -66,6 +66,15 @@ pub fn follow<D: Damped + Copy>(
             turning = motion.event(&state, step, |state| state.speed <= 0.0);
         }
         max_force = largest(max_force, motion.largest_force(&state, &next, step));
+        if motion.lets_go_or_grips(&state, &next) {
+            state = motion.event(&state, step, |later| motion.lets_go_or_grips(&state, later));
+            watch(&state, motion.force(&state));
+            // the force of a grip begins with zero, and a longer step could miss it
+            if state.indentation > 0.0 {
+                step = smallest(step, 0.25 * state.indentation / fabs(state.speed));
+            }
+            continue;
+        }
         if motion.is_over(&next) {
             let end = motion.event(&state, step, |state| motion.is_over(state));
             watch(&end, 0.0);
@@ -130,18 +139,28 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         })
     }
 
-    /// Force \[N\]. It is negative where the surface would have to pull, so that the end of the contact is a change of sign.
+    /// Force \[N\]. It is negative where the surface would have to pull, so that the end of the contact is a change of sign; zero
+    /// where such a surface grips again.
     fn force(&self, state: &State) -> f64 {
         let d = state.indentation;
-        if d > 0.0 {
+        let sum = if d > 0.0 {
             self.elastic * self.law.elastic(d).value + self.damping * state.speed * self.law.damping(d).value
         } else {
             0.0
-        }
+        };
+        if self.law.grips_again() { largest(sum, 0.0) } else { sum }
     }
 
     fn is_over(&self, state: &State) -> bool {
-        state.speed < 0.0 && (state.indentation <= 0.0 || self.force(state) <= 0.0)
+        let without_force = || self.force(state) <= 0.0 && !self.law.grips_again();
+        state.speed < 0.0 && (state.indentation <= 0.0 || without_force())
+    }
+
+    /// Whether a surface that grips again has let go of the bodies, or gripped, on the way `from` one state to a later one.
+    fn lets_go_or_grips(&self, from: &State, later: &State) -> bool {
+        // bodies that are apart, or about to touch, had the surface's force just before or after
+        let pushes = |state: &State| state.indentation <= 0.0 || self.force(state) > 0.0;
+        self.law.grips_again() && pushes(from) != pushes(later)
     }
 
     /// The state after `step` \[s\], and the relative error.

@@ -103,9 +103,16 @@ pub trait Damped {
     }
 
     /// The indentations that separate the monotone parts of `phi/psi` \[m\], in order. Where the ratio is monotone, the force
-    /// changes its sign at most once.
+    /// changes its sign at most once. Below the first one the ratio grows without bound towards zero: whatever the speed of a
+    /// separation, the surface that lagged behind grips again there.
     fn borders(&self) -> [f64; 2] {
         [0.0; 2]
+    }
+
+    /// Whether a surface that lags behind grips again before the bodies are apart.
+    fn grips_again(&self) -> bool {
+        let [first, _] = self.borders();
+        first > 0.0
     }
 }
 

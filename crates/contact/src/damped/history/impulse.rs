@@ -2,6 +2,7 @@
 
 use super::History;
 use crate::damped::Damped;
+use crate::numbers::largest;
 use crate::quadrature::graded_integral;
 
 impl<D: Damped + Copy> History<D> {
@@ -21,8 +22,11 @@ impl<D: Damped + Copy> History<D> {
         // the positions where the force begins, ends or has a corner
         let when = |indentation: f64| (indentation - from) / rate;
         let [first, second] = self.law.borders();
-        let change = moved.sign_change(0.0, if from > 0.0 { from } else { 0.0 }, rate);
-        let times = [when(0.0), when(first), when(second), when(change), step];
+        let within = |border: f64| if border < from { border } else { largest(from, 0.0) };
+        let change = |low, high| when(moved.sign_change(within(low), within(high), rate));
+        let changes = [change(0.0, first), change(first, second), change(second, from)];
+        let [lowest, middle, highest] = changes;
+        let times = [when(0.0), when(first), when(second), lowest, middle, highest, step];
         let (mut start, mut impulse) = (0.0, 0.0);
         for _ in times {
             let next = times

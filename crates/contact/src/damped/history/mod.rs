@@ -9,6 +9,7 @@ pub use motion::follow;
 
 use super::{Damped, Factors, Model};
 use crate::behaviour::is_finite_at;
+use crate::numbers::largest;
 use crate::path::Sum;
 use crate::regime::{LARGEST_INDENTATION, Regime, TooDeep};
 use libm::sqrt;
@@ -112,8 +113,10 @@ impl<D: Damped + Copy> History<D> {
     fn sign_change(&self, mut low: f64, mut high: f64, rate: f64) -> f64 {
         let pushes = |d: f64| self.sum_of_forces(d, rate) > 0.0;
         let sign = pushes(high);
-        // at zero indentation both forces may vanish; the sign just above counts
-        if pushes(if low > 0.0 { low } else { f64::MIN_POSITIVE }) == sign {
+        // at zero indentation both forces may vanish; the sign just above counts, where none of their powers does
+        let [border, _] = self.law.borders();
+        let just_above = largest(f64::MIN_POSITIVE, f64::EPSILON * border);
+        if pushes(if low > 0.0 { low } else { just_above }) == sign {
             return low;
         }
         for _ in 0..HALVINGS {

@@ -10,7 +10,7 @@ use super::{Damped, History, Sum, within};
 use crate::damped::Model;
 use crate::motion::flight::Flight;
 use crate::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, SMALLEST_MOTION};
-use crate::numbers::largest;
+use crate::numbers::{largest, smallest};
 use crate::regime::TooDeep;
 use crate::runge_kutta::{self, EVALUATIONS};
 use libm::{fabs, sqrt};
@@ -160,25 +160,27 @@ impl<D: Damped + Copy> Bodies<D> {
                 }
                 continue;
             }
-            if let Some(shorter) = self.until_border(step, &next).or_else(|| self.until_largest_speed(step, &next)) {
+            let change = self.until_border(step, &next).or_else(|| self.until_grip(step, &next));
+            if let Some(shorter) = change.or_else(|| self.until_largest_speed(step, &next)) {
                 guess = shorter;
                 continue;
             }
             if self.state.speed > 0.0 && next.speed < 0.0 {
-                let (_, turning) = self.event(step, |state| state.speed <= 0.0);
+                let (_, turning) = self.event(step, |_, state| state.speed <= 0.0);
                 self.contact.max_indentation = largest(self.contact.max_indentation, turning.depth);
             }
             if next.depth <= 0.0 && self.state.depth + next.depth < self.state.depth {
-                let (time, end) = self.event(step, |state| state.depth <= 0.0);
+                let (time, end) = self.event(step, |_, state| state.depth <= 0.0);
                 return Ok(self.pass(time, State { depth: 0.0, ..end })?);
             }
+            let before = self.state;
             self.pass(step, next)?;
             self.note_speed();
             if self.rests() {
                 self.rest();
                 return Ok(());
             }
-            guess = step * if factor < 5.0 { factor } else { 5.0 };
+            guess = smallest(step * if factor < 5.0 { factor } else { 5.0 }, self.of_grip(&before));
         }
         Ok(())
     }

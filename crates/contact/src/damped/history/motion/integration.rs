@@ -55,7 +55,7 @@ impl<D: Damped + Copy> Bodies<D> {
         let [first, second] = self.contact.law.borders();
         let order = if rising { [first, second] } else { [second, first] };
         let border = order.into_iter().filter(|border| depth != *border).find(passes)?;
-        let (time, _) = self.event(step, |state| (state.depth > border) == rising);
+        let (time, _) = self.event(step, |_, state| (state.depth > border) == rising);
         (time < step).then_some(time)
     }
 
@@ -80,6 +80,35 @@ impl<D: Damped + Copy> Bodies<D> {
             *(if (self.net(&there) > 0.0) == sign { &mut low } else { &mut high }) = middle;
         }
         (high < step).then_some(high)
+    }
+
+    /// The time to where the surface ceases to push, or grips again, in a motion to `next` in `step` \[s\]. `None` if the step
+    /// ends there, and for a law whose surface doesn't grip again: the error of the step tells such a kink, but not a force that
+    /// begins and ends within the step.
+    pub(super) fn until_grip(&mut self, step: f64, next: &State) -> Option<f64> {
+        if !self.contact.law.grips_again() {
+            return None;
+        }
+        let before = self.pushes(&self.state);
+        let changes = |bodies: &Self, state: &State| bodies.pushes(state) != before;
+        if !changes(self, next) {
+            return None;
+        }
+        let (time, _) = self.event(step, changes);
+        (time < step).then_some(time)
+    }
+
+    /// Whether the surface pushes. A touch begins with a force, and a surface that grips again ends with one.
+    fn pushes(&self, state: &State) -> bool {
+        state.depth <= 0.0 || self.contact.sum_of_forces(state.depth, state.speed) > 0.0
+    }
+
+    /// The longest first step \[s\] of a surface that didn't push at the state `before` and has gripped now: the force begins with
+    /// zero, and a longer step could miss it.
+    pub(super) fn of_grip(&self, before: &State) -> f64 {
+        let State { depth, speed } = self.state;
+        let grips = self.contact.law.grips_again() && !self.pushes(before) && self.pushes(&self.state);
+        quotient(STRIDE * depth, fabs(speed), grips && depth > 0.0 && speed != 0.0, f64::INFINITY)
     }
 
     /// Acceleration of the bodies \[m/s^2\].
@@ -107,12 +136,12 @@ impl<D: Damped + Copy> Bodies<D> {
     }
 
     /// The time within `step` \[s\] at which `happens` becomes true, and the state then. It must be true at the end.
-    pub(super) fn event(&mut self, step: f64, happens: impl Fn(&State) -> bool) -> (f64, State) {
+    pub(super) fn event(&mut self, step: f64, happens: impl Fn(&Self, &State) -> bool) -> (f64, State) {
         self.evaluations += HALVINGS * EVALUATIONS;
         let (mut low, mut high) = (0.0, step);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            *(if happens(&self.stepped(middle).0) { &mut high } else { &mut low }) = middle;
+            *(if happens(self, &self.stepped(middle).0) { &mut high } else { &mut low }) = middle;
         }
         (high, self.stepped(high).0)
     }
