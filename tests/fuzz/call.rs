@@ -158,7 +158,8 @@ fn hostile(random: &mut Rng) -> f64 {
         3 => one(random, &[0.0, -0.0, f64::MIN_POSITIVE, 5e-324, -5e-324, f64::EPSILON]),
         4 => one(random, &[1e300, -1e300, f64::MAX, f64::MIN]),
         _ => {
-            let size = logarithmic(random, 1e-300, 1e300);
+            // to the ends of the numbers
+            let size = 2f64.powf(2098.0 * random.f64() - 1074.0);
             if random.bool() { size } else { -size }
         }
     }

@@ -5,6 +5,7 @@
 mod damped_motion;
 mod derivatives;
 mod exceptions;
+mod extreme_inputs;
 mod friction;
 mod hostile_states;
 mod input_derivatives;

@@ -224,6 +224,11 @@ fn inputs_are_checked_by_name_and_derivatives_are_refused_with_them() {
         let refused = instance.check_real((Real::ExternalAcceleration, 0), acceleration);
         assert!(matches!(refused, Err(Fault::NotFinite { name: "external_acceleration", .. })));
     }
+    for acceleration in [-1.0001e40, 1e305] {
+        let refused = instance.check_real((Real::ExternalAcceleration, 0), acceleration);
+        let (name, unit) = ("external_acceleration", "m/s^2");
+        assert_eq!(refused, Err(Fault::AccelerationOutOfRange { name, unit, value: acceleration }));
+    }
     let derivative = instance.check_input_derivative((Real::IndentationRate, 0), 1, 9.81);
     assert_eq!(derivative, Err(Fault::NoInputDerivatives));
     instance.set_real((Real::ExternalAcceleration, 0), -3.5);

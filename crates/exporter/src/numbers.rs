@@ -230,9 +230,11 @@ mod tests {
 
     /// Zeros, what is no number, the ends of all doubles, and numbers of all sizes.
     fn any_numbers() -> impl Iterator<Item = f64> {
-        let special = [0.0, f64::MIN_POSITIVE, f64::from_bits(1), f64::MAX, f64::INFINITY, f64::NAN, 1.0, 9.5, 999.9996];
+        let special =
+            [0.0, f64::MIN_POSITIVE, f64::from_bits(1), f64::MAX, f64::INFINITY, f64::NAN, 1.0, 9.5, 999.9996];
         // every exponent, with a mantissa of all digits
-        let sizes = (0..2047_u64).map(|exponent| f64::from_bits(exponent << 52 | exponent.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 12));
+        let sizes = (0..2047_u64)
+            .map(|exponent| f64::from_bits(exponent << 52 | exponent.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 12));
         special.into_iter().chain(sizes).flat_map(|value| [value, -value])
     }
 
@@ -263,7 +265,10 @@ mod tests {
             }
             for round in [f64::round, f64::floor, f64::ceil] {
                 let short = one_digit(value, round);
-                assert!((short - value).abs() <= value.abs() || !value.is_normal() || !short.is_finite(), "{value:e}: {short:e}");
+                assert!(
+                    (short - value).abs() <= value.abs() || !value.is_normal() || !short.is_finite(),
+                    "{value:e}: {short:e}"
+                );
             }
             // a number that isn't finite is named as it is
             let _ = percent(value);

@@ -2,7 +2,7 @@
 
 use crate::c::complaint::Complaint;
 use crate::c::text::Text;
-use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
+use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, SWIFTEST, Warning};
 use crate::scene::{Coupling, Presence, Real, Scene, Settable};
 use brinell_contact::Contact;
 use brinell_contact::shared::NotInverseMasses;
@@ -47,6 +47,7 @@ fn fill(text: &mut Text, template: &str, words: [&[u8]; 2], numbers: [f64; 3]) {
 
 /// The texts below contain these numbers.
 const _: () = assert!(LARGEST_RADIUS_RATIO == 0.3 && LARGEST_SPEED_RATIO == 0.01);
+const _: () = assert!(*MASSES.start() == 1e-30 && *MASSES.end() == 1e30);
 
 /// The parts of a message: a template with words and numbers, and the contact that it is about.
 ///
@@ -72,9 +73,10 @@ impl Message {
 /// The contact that a fault concerns; `None` if it concerns all.
 fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
     match fault {
-        Fault::NoPointContact { contact, .. } | Fault::TooDeep { contact, .. } | Fault::TooLong { contact, .. } => {
-            Some(contact)
-        }
+        Fault::NoPointContact { contact, .. }
+        | Fault::TooDeep { contact, .. }
+        | Fault::TooLong { contact, .. }
+        | Fault::UnknownMass { contact } => Some(contact),
         Fault::FixedParameter { index } | Fault::OutOfRange { index, .. } => S::settable(index)?.1,
         _ => None,
     }
@@ -138,6 +140,14 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         Fault::RateOutOfRange { rate } => {
             *numbers = [rate, -FASTEST, FASTEST];
             "indentation_rate = ~ is out of range: allowed is ~ to ~ m/s"
+        }
+        Fault::AccelerationOutOfRange { name, unit, value } => {
+            (*words, *numbers) = ([name.as_bytes(), unit.as_bytes()], [value, -SWIFTEST, SWIFTEST]);
+            "@ = ~ is out of range: allowed is ~ to ~ @"
+        }
+        Fault::UnknownMass { .. } if !<S::Coupling as Coupling>::Mass::IS_PRESENT => "",
+        Fault::UnknownMass { .. } => {
+            "effective_mass = 0 kg: it isn't known yet; set it to a value from 1e-30 to 1e30 kg before the first step"
         }
         Fault::TooFast { rate } => {
             numbers[0] = rate;
@@ -207,7 +217,12 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::InverseMasses(NotInverseMasses::Entry { row, column, value }) => {
             *numbers = [row as f64 + 1.0, column as f64 + 1.0, value];
-            "inverse_mass[~,~] = ~ must be a finite number, and positive if both indices are the same; set all of them before the step"
+            if value == 0.0 {
+                "inverse_mass[~,~] = ~ 1/kg: it isn't known yet; set all inputs inverse_mass before the first step"
+            } else {
+                "inverse_mass[~,~] = ~ is out of range: allowed is 1e-30 to 1e30 1/kg if both indices are the same, otherwise -1e30 to \
+                 1e30 1/kg; set all of them before the step"
+            }
         }
         // there is one for every two contacts
         Fault::InverseMasses(NotInverseMasses::Count { .. }) => "",

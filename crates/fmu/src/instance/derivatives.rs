@@ -20,7 +20,8 @@ impl<S: Scene> Instance<S> {
     /// Checks whether the derivative of this `order` of an input may be set to `value` now.
     ///
     /// # Errors
-    /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`];
+    /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`],
+    /// [`Fault::AccelerationOutOfRange`];
     /// [`Fault::NoInputDerivatives`] for a rate-dependent law, where the acceleration is an input, and where the scene doesn't want
     /// them.
     pub fn check_input_derivative(&self, (variable, _): (Real, usize), order: i32, value: f64) -> Result<(), Fault> {
@@ -37,7 +38,7 @@ impl<S: Scene> Instance<S> {
             return Err(Fault::NoDerivative { of: inputs });
         }
         check_order(order, Self::input_order())?;
-        if value.is_finite() { Ok(()) } else { Err(Fault::NotFinite { name, value }) }
+        check_acceleration(name, if order == 1 { "m/s^2" } else { "m/s^3" }, value)
     }
 
     /// Sets a derivative that [`Instance::check_input_derivative`] has accepted. It applies to the next step.
@@ -56,7 +57,7 @@ impl<S: Scene> Instance<S> {
     }
 
     /// Sets derivatives of the input of a single contact, given with their orders, and returns true, provided that no further
-    /// checks are needed: they may be set now and are finite. Otherwise it sets none and returns false.
+    /// checks are needed: they may be set now and are in range. Otherwise it sets none and returns false.
     #[inline(always)]
     pub fn set_plain_derivatives(&mut self, derivatives: impl Iterator<Item = (i32, f64)>) -> bool {
         let phases = Phase::Instantiated as u8 | Phase::Initialization as u8 | Phase::StepComplete as u8;
@@ -66,7 +67,7 @@ impl<S: Scene> Instance<S> {
         let mut numbers = [before.slope, before.bend];
         for (order, value) in derivatives {
             match numbers.get_mut((order as u32).wrapping_sub(1) as usize) {
-                Some(number) if order <= Self::input_order() && value.is_finite() => *number = value,
+                Some(number) if order <= Self::input_order() && value.abs() <= SWIFTEST => *number = value,
                 _ => return false,
             }
         }

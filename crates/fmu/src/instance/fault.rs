@@ -25,6 +25,15 @@ pub enum Fault {
         /// The rate \[m/s\].
         rate: f64,
     },
+    /// An acceleration, or a derivative of a rate, with an absolute value above [`SWIFTEST`](super::SWIFTEST).
+    AccelerationOutOfRange {
+        /// Name of the variable.
+        name: &'static str,
+        /// Its unit.
+        unit: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// A rate at which the force of a rate-dependent law would not be finite.
     TooFast {
         /// The rate \[m/s\].
@@ -44,6 +53,11 @@ pub enum Fault {
         input: Real,
         /// Its value.
         value: f64,
+    },
+    /// A step of bodies whose effective mass was set to zero during initialization: it is not known yet.
+    UnknownMass {
+        /// The contact, counted from 0.
+        contact: usize,
     },
     /// The impactor does not fit into the socket.
     NoPointContact {

@@ -35,6 +35,9 @@ use start::{Bodies, BodiesOf, model_of};
 /// The largest absolute value of the rate of an input \[m/s\].
 pub const FASTEST: f64 = 1e40;
 
+/// The largest absolute value of an acceleration of an input \[m/s^2\], and of its derivative \[m/s^3\].
+pub const SWIFTEST: f64 = 1e40;
+
 /// One value for each contact of a scene, if `P` is present.
 type IfPresent<P, S, T> = <P as Presence>::Of<T, <S as Scene>::Contacts<T>>;
 
@@ -332,13 +335,22 @@ fn allows(settable: &Settable, value: f64) -> bool {
     value >= settable.minimum && value <= settable.maximum
 }
 
-/// Range of effective masses \[kg\].
+/// Range of effective masses \[kg\], and of their inverses \[1/kg\].
 pub const MASSES: core::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
 /// Whether an effective mass \[kg\] is in this range.
 fn is_mass(mass: f64) -> bool {
     // a NaN is in no range
     MASSES.contains(&mass)
+}
+
+/// Checks an acceleration \[m/s^2\], or its derivative \[m/s^3\], as this `unit` says.
+fn check_acceleration(name: &'static str, unit: &'static str, value: f64) -> Result<(), Fault> {
+    match value.abs() {
+        size if size <= SWIFTEST => Ok(()),
+        size if size < f64::INFINITY => Err(Fault::AccelerationOutOfRange { name, unit, value }),
+        _ => Err(Fault::NotFinite { name, value }),
+    }
 }
 
 fn check_rate<S: Scene>(history: &S::Contact, rate: f64) -> Result<(), Fault> {

@@ -197,7 +197,8 @@ impl<S: Scene> Instance<S> {
             momenta.next().into_iter().for_each(|slot| *slot = momentum);
             put(masses.next(), || {
                 let [mass] = load_numbers(&mut words)?;
-                is_mass(mass).then_some(mass)
+                // before the first step it may not be known yet
+                (is_mass(mass) || mass == 0.0).then_some(mass)
             })?;
         }
         for row in 0..S::rows() {

@@ -3,6 +3,7 @@
 use super::clock::Guarded;
 use super::stability::{Ahead, watch};
 use super::*;
+use crate::scene::Real;
 use brinell_contact::motion::{Drive, NoMotion};
 use brinell_contact::numbers::largest;
 use brinell_contact::path::Course;
@@ -36,10 +37,11 @@ impl<S: Scene> Instance<S> {
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
-    /// [`Fault::TooLong`], [`Fault::InputOutOfRange`]; no contact changes then.
+    /// [`Fault::TooLong`], [`Fault::InputOutOfRange`], [`Fault::UnknownMass`]; no contact changes then.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.clock.check(time, step, Self::shortest())?;
         self.check_tangential_rates(step)?;
+        self.check_masses()?;
         self.advance(time + step, step)?;
         // it may have been asked to look
         if !self.clock.curved && !self.is_watching() {
@@ -49,6 +51,16 @@ impl<S: Scene> Instance<S> {
             self.find_deep();
         }
         Ok(())
+    }
+
+    /// Checks that the masses that are inputs are known.
+    ///
+    /// # Errors
+    /// [`Fault::UnknownMass`]
+    fn check_masses(&self) -> Result<(), Fault> {
+        let masses = self.contacts.masses.as_ref().iter();
+        let unknown = masses.take_while(|_| S::has_input(Real::EffectiveMass)).position(|mass| *mass == 0.0);
+        unknown.map_or(Ok(()), |contact| Err(Fault::UnknownMass { contact }))
     }
 
     /// The most frequent kind of step: no further checks are needed, and a single contact stays on its branch. The result is

@@ -11,7 +11,8 @@ impl<S: Scene> Instance<S> {
     /// Checks whether `variable` of `contact` may be set to `value` now.
     ///
     /// # Errors
-    /// [`Fault::NotFinite`], [`Fault::RateOutOfRange`], [`Fault::TooFast`], [`Fault::OutOfRange`], [`Fault::NotSettable`],
+    /// [`Fault::NotFinite`], [`Fault::RateOutOfRange`], [`Fault::AccelerationOutOfRange`], [`Fault::TooFast`],
+    /// [`Fault::OutOfRange`], [`Fault::InputOutOfRange`], [`Fault::InverseMasses`], [`Fault::NotSettable`],
     /// [`Fault::FixedParameter`].
     pub fn check_real(&self, (variable, contact): (Real, usize), value: f64) -> Result<(), Fault> {
         match variable {
@@ -22,22 +23,37 @@ impl<S: Scene> Instance<S> {
             }
             Real::Parameter(index) => self.check_parameter(index, value),
             // instead of a contact, it has a place in the matrix
-            Real::InverseMass if S::has_input(variable) && !value.is_finite() => {
+            Real::InverseMass if S::has_input(variable) => {
                 let (row, column) = self.inverse_masses().row_and_column(contact);
-                Err(Fault::InverseMasses(NotInverseMasses::Entry { row, column, value }))
+                // a zero on the diagonal is not known yet: a step refuses it
+                let in_range = match row == column {
+                    true => value == 0.0 || is_mass(value),
+                    false => value.abs() <= *MASSES.end(),
+                };
+                if in_range {
+                    Ok(())
+                } else {
+                    Err(Fault::InverseMasses(NotInverseMasses::Entry { row, column, value }))
+                }
             }
             _ if !S::has_input(variable) => Err(Fault::NotSettable),
             _ if S::Contact::HAS_FRICTION && variable.tangential_rate().is_some() => match value.is_finite() {
                 true => check_tangential_rate(value),
                 false => Err(Fault::NotFinite { name: "tangential_rate", value }),
             },
+            // an importer that connects FMUs passes on what is not known yet
+            Real::EffectiveMass if value == 0.0 && self.is_before_start() => Ok(()),
             _ => check_input(variable, value),
         }
     }
 
+    fn is_before_start(&self) -> bool {
+        matches!(self.phase(), Phase::Instantiated | Phase::Initialization)
+    }
+
     fn check_parameter(&self, index: usize, value: f64) -> Result<(), Fault> {
         let Some((settable, _)) = S::settable(index) else { return Err(Fault::NotSettable) };
-        if !matches!(self.phase(), Phase::Instantiated | Phase::Initialization) && !S::is_tunable(index) {
+        if !self.is_before_start() && !S::is_tunable(index) {
             return Err(Fault::FixedParameter { index });
         }
         if allows(&settable, value) { Ok(()) } else { Err(Fault::OutOfRange { index, value }) }
@@ -309,10 +325,10 @@ pub(super) fn of_state<S: Scene>(output: Real, contact: &S::Contact, model: &S::
 fn check_input(variable: Real, value: f64) -> Result<(), Fault> {
     match variable {
         Real::EffectiveMass if !is_mass(value) => Err(Fault::InputOutOfRange { input: variable, value }),
-        _ if !value.is_finite() && variable.external_acceleration().is_some() => {
+        _ if variable.external_acceleration().is_some() => {
             let is_normal = variable == Real::ExternalAcceleration;
             let name = if is_normal { "external_acceleration" } else { "external_tangential_acceleration" };
-            Err(Fault::NotFinite { name, value })
+            check_acceleration(name, "m/s^2", value)
         }
         _ => Ok(()),
     }
