@@ -10,7 +10,7 @@ use brinell_contact::{Loading, TooDeep};
 use brinell_exporter::columns::Columns;
 use brinell_exporter::curve::{self, columns};
 use brinell_exporter::laws::{self, Choice};
-use brinell_exporter::layout::json_line;
+use brinell_exporter::layout::{json_line, paragraph};
 use brinell_exporter::numbers::in_message;
 use brinell_exporter::plot::{Picture, Series};
 use brinell_exporter::predict::{PredictError, oblique};
@@ -71,7 +71,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let impact = &scene.impact_of(0);
     let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
     let doubt = arguments.to.and_then(|to| plausible::of_depth("to", to, radius));
-    doubt.into_iter().chain(too_wide(&choices, largest)).for_each(|warning| crate::messages::warn(&warning));
+    doubt.into_iter().chain(too_wide(&scene, &choices, largest)).for_each(|warning| crate::messages::warn(&warning));
     if arguments.truth && !truth::is_of(&scene, largest) {
         crate::messages::warn(OTHER_BODIES);
     }
@@ -94,16 +94,20 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
 }
 
 /// A warning, if laws are not valid up to the indentation `largest` [m].
-fn too_wide(choices: &[Choice], largest: f64) -> Option<String> {
+fn too_wide(scene: &Scene, choices: &[Choice], largest: f64) -> Option<String> {
+    let size = scene.size_with(0, &[]);
     let is_wide = |choice: &&Choice| {
         choice.model.elastoplastic().is_some_and(|model| {
             let radius = model.loading.contact_radius(&model.pair, largest);
-            !validity::beyond(&model.pair, None, radius, 0.0).is_empty()
+            !validity::beyond((&model.pair, size), None, radius, 0.0).is_empty()
         })
     };
     let wide: Vec<_> = choices.iter().filter(is_wide).map(|choice| choice.laws.as_str()).collect();
-    (!wide.is_empty()).then(|| validity::too_wide(&wide))
+    (!wide.is_empty()).then(|| validity::too_wide((&choices[0].model.pair(), size), &wide))
 }
+
+/// A loss below yield takes its energy by the speed of the contact.
+const SLOW: &str = "these loops are slow, so that the loss below yield takes nothing from them";
 
 /// Loops of the tangential force at the indentation `held` [m].
 fn tangential(
@@ -122,6 +126,9 @@ fn tangential(
     let text = match &arguments.output {
         Some(_) => loops.columns().csv(),
         None if as_json => json_line(&loops.columns().json()),
+        None if choices.iter().any(|choice| choice.model.lossy().is_some()) => {
+            loops.text() + &paragraph("note: ", SLOW)
+        }
         None => loops.text(),
     };
     Ok(deliver(&text, arguments.output.as_deref())?)

@@ -8,7 +8,7 @@ use brinell_exporter::layout::{self, paragraph};
 use brinell_exporter::numbers::{cell, quantity, significant};
 use brinell_exporter::predict::PredictError;
 use brinell_exporter::predict::axis::Axis;
-use brinell_exporter::predict::oblique::{FRICTION, METHOD, Outcome, Setting, one};
+use brinell_exporter::predict::oblique::{FRICTION, METHOD, Outcome, Setting, Struck, TOGETHER, one};
 use brinell_exporter::scene::Scene;
 use brinell_exporter::table;
 use brinell_exporter::validity;
@@ -16,7 +16,8 @@ use serde_json::{Map, Value, json};
 
 /// The meaning of the signs.
 const SIGNS: &str = "A positive spin moves the contact point of the ball as a positive tangential speed does; a ball that rolls \
-                     has the spin -v/R. The target is at rest and does not move.";
+                     has the spin -v/R.";
+const HELD: &str = "The target is at rest and does not move.";
 
 impl Arguments {
     /// The setting of an oblique impact, if one is asked for.
@@ -75,7 +76,8 @@ impl ObliqueAnswer<'_> {
             [choice] => format!("{}, ", choice.laws),
             _ => String::new(),
         };
-        let mut text = paragraph("", &format!("oblique impact of {}: {by}{}", self.with(first), METHOD));
+        let method = if first.together { TOGETHER } else { METHOD };
+        let mut text = paragraph("", &format!("oblique impact of {}: {by}{method}", self.with(first)));
         text.push('\n');
         text += &match (self.outcomes.as_slice(), self.choices) {
             ([outcome], _) => single(outcome),
@@ -94,9 +96,22 @@ impl ObliqueAnswer<'_> {
         let spin = if spin == 0.0 { String::new() } else { format!(", with a spin of {}", quantity(spin, "rad/s")) };
         format!(
             "{} at {} and {angle} degrees from the normal{spin}, friction {coefficient}",
-            quantity(self.impact.mass, "kg"),
+            match &outcome.names {
+                Some([moving, _]) => format!("{moving} of {}", quantity(outcome.before.mass, "kg")),
+                None => quantity(self.impact.mass, "kg"),
+            },
             quantity(self.impact.speed, "m/s")
         )
+    }
+
+    /// What the signs mean, and what the other body does.
+    fn signs(&self) -> String {
+        let names = self.outcomes.first().and_then(|outcome| Some((outcome.names.as_ref()?, outcome.struck.is_some())));
+        match names {
+            Some(([_, other], true)) => format!("{SIGNS} {other} is at rest before, and free to move."),
+            Some(([_, other], false)) => format!("{SIGNS} {other} is at rest and does not move."),
+            None => format!("{SIGNS} {HELD}"),
+        }
     }
 
     /// A row for each law.
@@ -119,11 +134,10 @@ impl ObliqueAnswer<'_> {
     /// Warnings and notes, each with its heading.
     fn remarks(&self) -> Vec<(&'static str, String)> {
         let mut remarks: Vec<_> = self.warnings().into_iter().map(|words| ("warning: ", words)).collect();
-        remarks.push(("note: ", SIGNS.into()));
+        remarks.push(("note: ", self.signs()));
         let yielding = self.choices.iter().zip(&self.outcomes).filter_map(|(choice, outcome)| {
             let model = choice.model.elastoplastic()?;
-            let normal = Impact { mass: outcome.before.mass, speed: outcome.before.normal };
-            let prediction = choice.model.predict(&normal)?;
+            let prediction = choice.model.predict(&outcome.normal)?;
             (!model.is_elastic_at(prediction.max_indentation)).then_some(choice)
         });
         let errors = yielding.filter_map(|choice| Some((error_of(choice)?, choice)));
@@ -177,6 +191,7 @@ impl ObliqueAnswer<'_> {
             "spin": first.map(|outcome| outcome.setting.spin),
             "friction": first.map(|outcome| outcome.setting.coefficient),
             "inertia": first.map(|outcome| outcome.before.inertia),
+            "bodies": first.and_then(|outcome| outcome.names.as_ref()),
             "warnings": self.warnings(),
             "laws": laws,
         })
@@ -194,15 +209,21 @@ fn single(outcome: &Outcome) -> String {
         ("rebound speed", quantity(outcome.speed(), "m/s")),
         ("along the normal", both(-ball.normal, outcome.normal_restitution(), "restitution")),
         ("tangential, centre", both(ball.tangential, outcome.tangential_restitution(), "restitution e_t")),
-        ("tangential, contact point", both(ball.slip(), outcome.contact_point_restitution(), "restitution")),
+        ("tangential, contact point", both(outcome.rates[1][1], outcome.contact_point_restitution(), "restitution")),
         ("spin", quantity(ball.spin, "rad/s")),
         ("slip", outcome.words()),
         ("largest tangential force", quantity(outcome.rebound.max_tangential_force, "N")),
         ("friction work", quantity(outcome.rebound.friction_work, "J")),
-        ("energy lost in all", quantity(outcome.energy_lost(), "J")),
+        ("energy lost in all", quantity(outcome.energy_lost, "J")),
         ("contact time", quantity(outcome.rebound.contact_time, "s")),
     ];
-    let rows: Vec<_> = rows.into_iter().map(|(name, value)| vec![name.to_string(), value]).collect();
+    let mut rows: Vec<_> = rows.into_iter().map(|(name, value)| vec![name.to_string(), value]).collect();
+    if let (Some(Struck { speeds: [normal, tangential], spin }), Some([_, other])) = (outcome.struck, &outcome.names) {
+        let angle = significant(tangential.atan2(normal).to_degrees(), 4);
+        let speed = quantity(normal.hypot(tangential), "m/s");
+        let words = format!("{speed} at {angle} degrees from the normal, spin {}", quantity(spin, "rad/s"));
+        rows.push(vec![other.clone(), words]);
+    }
     layout::table(&rows, 2, 2)
 }
 

@@ -2,8 +2,9 @@
 
 use super::Figure;
 use brinell_contact::impact::Prediction;
-use brinell_exporter::numbers::{percent, quantity, significant};
+use brinell_exporter::numbers::{percent, quantity, significant, with_band};
 use brinell_exporter::plot::{Picture, Series, View};
+use brinell_exporter::predict::spread;
 use brinell_exporter::predict::time_history::moments;
 use brinell_exporter::scene::Scene;
 use brinell_exporter::{bodies, documentation, table};
@@ -34,13 +35,15 @@ pub fn facts(scene: &Scene) -> Vec<Fact> {
 
 /// The outcome of the impact.
 pub fn outcome(scene: &Scene, prediction: &Prediction) -> Vec<Fact> {
+    let bands = spread::of_impact(scene, &scene.impact).map(|(_, bands)| bands);
+    let spread = |name: &str, value: f64, unit| with_band(value, bands.as_ref().and_then(|it| it.get(name)), unit);
     let mut outcome = vec![
-        ("Coefficient of restitution", significant(prediction.restitution, 4)),
-        ("Largest force", quantity(prediction.max_force, "N")),
-        ("Largest indentation", quantity(prediction.max_indentation, "m")),
+        ("Coefficient of restitution", spread("restitution", prediction.restitution, "")),
+        ("Largest force", spread("largest force", prediction.max_force, "N")),
+        ("Largest indentation", spread("largest indentation", prediction.max_indentation, "m")),
     ];
     if scene.damped.is_none() {
-        outcome.push(("Dent left behind", quantity(prediction.residual_indentation, "m")));
+        outcome.push(("Dent left behind", spread("dent", prediction.residual_indentation, "m")));
     }
     outcome.push(("Contact time", quantity(prediction.contact_time(), "s")));
     outcome.push(("Energy lost", percent(1.0 - prediction.rebound_energy / prediction.energy).replace('+', "")));

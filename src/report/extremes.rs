@@ -108,15 +108,20 @@ impl Case {
 
     /// Judges a run. It fails if an error exceeds its tolerance, or if a warning is missing or wrong.
     fn judged(mut self, contact: &mut Contact, bodies: &Bodies, run: Result<Finding, ImportError>) -> Case {
+        let possible = bodies.model.depths(bodies.size).possible;
         let Finding { force_error, energy_error, radius, law_gains } = match run {
+            Ok(_) if self.indentation > 1.01 * possible => {
+                return self.with(Outcome::Failed, "the contact is wider than the smaller body, and the unit goes on");
+            }
             Ok(finding) => finding,
+            Err(error) if self.indentation > 0.99 * possible => return self.with(Outcome::Refused, &error.to_string()),
             Err(error) => return self.with(Outcome::Failed, &error.to_string()),
         };
         let pair = bodies.model.pair();
-        let beyond = validity::beyond(&pair, bodies.density, radius, contact.fastest);
+        let beyond = validity::beyond((&pair, bodies.size), bodies.density, radius, contact.fastest);
         let (due, told) = (beyond.len(), contact.instance.take_warnings().len());
         let words = beyond.iter().map(|beyond| match beyond {
-            Beyond::Width(_) => format!("a/R above {LARGEST_RADIUS_RATIO}"),
+            Beyond::Width(_) | Beyond::Size { .. } => format!("a/R above {LARGEST_RADIUS_RATIO}"),
             Beyond::Speed { .. } => format!("speed above {LARGEST_SPEED_RATIO} of the wave speed"),
             // an FMU does not know that a body is a rod
             other => validity::words(*other),
@@ -146,6 +151,8 @@ struct Bodies {
     model: AnyModel,
     impact: Impact,
     density: Option<f64>,
+    /// That of the smaller body [m].
+    size: f64,
 }
 
 /// The quantities that differ from the scene's, with their units and values: target's Young's modulus, yield strain, radius,
@@ -212,7 +219,8 @@ impl Bodies {
             parameters.push((parameter.name, parameter.value));
         }
         let impact = Impact { mass: scene.impact.mass * larger.powi(3), speed: speed.unwrap_or(scene.impact.speed) };
-        Some(Bodies { parameters, model: changed.any_model(), impact, density: scene.contacts[0].density })
+        let size = changed.size_with(0, &[]);
+        Some(Bodies { parameters, model: changed.any_model(), impact, density: scene.contacts[0].density, size })
     }
 
     /// A contact of these bodies with warnings about its validity enabled.

@@ -25,7 +25,7 @@ use brinell_exporter::master::{Needs, WAYS};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::{digits, quantity, significant};
 use brinell_exporter::plot::{Picture, View};
-use brinell_exporter::predict::beyond;
+use brinell_exporter::predict::{beyond, spread};
 use brinell_exporter::scene::Scene;
 use brinell_exporter::validity;
 use card::Fact;
@@ -224,6 +224,7 @@ impl Report {
             ));
         }
         law.extend(accuracy(&alone, &prediction));
+        law.extend(spread::note(&alone));
         let warnings = beyond(&alone, &model.pair(), impact.speed, &prediction, &[]).into_iter().map(validity::words);
         let mut coupling = choice::sentences(&ways);
         coupling.extend(stability.sentence());

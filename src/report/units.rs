@@ -87,6 +87,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         factors: vec![Factors::SLOW],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
         inverse_masses: None,
+        meeting: None,
         directions: usize::from(friction),
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],

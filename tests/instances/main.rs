@@ -15,6 +15,7 @@ mod rate_unit;
 mod saved_words;
 mod smallest_gaps;
 mod stability_warning;
+mod widths;
 mod wiring;
 
 use brinell_contact::Contact;
@@ -186,6 +187,22 @@ fn a_refused_step_of_several_contacts_moves_none_of_them() {
     assert_eq!(words(&instance), before);
     assert!(matches!(instance.do_step(time, 1.0), Err(Fault::TooDeep { contact: 0, .. })));
     assert_eq!(words(&instance), before);
+}
+
+/// Two of five contacts would become as wide as the ball.
+#[test]
+fn a_step_of_several_contacts_to_a_too_wide_one_moves_none_of_them() {
+    for (name, choice) in some_pairings() {
+        choose(choice);
+        let mut instance = ready::<Several>();
+        (0..5).for_each(|contact| set_rate(&mut instance, contact, if contact > 2 { 1.0 } else { 1e-3 }));
+        instance.do_step(0.0, 1e-4).unwrap();
+        let before = words(&instance);
+        let time = instance.time();
+        assert_ne!(instance.do_plain_step(time, 1e-1), Plain::Done, "{name}");
+        assert!(matches!(instance.do_step(time, 1e-1), Err(Fault::TooWide { contact: 3, .. })), "{name}");
+        assert_eq!(words(&instance), before, "{name}");
+    }
 }
 
 #[test]

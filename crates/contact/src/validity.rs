@@ -1,14 +1,24 @@
 //! The range in which the laws are valid: contacts that are small compared with the bodies, and speeds that are low compared
 //! with elastic waves. Leaving the range logs a warning; the laws continue.
 
-use libm::sqrt;
+use crate::numbers::smallest;
+use libm::{fabs, sqrt};
 
 /// Ratio of contact radius to effective radius `R` up to which the laws hold: they assume a paraboloid and small strain.
 ///
 /// Compared with finite elements with large deformation up to this ratio, the law `brinell`, which is corrected for
 /// [large strain](mod@crate::large_strain), has the force within 0.7 % on a plane and 1.2 % on a sphere. Without the correction a plane has
 /// 0.6 to 1.4 % too much, but a sphere of `E*/S = 300` has 17 %.
+///
+/// The same part of the [smaller body](size_of) is the limit where that is smaller: a socket that hardly differs from its ball has an
+/// effective radius far above both, and each body counts as a half-space beside the contact.
 pub const LARGEST_RADIUS_RATIO: f64 = 0.3;
+
+/// The size of the smaller of two bodies with these radii of curvature \[m\], one of which may be flat or a socket.
+pub fn size_of(radii: [f64; 2]) -> f64 {
+    let [one, other] = radii.map(fabs);
+    smallest(one, other)
+}
 
 /// Ratio of closing speed to the wave speed in a rod of the target, `c0 = sqrt(E/rho)`, up to which elastic waves are
 /// negligible.
@@ -23,30 +33,63 @@ pub const LARGEST_SPEED_RATIO: f64 = 0.01;
 /// Largest number of iterations of the search. About six are enough, because the contact area is nearly linear.
 const GUESSES: u32 = 60;
 
+/// Largest number of doublings of the depth in which it searches.
+const DOUBLINGS: u32 = 8;
+
 /// Largest relative error of the contact area after the search.
 const AREA_TOLERANCE: f64 = 1e-12;
 
-/// The indentation \[m\] up to which a law is valid on a sphere of effective `radius` \[m\]: the point where `contact_radius`,
-/// a function of the indentation \[m\], reaches [`LARGEST_RADIUS_RATIO`].
+/// How deep two bodies of an effective `radius` \[m\], of which the smaller one has this `size` \[m\], may be pressed together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Depths {
+    /// The indentation up to which the law is valid \[m\]: the contact radius is [`LARGEST_RADIUS_RATIO`] of the effective radius, or of
+    /// the smaller body.
+    pub valid: f64,
+    /// The indentation at which the contact is as wide as the smaller body \[m\]: no contact is wider.
+    pub possible: f64,
+}
+
+impl Depths {
+    /// Those of a law with this `contact_radius`, a function of the indentation \[m\].
+    #[inline(never)]
+    pub fn of(radius: f64, size: f64, contact_radius: impl Fn(f64) -> f64) -> Depths {
+        let valid = LARGEST_RADIUS_RATIO * smallest(radius, size);
+        let [valid, possible] = [valid, size].map(|wanted| indentation_at(wanted, radius, &contact_radius));
+        Depths { valid, possible }
+    }
+}
+
+/// The indentation \[m\] at which `contact_radius`, a function of it, has the value `wanted` \[m\], on a sphere of effective `radius` \[m\].
 ///
-/// The contact radius rises with the indentation for every law. At an indentation of `R`, where Hertz's contact radius is `R`,
-/// it is far above the limit. The search uses the Illinois method.
+/// The contact radius rises with the indentation for every law, and is hardly ever below that of Hertz, `sqrt(R d)`. The search uses the
+/// Illinois method.
 ///
 /// Reference: M. Dowell, P. Jarratt, *BIT* 11 (1971) 168-174.
-#[inline(never)]
-pub fn largest_indentation(radius: f64, contact_radius: impl Fn(f64) -> f64) -> f64 {
-    let allowed = LARGEST_RADIUS_RATIO * LARGEST_RADIUS_RATIO;
+fn indentation_at(wanted: f64, radius: f64, contact_radius: &impl Fn(f64) -> f64) -> f64 {
     // ratios are squared, because the square of a small radius may underflow
     let excess = |depth: f64| {
-        let ratio = contact_radius(depth) / radius;
-        ratio * ratio - allowed
+        let ratio = contact_radius(depth) / wanted;
+        ratio * ratio - 1.0
     };
-    let (mut below, mut above) = ((0.0, -allowed), (radius, excess(radius)));
-    let (mut depth, mut was_above) = (0.0, None);
+    let hertz = wanted / radius * wanted;
+    let (mut below, mut above) = ((0.0, -1.0), (hertz, excess(hertz)));
+    for _ in 0..DOUBLINGS {
+        if above.1 >= 0.0 {
+            break;
+        }
+        below = above;
+        above = (2.0 * above.0, excess(2.0 * above.0));
+    }
+    // a law that is never so wide; NaN is no reason to search either
+    let is_wide = above.1 >= 0.0;
+    if !is_wide {
+        return above.0;
+    }
+    let (mut depth, mut was_above) = (above.0, None);
     for _ in 0..GUESSES {
         depth = below.0 + (above.0 - below.0) * (below.1 / (below.1 - above.1));
         let found = excess(depth);
-        if found < AREA_TOLERANCE * allowed && found > -AREA_TOLERANCE * allowed {
+        if found < AREA_TOLERANCE && found > -AREA_TOLERANCE {
             break;
         }
         let is_above = found > 0.0;

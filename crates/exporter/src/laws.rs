@@ -23,6 +23,12 @@ pub struct Choice {
 const GUARDED: &str = " guarded";
 
 impl Choice {
+    /// The same laws on another form of their scene.
+    pub fn on(&self, scene: &Scene) -> Option<Choice> {
+        let own = own(scene);
+        if own.laws == self.laws { Some(own) } else { choose_one(scene, &self.name).ok() }
+    }
+
     /// The names of the loading law and of the unloading law. An elastic law has no unloading law; a rate-dependent law has the
     /// name of its damping instead.
     pub fn names(&self) -> (&str, Option<&str>) {

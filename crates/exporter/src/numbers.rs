@@ -91,6 +91,18 @@ fn with_unit(value: f64, unit: &'static str, digits: usize) -> String {
     format!("{} {unit}", significant(value / size, digits)).trim_end().into()
 }
 
+/// A number with its unit and the `band` that it is in: `345 N (331 to 358 N)`. A band without width is left out.
+pub fn with_band(value: f64, band: Option<[f64; 2]>, unit: &'static str) -> String {
+    /// Digits of the ends.
+    const ENDS: usize = 3;
+    let text = quantity(value, unit);
+    let Some([low, high]) = band.filter(|[low, high]| high - low > 1e-9 * high.abs()) else { return text };
+    let Prefixed { unit, size } = prefixed(high, unit);
+    let [low, high] = [low, high].map(|end| significant(end / size, ENDS));
+    let ends = format!("{low} to {high} {unit}");
+    format!("{text} ({})", ends.trim_end())
+}
+
 /// A number in a table, in units of this size; a dash if there is none.
 pub fn cell(value: f64, size: f64) -> String {
     if value.is_nan() { "-".into() } else { significant(value / size, DIGITS) }
@@ -183,6 +195,15 @@ mod tests {
         ] {
             assert_eq!(quantity(value, unit), text);
         }
+    }
+
+    #[test]
+    fn a_band_stands_behind_its_number_in_one_unit() {
+        assert_eq!(with_band(344.6, Some([331.4, 357.5]), "N"), "344.6 N (331 to 358 N)");
+        assert_eq!(with_band(0.569, Some([0.5512, 0.5871]), ""), "0.569 (0.551 to 0.587)");
+        assert_eq!(with_band(9.9e-7, Some([0.0, 1.2e-6]), "m"), "990 nm (0 to 1.2 um)");
+        assert_eq!(with_band(1.0, Some([1.0, 1.0]), ""), "1");
+        assert_eq!(with_band(2.0, None, "J"), "2 J");
     }
 
     #[test]

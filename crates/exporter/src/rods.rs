@@ -6,6 +6,7 @@ use crate::validity::Beyond;
 use brinell_contact::impact::Prediction;
 use brinell_contact::validity::wave_speed;
 use serde::Serialize;
+use std::f64::consts::PI;
 
 /// A long body of constant cross-section, such as the piston of a hammer, a chisel or a pin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,13 @@ pub struct Rod {
     pub length: f64,
     /// Area of the cross-section \[m^2\].
     pub area: f64,
+}
+
+impl Rod {
+    /// Radius of a round cross-section of this area \[m\].
+    pub fn radius(&self) -> f64 {
+        (self.area / PI).sqrt()
+    }
 }
 
 /// What the plane waves in the rods of a contact allow in an impact.

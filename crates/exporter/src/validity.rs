@@ -17,6 +17,8 @@ fn wave_energy(speed_ratio: f64) -> f64 {
 pub enum Beyond {
     /// Ratio of contact radius to effective radius.
     Width(f64),
+    /// Ratio of contact radius to the radius \[m\] of the smaller body, where that is smaller than the effective radius.
+    Size { ratio: f64, size: f64 },
     /// Ratio of speed to wave speed, and the fraction of energy that waves take.
     Speed { ratio: f64, waves: f64 },
     /// The waves in rods, and the ratio of the predicted force to their largest.
@@ -27,26 +29,33 @@ pub enum Beyond {
 
 impl Beyond {
     /// Number of kinds.
-    pub const KINDS: usize = 4;
+    pub const KINDS: usize = 5;
 
     /// The number of its kind, and a measure of how far it is exceeded.
     pub fn rank(&self) -> (usize, f64) {
         match *self {
             Beyond::Width(ratio) => (0, ratio),
-            Beyond::Speed { ratio, .. } => (1, ratio),
-            Beyond::Waves { excess, .. } => (2, excess),
-            Beyond::Short { travels, .. } => (3, -travels),
+            Beyond::Size { ratio, .. } => (1, ratio),
+            Beyond::Speed { ratio, .. } => (2, ratio),
+            Beyond::Waves { excess, .. } => (3, excess),
+            Beyond::Short { travels, .. } => (4, -travels),
         }
+    }
+
+    /// Whether the contact is too wide.
+    pub fn is_wide(&self) -> bool {
+        matches!(self, Beyond::Width(_) | Beyond::Size { .. })
     }
 }
 
-/// The limits known to the FMU that a contact of the bodies `pair` exceeds at this contact `radius` \[m\] and this closing `speed` \[m/s\]; the
-/// `density` \[kg/m^3\] of the target may be unknown.
-pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec<Beyond> {
-    let width = radius / pair.radius;
+/// The limits known to the FMU that a contact of the bodies `pair`, of which the smaller one has this `size` \[m\], exceeds at this contact
+/// `radius` \[m\] and this closing `speed` \[m/s\]; the `density` \[kg/m^3\] of the target may be unknown.
+pub fn beyond((pair, size): (&Pair, f64), density: Option<f64>, radius: f64, speed: f64) -> Vec<Beyond> {
+    let ratio = radius / pair.radius.min(size);
+    let width = if size < pair.radius { Beyond::Size { ratio, size } } else { Beyond::Width(ratio) };
+    let width = (ratio > LARGEST_RADIUS_RATIO).then_some(width);
     let waves = density.map_or(f64::INFINITY, |density| wave_speed(pair.youngs_modulus, density));
     let ratio = speed / waves;
-    let width = (width > LARGEST_RADIUS_RATIO).then_some(Beyond::Width(width));
     let speed = (ratio > LARGEST_SPEED_RATIO).then_some(Beyond::Speed { ratio, waves });
     width.into_iter().chain(speed).collect()
 }
@@ -93,12 +102,14 @@ impl SweepLimits {
     }
 }
 
-/// A warning that the contact is too wide for these `laws`.
-pub fn too_wide(laws: &[&str]) -> String {
-    format!(
-        "the contact radius exceeds {LARGEST_RADIUS_RATIO} effective radii, where no law is valid, with {}",
-        laws.join(", ")
-    )
+/// A warning that the contact is too wide for these `laws`, of bodies of which the smaller one has this `size` \[m\].
+pub fn too_wide((pair, size): (&Pair, f64), laws: &[&str]) -> String {
+    let of = if size < pair.radius {
+        format!("of the smaller body's radius of {}", quantity(size, "m"))
+    } else {
+        "effective radii".into()
+    };
+    format!("the contact radius exceeds {LARGEST_RADIUS_RATIO} {of}, where no law is valid, with {}", laws.join(", "))
 }
 
 /// An exceeded limit, in words.
@@ -108,6 +119,17 @@ pub fn words(beyond: Beyond) -> String {
             "the contact radius reaches {} effective radii; above {LARGEST_RADIUS_RATIO} a sphere is no longer a paraboloid, \
              and the law isn't valid",
             significant(ratio, 3)
+        ),
+        Beyond::Size { ratio, size } if ratio >= 1.0 => format!(
+            "the contact radius would be {} times the radius of the smaller body, {}: no contact is wider than its body",
+            significant(ratio, 3),
+            quantity(size, "m")
+        ),
+        Beyond::Size { ratio, size } => format!(
+            "the contact radius reaches {} of the radius of the smaller body, {}; above {LARGEST_RADIUS_RATIO} that body is no \
+             half-space beside the contact, and the law isn't valid",
+            significant(ratio, 3),
+            quantity(size, "m")
         ),
         Beyond::Speed { ratio, waves } => format!(
             "the speed is {} of the wave speed of {waves:.0} m/s; above {LARGEST_SPEED_RATIO} elastic waves take energy \
@@ -124,11 +146,12 @@ pub fn words(beyond: Beyond) -> String {
     }
 }
 
-/// The limits of validity of an FMU on bodies with this limit of `depth` \[m\] and this target, in words. Beyond them, the FMU
-/// logs a warning.
-pub fn limits(pair: &Pair, density: Option<f64>, depth: f64) -> String {
+/// The limits of validity of an FMU on bodies of which the smaller one has this `size` \[m\], with this limit of `depth` \[m\] and this
+/// target, in words. Beyond them, the FMU logs a warning.
+pub fn limits((pair, size): (&Pair, f64), density: Option<f64>, depth: f64) -> String {
+    let of = if size < pair.radius { "of the radius of the smaller body" } else { "effective radii" };
     let radius = format!(
-        "up to a contact radius of {LARGEST_RADIUS_RATIO} effective radii, here an indentation of {}",
+        "up to a contact radius of {LARGEST_RADIUS_RATIO} {of}, here an indentation of {}",
         quantity(depth, "m")
     );
     match density {

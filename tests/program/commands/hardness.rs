@@ -257,3 +257,58 @@ fn what_people_know_of_a_drop_test_is_enough() {
     close(number(&with("0.014")["laws"][0]["restitution"]), restitution, 1e-12);
     assert!(number(&with("0.0")["laws"][0]["restitution"]) < restitution);
 }
+
+/// Without hardening and rate the strength is that of the test alone: the ends of each range are impacts with the strengths at its ends.
+#[test]
+fn the_ranges_of_a_prediction_are_those_of_the_strength() {
+    let strength = |text: &str| {
+        format!(
+            "name = \"s\"\nimpactor = {{ radius = 5e-3 }}\n[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n{text}\n[impact]\nmass = 4e-3\n"
+        )
+    };
+    let plain = "hardening_exponent = 0.0\nrate = { model = \"johnson-cook\", c = 0.0 }\n";
+    let folder = empty_folder();
+    let predict = |text: &str, speed: f64, law: &str| {
+        fs::write(folder.path().join("scene.toml"), format!("{text}speed = {speed}\n")).unwrap();
+        run(folder.path(), ["predict", "scene.toml", "--laws", law, "--json"]).with_status(0).json()
+    };
+    for (reading, deviation) in
+        [("hardness = \"180 HBW\"", 0.08), ("hardness = \"700 HV10\"", 0.1), ("tensile_strength = 600e6", 0.07)]
+    {
+        for (law, speed) in [("brinell", 0.1), ("brinell", 3.0), ("thornton", 1.0), ("big-alabo", 1.0)] {
+            let said = predict(&strength(&format!("{reading}\n{plain}")), speed, law);
+            let (one, own) = (&said["laws"][0], number(&said["strength"]["yield_strength"]));
+            let ends = [-1.0, 1.0].map(|side| {
+                let stress = own * (1.0 + side * 1.959_963_985 * deviation);
+                predict(&strength(&format!("yield_strength = {stress:e}")), speed, law)["laws"][0].clone()
+            });
+            for name in ["largest_force", "largest_indentation", "dent", "restitution"] {
+                let mut expected = ends.each_ref().map(|end| number(&end[name]));
+                expected.sort_by(f64::total_cmp);
+                let found = [0, 1].map(|side| number(&one["spread"][name][side]));
+                // with big-alabo, force and restitution turn round between the ends
+                let turns = law == "big-alabo";
+                for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+                    let beyond = sign * (found[side] - expected[side]);
+                    let rounding = 1e-6 * expected[side].abs();
+                    let right = beyond >= -rounding && (turns || beyond <= rounding);
+                    assert!(right, "{law} {reading}: {name} {found:?}, not {expected:?}");
+                }
+            }
+            if law != "brinell" {
+                continue;
+            }
+            let text = run(folder.path(), ["predict", "scene.toml"]).with_status(0).out;
+            assert!(!text.contains("The ranges are"), "a strength that is given has no range: {text}");
+        }
+    }
+    let scene = strength("hardness = \"180 HBW\"");
+    fs::write(folder.path().join("scene.toml"), format!("{scene}speed = 1\n")).unwrap();
+    for call in [&["predict", "scene.toml"][..], &["translate", "scene.toml", "--for", "mujoco"]] {
+        let text = run(folder.path(), call).with_status(0).out.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            text.contains("largest force") && text.contains(" to ") && text.contains("(180 HBW) 8 %"),
+            "{call:?}: {text}"
+        );
+    }
+}

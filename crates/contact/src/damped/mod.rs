@@ -18,7 +18,8 @@ pub use history::{History, follow};
 
 use super::laws::{Constant, LawNumbers, laws};
 use super::material::Pair;
-use super::validity::LARGEST_RADIUS_RATIO;
+use super::numbers::smallest;
+use super::validity::{Depths, LARGEST_RADIUS_RATIO};
 use libm::sqrt;
 
 laws! {
@@ -47,9 +48,13 @@ pub struct Model<D> {
 }
 
 impl<D> Model<D> {
-    /// The indentation up to which the law is valid \[m\], with Hertz's contact radius `a^2 = R d`.
-    pub fn valid_depth(&self) -> f64 {
-        LARGEST_RADIUS_RATIO * LARGEST_RADIUS_RATIO * self.pair.radius
+    /// How deep the bodies may be pressed together, of which the smaller one has this `size` \[m\], with Hertz's contact radius
+    /// `a^2 = R d`.
+    pub fn depths(&self, size: f64) -> Depths {
+        let radius = self.pair.radius;
+        let valid = LARGEST_RADIUS_RATIO * smallest(radius, size);
+        let [valid, possible] = [valid, size].map(|wanted| wanted / radius * wanted);
+        Depths { valid, possible }
     }
 }
 

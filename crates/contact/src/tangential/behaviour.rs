@@ -11,6 +11,7 @@ use crate::numbers::largest;
 use crate::path::{Course, Sum};
 use crate::regime::{Regime, TooDeep};
 use crate::unloading::Unloading;
+use crate::validity::Depths;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
@@ -240,8 +241,8 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
         Rough::sliding(self)
     }
 
-    fn valid_depth(model: &RoughModel<L, U, N::Loss>) -> f64 {
-        model.normal.valid_depth()
+    fn depths(model: &RoughModel<L, U, N::Loss>, size: f64) -> Depths {
+        model.normal.depths(size)
     }
 
     fn may_refuse(model: &RoughModel<L, U, N::Loss>) -> bool {

@@ -4,13 +4,14 @@
 //! computed in steps: the contact moves over `(v0 + v1)/2` times the step, with `v1 = v0 - step T/m_t` for the mean
 //! force `T` of the step. With this, the kinetic energy changes by exactly the work of the tangential force.
 
-use super::{Mean, RoughModel, Sliding, Springs};
+use super::{Mean, Normal, RoughContact, RoughModel, Sliding, Springs};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::impact::{self, Impact};
 use crate::loading::Loading;
 use crate::motion::{Drive, follow};
 use crate::numbers::{largest, quotient};
+use crate::shared::{InverseMasses, Work, follow as follow_together};
 use crate::unloading::Unloading;
 use libm::fabs;
 
@@ -140,6 +141,97 @@ pub fn in_steps<L: Loading, U: Unloading>(
         sliding_part: slid / time,
         contact_time: time,
     })
+}
+
+/// Steps of [`meet`] in the time that the impact would last without friction; it follows the motion within each.
+const PARTS: u32 = 200;
+
+/// Most of these times that an impact with friction may last.
+const LONGEST: u32 = 20;
+
+/// Halvings of the last step until the end of the contact is known.
+const HALVINGS: u32 = 40;
+
+/// Two bodies after they have met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Closing rate along the normal, and rate along the tangent, of the contact points \[m/s\].
+    pub rates: [f64; 2],
+    /// Impulses of the normal and of the tangential force \[N.s\].
+    pub impulses: [f64; 2],
+    /// Energy lost by slip \[J\].
+    pub friction_work: f64,
+    /// Largest size of the tangential force \[N\].
+    pub max_tangential_force: f64,
+    /// Time in which the whole contact slipped, over the contact time.
+    pub sliding_part: f64,
+    /// Duration of the contact \[s\].
+    pub contact_time: f64,
+}
+
+/// The impact of two bodies whose contact points meet with these `rates` along the normal and the tangent \[m/s\], as units move them that
+/// share bodies: with any inverse `masses` of the normal, of both together and of the tangent \[1/kg\], and with a loss in the normal part
+/// `N`. `time` \[s\] is about how long it takes. `None` beyond the range of the law.
+///
+/// Only forces of the contact act on them. The accuracy is that of [`shared`](crate::shared).
+pub fn meet<L: Loading + Copy, U: Unloading + Copy, N: Normal>(
+    model: &RoughModel<L, U, N::Loss>,
+    masses: &[f64; 3],
+    rates: [f64; 2],
+    time: f64,
+) -> Option<Meeting> {
+    let masses = InverseMasses::new(2, masses).ok()?;
+    let mut contact: [RoughContact<SEGMENTS, true, N>; 1] = [Contact::start(model, 0.0).ok()?];
+    let mut now = Meeting {
+        rates,
+        impulses: [0.0; 2],
+        friction_work: 0.0,
+        max_tangential_force: 0.0,
+        sliding_part: 0.0,
+        contact_time: 0.0,
+    };
+    let go = |contact: &mut [RoughContact<SEGMENTS, true, N>; 1], rates: &mut [f64; 2], step: f64| {
+        let mut work = [Work::new(contact[0])];
+        follow_together(contact, |_| model, &masses, &[0.0; 2], rates, &mut work, step).ok()?;
+        let [work] = work;
+        Some([work.impulse(), work.tangential_impulse(0)])
+    };
+    let has_ended = |contact: &[RoughContact<SEGMENTS, true, N>; 1], rates: &[f64; 2]| {
+        let [contact] = contact;
+        contact.normal.force(rates[0]) == 0.0 && rates[0] <= 0.0
+    };
+    let (mut slid, step) = (0.0, time / f64::from(PARTS));
+    for _ in 0..LONGEST * PARTS {
+        let (before, rates_before) = (contact, now.rates);
+        let impulses = go(&mut contact, &mut now.rates, step)?;
+        let mut length = step;
+        let ends = has_ended(&contact, &now.rates);
+        if ends {
+            // bodies that have parted keep their rates
+            let mut shorter = 0.0;
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (shorter + length);
+                let (mut contact, mut rates) = (before, rates_before);
+                go(&mut contact, &mut rates, middle)?;
+                *(if has_ended(&contact, &rates) { &mut length } else { &mut shorter }) = middle;
+            }
+        }
+        let [own] = &contact;
+        let [state] = &before;
+        now.impulses = [now.impulses[0] + impulses[0], now.impulses[1] + impulses[1]];
+        now.contact_time += length;
+        let [force] = own.tangential_forces(model);
+        now.max_tangential_force = largest(now.max_tangential_force, fabs(force));
+        // the state before the bodies separate is that of their last step
+        let sliding = if ends { state.sliding() } else { own.sliding() };
+        slid += if sliding == Sliding::Sliding { length } else { 0.0 };
+        if ends {
+            now.friction_work = own.friction_work(model);
+            now.sliding_part = slid / now.contact_time;
+            return Some(now);
+        }
+    }
+    None
 }
 
 /// An impact under way.

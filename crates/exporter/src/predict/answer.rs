@@ -1,9 +1,10 @@
 //! A prediction as text for people and as JSON for programs.
 
-use super::{PredictError, beyond, energy_lost, methods, notes, one, onsets, quantities};
+use super::spread::{self, Bands};
+use super::{PredictError, beyond, check_width, energy_lost, methods, notes, one, onsets, quantities};
 use crate::laws::Choice;
 use crate::layout::{paragraph, table};
-use crate::numbers::{Prefixed, cell, prefixed, quantity};
+use crate::numbers::{Prefixed, cell, prefixed, quantity, with_band};
 use crate::regime;
 use crate::rods::Waves;
 use crate::scene::{InImpact, Rate, Scene};
@@ -20,21 +21,28 @@ pub struct Answer<'a> {
     /// Height of fall [m], if it determines the speed.
     fall: Option<f64>,
     predictions: Vec<Prediction>,
+    /// What the uncertainty of a strength makes of each.
+    bands: Vec<Option<Bands>>,
 }
 
 impl Answer<'_> {
     /// The predictions for `impact`. `fall` is the height \[m\] that it results from, if there is one.
     ///
     /// # Errors
-    /// [`PredictError::Beyond`]
+    /// [`PredictError::Beyond`], [`PredictError::TooWide`]
     pub fn of<'a>(
         scene: &'a Scene,
         choices: &'a [Choice],
         impact: Impact,
         fall: Option<f64>,
     ) -> Result<Answer<'a>, PredictError> {
-        let predictions = choices.iter().map(|choice| one(choice, &impact)).collect::<Result<_, _>>()?;
-        Ok(Answer { scene, choices, impact, fall, predictions })
+        let predictions: Vec<_> = choices.iter().map(|choice| one(choice, &impact)).collect::<Result<_, _>>()?;
+        for (choice, prediction) in choices.iter().zip(&predictions) {
+            check_width(scene, 0, &choice.laws, &impact, prediction, &[])?;
+        }
+        let both = choices.iter().zip(&predictions);
+        let bands = both.map(|(choice, prediction)| Bands::of(scene, choice, &impact, prediction)).collect();
+        Ok(Answer { scene, choices, impact, fall, predictions, bands })
     }
 
     fn laws(&self) -> impl Iterator<Item = (&Choice, &Prediction)> {
@@ -56,20 +64,29 @@ impl Answer<'_> {
         if let ([choice], [prediction]) = (self.choices, self.predictions.as_slice()) {
             return self.warnings(choice, prediction);
         }
-        let wide = self.laws().filter(|(choice, prediction)| {
-            self.beyond(choice, prediction).iter().any(|limit| matches!(limit, Beyond::Width(_)))
-        });
+        let wide =
+            self.laws().filter(|(choice, prediction)| self.beyond(choice, prediction).iter().any(Beyond::is_wide));
         let wide: Vec<_> = wide.map(|(choice, _)| choice.laws.as_str()).collect();
         let mut warnings = Vec::new();
         if !wide.is_empty() {
-            warnings.push(validity::too_wide(&wide));
+            let pair = self.choices[0].model.pair();
+            warnings.push(validity::too_wide((&pair, self.scene.size_with(0, &[])), &wide));
         }
         // speed and waves are the same for every law, and the time is that of the first
         let limits = self.laws().flat_map(|(choice, prediction)| self.beyond(choice, prediction));
-        let limits: Vec<_> = limits.filter(|limit| !matches!(limit, Beyond::Width(_))).collect();
+        let limits: Vec<_> = limits.filter(|limit| !limit.is_wide()).collect();
         let first = (0..Beyond::KINDS).filter_map(|kind| limits.iter().copied().find(|limit| limit.rank().0 == kind));
         warnings.extend(first.map(validity::words));
         warnings
+    }
+
+    /// What is to know of these predictions.
+    fn notes(&self) -> Vec<String> {
+        // several laws have a table without them
+        let has_ranges = self.choices.len() == 1 && self.bands.iter().any(Option::is_some);
+        let spread = has_ranges.then(|| spread::note(self.scene)).flatten();
+        let notes = notes::of(self.scene, &self.impact, self.choices, &self.predictions);
+        spread.into_iter().chain(notes).collect()
     }
 
     /// Strength of the target in this impact, if it depends on the impact.
@@ -104,7 +121,7 @@ impl Answer<'_> {
             text.push('\n');
             text += &paragraph("warning: ", &warning);
         }
-        for note in notes::of(self.scene, &self.impact, self.choices, &self.predictions) {
+        for note in self.notes() {
             text.push('\n');
             text += &paragraph("note: ", &note);
         }
@@ -121,18 +138,22 @@ impl Answer<'_> {
         );
         let ratio = prediction.max_contact_radius / choice.model.pair().radius;
         let radius = format!("{} (a/R = {})", quantity(prediction.max_contact_radius, "m"), cell(ratio, 1.0));
+        let bands = self.bands.first().and_then(Option::as_ref);
+        let spread = |name: &str, value: f64, unit| with_band(value, bands.and_then(|bands| bands.get(name)), unit);
         let mut rows = vec![
-            ("largest force", quantity(prediction.max_force, "N")),
-            ("largest indentation", quantity(prediction.max_indentation, "m")),
+            ("largest force", spread("largest force", prediction.max_force, "N")),
+            ("largest indentation", spread("largest indentation", prediction.max_indentation, "m")),
             ("largest contact radius", radius),
-            ("depth of the dent", quantity(prediction.residual_indentation, "m")),
+            ("depth of the dent", spread("dent", prediction.residual_indentation, "m")),
         ];
         // unloading hardly narrows a dent
         if prediction.residual_indentation > 0.0 {
-            rows.push(("diameter of the dent", quantity(2.0 * prediction.max_contact_radius, "m")));
+            let diameter =
+                bands.and_then(|bands| bands.get("largest contact radius")).map(|ends| ends.map(|end| 2.0 * end));
+            rows.push(("diameter of the dent", with_band(2.0 * prediction.max_contact_radius, diameter, "m")));
         }
         rows.extend([
-            ("restitution", quantity(prediction.restitution, "")),
+            ("restitution", spread("restitution", prediction.restitution, "")),
             ("rebound speed", quantity(prediction.restitution * self.impact.speed, "m/s")),
         ]);
         if let Some(height) = self.rebound_height(prediction) {
@@ -184,7 +205,7 @@ impl Answer<'_> {
 
     /// JSON for programs: all digits, SI units.
     pub fn json(&self) -> Value {
-        let law = |(choice, prediction): (&Choice, &Prediction)| {
+        let law = |((choice, prediction), bands): ((&Choice, &Prediction), &Option<Bands>)| {
             let mut law = json!({
                 "law": choice.laws, "regime": prediction.regime as i32, "regime_name": regime::words(prediction.regime),
             });
@@ -198,6 +219,7 @@ impl Answer<'_> {
             let onset = |(regime, speed): (Regime, f64)| json!({ "regime": regime as i32, "regime_name": regime::words(regime), "speed": speed });
             law["onsets"] = onsets(choice, self.impact.mass).into_iter().map(onset).collect();
             law["warnings"] = json!(self.warnings(choice, prediction));
+            law["spread"] = bands.as_ref().map_or(Value::Null, Bands::json);
             law
         };
         let rate = |rate: &Option<Rate>| match rate {
@@ -210,8 +232,8 @@ impl Answer<'_> {
         let rates = &self.scene.rates;
         let Impact { mass, speed } = self.impact;
         json!({
-            "mass": mass, "speed": speed, "drop_height": self.fall, "laws": self.laws().map(law).collect::<Vec<_>>(),
-            "notes": notes::of(self.scene, &self.impact, self.choices, &self.predictions),
+            "mass": mass, "speed": speed, "drop_height": self.fall, "laws": self.laws().zip(&self.bands).map(law).collect::<Vec<_>>(),
+            "notes": self.notes(),
             "strength": self.strength(), "rates": { "target": rate(&rates.target), "impactor": rate(&rates.impactor) },
             "rods": Waves::of(self.scene, self.impact.speed, &[]),
         })

@@ -5,6 +5,7 @@ pub mod axis;
 pub mod constants;
 pub mod notes;
 pub mod oblique;
+pub mod spread;
 pub mod sweep;
 pub mod time_history;
 
@@ -34,6 +35,12 @@ pub enum PredictError {
         quantity(*.mass, "kg"), quantity(*.speed, "m/s")
     )]
     Beyond { law: String, mass: f64, speed: f64 },
+    #[error(
+        "an impact of {} at {} would make a contact of {} radius by the law {law}, and the smaller body has a radius of {}: no contact \
+         is wider than its body",
+        quantity(*.mass, "kg"), quantity(*.speed, "m/s"), quantity(*.radius, "m"), quantity(*.size, "m")
+    )]
+    TooWide { law: String, mass: f64, speed: f64, radius: f64, size: f64 },
     #[error("{0}")]
     Energy(#[from] NoEnergy),
     #[error("no {what} from {} to {} explains {name} = {}", quantity(*.low, .unit), quantity(*.high, .unit), quantity(*.value, .of))]
@@ -60,6 +67,8 @@ pub enum PredictError {
     Spin(f64),
     #[error("friction {}", out_of_range(*value, allowed, ""))]
     Coefficient { value: f64, allowed: std::ops::RangeInclusive<f64> },
+    #[error("{name} = {} {unit}: the tables [[body]] of the scene say that of its bodies; leave it out", in_message(*.value))]
+    OfBodies { name: &'static str, value: f64, unit: &'static str },
     #[error("the law {law} doesn't support friction: {why}")]
     NoFriction { law: String, why: String },
     #[error("the scene has no friction: give it [friction] coefficient, or --friction, such as --friction 0.1")]
@@ -82,6 +91,24 @@ pub fn speed_of_energy(mass: f64, energy: f64) -> f64 {
 pub fn one(choice: &Choice, impact: &Impact) -> Result<Prediction, PredictError> {
     let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass: impact.mass, speed: impact.speed };
     choice.model.predict(impact).ok_or_else(beyond)
+}
+
+/// Rejects a `prediction` of `impact` by `law` on the contacts of `group`, with these values of some parameters, in which the contact is as
+/// wide as the smaller body.
+///
+/// # Errors
+/// [`PredictError::TooWide`]
+pub fn check_width(
+    scene: &Scene,
+    group: usize,
+    law: &str,
+    impact: &Impact,
+    prediction: &Prediction,
+    values: &[(&str, f64)],
+) -> Result<(), PredictError> {
+    let (radius, size) = (prediction.max_contact_radius, scene.size_with(group, values));
+    let Impact { mass, speed } = *impact;
+    if radius >= size { Err(PredictError::TooWide { law: law.into(), mass, speed, radius, size }) } else { Ok(()) }
 }
 
 /// What the law of `scene` is, and what the law of scenes that name none says of the same impact.
@@ -108,7 +135,8 @@ pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
 /// The limits of validity that this impact at `speed` \[m/s\] exceeds on the first contact of `scene`, which has the bodies
 /// `pair` by these values of some parameters.
 pub fn beyond(scene: &Scene, pair: &Pair, speed: f64, prediction: &Prediction, values: &[(&str, f64)]) -> Vec<Beyond> {
-    let limits = validity::beyond(pair, scene.contacts[0].density, prediction.max_contact_radius, speed);
+    let bodies = (pair, scene.size_with(0, values));
+    let limits = validity::beyond(bodies, scene.contacts[0].density, prediction.max_contact_radius, speed);
     let waves = Waves::of(scene, speed, values).and_then(|waves| waves.beyond(prediction));
     limits.into_iter().chain(waves).collect()
 }

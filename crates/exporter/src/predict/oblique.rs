@@ -4,13 +4,15 @@ use super::axis::{Axis, OF_OBLIQUE_IMPACT, varied};
 use super::{PredictError, Quantity, positive};
 use crate::laws::Choice;
 use crate::model::AnyModel;
-use crate::scene::Scene;
+use crate::scene::{GROUND, InverseMasses, Meeting, Scene, place};
 use crate::table;
 use crate::validity::Beyond;
+use brinell_contact::History;
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::tangential::impact::{Ball, Rebound, predict};
-use brinell_contact::tangential::{Friction, RoughModel};
+use brinell_contact::losses::{self, AnyLoss};
+use brinell_contact::tangential::impact::{Ball, Rebound, meet, predict};
+use brinell_contact::tangential::{self, Friction, RoughModel};
 use brinell_contact::unloading::AnyUnloading;
 
 /// The coefficient of friction, a parameter of the scene.
@@ -42,16 +44,41 @@ pub struct Setting {
     pub inertia: Option<f64>,
 }
 
+/// The method for bodies that the scene has in tables, and for a loss below yield.
+pub const TOGETHER: &str = "moved as the FMU moves bodies";
+
 /// An oblique impact with its rebound.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     pub setting: Setting,
     /// Coefficient, and ratio of the stiffnesses.
     pub friction: Friction,
+    /// The ball, or the first body of the scene's first contact that is free, before the impact.
     pub before: Ball,
     pub rebound: Rebound,
+    /// The impact along the normal, of the effective mass.
+    pub normal: Impact,
+    /// Closing rate along the normal, and rate along the tangent, of the contact points before and after \[m/s\].
+    pub rates: [[f64; 2]; 2],
+    /// Kinetic energy lost in all \[J\].
+    pub energy_lost: f64,
+    /// Whether the bodies were [moved as in the FMU](TOGETHER).
+    pub together: bool,
+    /// The names of the bodies in tables: of the moving one, and of the one at rest before.
+    pub names: Option<[String; 2]>,
+    /// The body that was at rest, if it is free.
+    pub struck: Option<Struck>,
     /// Limits of validity that the normal impact exceeds.
     pub beyond: Vec<Beyond>,
+}
+
+/// A free body that was at rest, after the impact, in the directions of the other one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Struck {
+    /// Speed along the normal, and along the tangent \[m/s\].
+    pub speeds: [f64; 2],
+    /// \[rad/s\]
+    pub spin: f64,
 }
 
 impl Setting {
@@ -101,8 +128,7 @@ pub fn check_coefficient(value: f64) -> Result<(), PredictError> {
 pub fn refusal(choice: &Choice) -> Option<String> {
     match choice.model {
         AnyModel::Damped(_) => return Some("rate-dependent laws have none".into()),
-        AnyModel::Lossy(_) => return Some("a loss below yield and friction can't be combined".into()),
-        AnyModel::Elastoplastic(_) => {}
+        AnyModel::Elastoplastic(_) | AnyModel::Lossy(_) => {}
     }
     if choice.is_guarded() {
         return Some("with the passivity guard, its accuracy was not measured".into());
@@ -143,24 +169,112 @@ pub fn one(
     let (choice, impact) = varied(scene, choice, impact, &others)?;
     let named: Vec<_> = others.iter().map(|(axis, value)| (axis.name, *value)).collect();
     let model = rough(scene, &choice, setting.coefficient, &named)?;
-    let [impactor, _] = scene.bodies_with(0, &named);
+    let moving = Moving::of(scene, impact, &setting, &named)?;
     let Impact { mass, speed } = impact;
-    let angle = setting.angle.to_radians();
-    let before = Ball {
-        mass,
-        inertia: setting.inertia.unwrap_or(SOLID_SPHERE * mass * impactor.radius * impactor.radius),
-        radius: impactor.radius,
-        normal: speed * angle.cos(),
-        tangential: speed * angle.sin(),
-        spin: setting.spin,
-    };
+    let normal = Impact { mass, speed: moving.rates[0] };
     let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass, speed };
-    let rebound = predict(&model, &before).ok_or_else(beyond)?;
-    let normal = Impact { mass, speed: before.normal };
     let prediction = choice.model.predict(&normal);
+    if let Some(prediction) = &prediction {
+        super::check_width(scene, 0, &choice.laws, &normal, prediction, &named)?;
+    }
     let limits = |prediction| super::beyond(scene, &choice.model.pair(), normal.speed, &prediction, &named);
-    let beyond = prediction.map_or(Vec::new(), limits);
-    Ok(Outcome { setting, friction: model.friction, before, rebound, beyond })
+    let limits = prediction.map_or(Vec::new(), limits);
+    let friction = model.friction;
+    let Moving { before, masses, rates, bodies } = moving;
+    let together = bodies.is_some() || choice.model.lossy().is_some();
+    let plain = Outcome {
+        setting,
+        friction,
+        before,
+        rebound: Rebound {
+            ball: before,
+            friction_work: 0.0,
+            max_tangential_force: 0.0,
+            sliding_part: 0.0,
+            contact_time: 0.0,
+        },
+        normal,
+        rates: [rates; 2],
+        energy_lost: 0.0,
+        together,
+        names: bodies.as_ref().map(|bodies| bodies.each_ref().map(|body| body.name.clone())),
+        struck: None,
+        beyond: limits,
+    };
+    if !together {
+        let rebound = predict(&model, &before).ok_or_else(beyond)?;
+        let normal = |ball: &Ball| 0.5 * ball.mass * ball.normal * ball.normal;
+        let energy_lost = normal(&before) - normal(&rebound.ball) + rebound.friction_work;
+        let rates = [rates, [rebound.ball.normal, rebound.ball.slip()]];
+        return Ok(Outcome { rebound, rates, energy_lost, ..plain });
+    }
+    let time = prediction.ok_or_else(beyond)?.contact_time();
+    let met = match choice.model.lossy() {
+        Some(lossy) => {
+            let model = RoughModel { normal: lossy.plastic, friction, loss: lossy.loss };
+            meet::<_, _, losses::History<AnyLoss>>(&model, &masses, rates, time)
+        }
+        None => meet::<_, _, History>(&model, &masses, rates, time),
+    };
+    Ok(plain.after(&met.ok_or_else(beyond)?, bodies.as_ref()))
+}
+
+/// The bodies of an oblique impact before it.
+struct Moving {
+    /// The ball or body that moves.
+    before: Ball,
+    /// Inverse masses of the normal, of both together and of the tangent \[1/kg\].
+    masses: [f64; 3],
+    /// Rates of the contact points along the normal and the tangent \[m/s\].
+    rates: [f64; 2],
+    /// The moving body and the one at rest, if the scene has them in tables.
+    bodies: Option<[Meeting; 2]>,
+}
+
+impl Moving {
+    /// The bodies of the first contact of `scene` in this `impact`, whose speed is along the path, with this `setting`.
+    fn of(scene: &Scene, impact: Impact, setting: &Setting, values: &[(&str, f64)]) -> Result<Moving, PredictError> {
+        let Impact { mass, speed } = impact;
+        let angle = setting.angle.to_radians();
+        let [along, across] = [speed * angle.cos(), speed * angle.sin()];
+        let (Some(meeting), Some(InverseMasses::Constant(entries))) = (&scene.meeting, &scene.inverse_masses) else {
+            let [impactor, _] = scene.bodies_with(0, values);
+            let radius = impactor.radius;
+            let inertia = setting.inertia.unwrap_or(SOLID_SPHERE * mass * radius * radius);
+            let before = Ball { mass, inertia, radius, normal: along, tangential: across, spin: setting.spin };
+            let masses = [1.0 / mass, 0.0, 1.0 / before.tangential_mass()];
+            return Ok(Moving { before, masses, rates: [along, before.slip()], bodies: None });
+        };
+        if mass != scene.impact_of(0).mass {
+            return Err(PredictError::OfBodies { name: "mass", value: mass, unit: "kg" });
+        }
+        if let Some(value) = setting.inertia {
+            return Err(PredictError::OfBodies { name: "inertia", value, unit: "kg.m^2" });
+        }
+        // the ground doesn't move: the other one does, and sees both directions turned round
+        let [first, second] = meeting.clone();
+        let turned = |body: Meeting| Meeting {
+            turns: body.turns.map(std::ops::Neg::neg),
+            arms: body.arms.map(std::ops::Neg::neg),
+            ..body
+        };
+        let bodies = if first.name == GROUND { [turned(second), turned(first)] } else { [first, second] };
+        let [body, _] = &bodies;
+        let spin = setting.spin;
+        let before = Ball {
+            mass: body.mass,
+            inertia: if body.turns[1] == 0.0 { f64::INFINITY } else { body.arms[1] / body.turns[1] },
+            radius: body.arms[1],
+            normal: along,
+            tangential: across,
+            spin,
+        };
+        let [normal, tangent, rows] = [0, scene.contact_count(), scene.rows()];
+        let entry = |one, other| entries[place(rows, one, other)];
+        let masses = [entry(normal, normal), entry(normal, tangent), entry(tangent, tangent)];
+        let rates = [along + spin * body.arms[0], across + spin * body.arms[1]];
+        Ok(Moving { before, masses, rates, bodies: Some(bodies) })
+    }
 }
 
 /// The law of `choice` with friction, for these values of parameters of the scene's bodies.
@@ -181,9 +295,37 @@ pub fn rough(
 }
 
 impl Outcome {
+    /// The outcome after bodies have `met`, which are those of tables or a ball on a target that doesn't move.
+    fn after(self, met: &tangential::impact::Meeting, bodies: Option<&[Meeting; 2]>) -> Outcome {
+        let [normal, tangential] = met.impulses;
+        let spun = |body: &Meeting| normal * body.turns[0] + tangential * body.turns[1];
+        let before = self.before;
+        let slowed = bodies.map_or(tangential * before.radius / before.inertia, |[body, _]| spun(body));
+        let ball = Ball {
+            normal: before.normal - normal / before.mass,
+            tangential: before.tangential - tangential / before.mass,
+            spin: before.spin - slowed,
+            ..before
+        };
+        let struck = bodies
+            .filter(|[_, other]| other.mass < f64::INFINITY)
+            .map(|[_, other]| Struck { speeds: met.impulses.map(|impulse| impulse / other.mass), spin: spun(other) });
+        let rates = [self.rates[0], met.rates];
+        let taken = |row: usize| 0.5 * met.impulses[row] * (rates[0][row] + rates[1][row]);
+        let rebound = Rebound {
+            ball,
+            friction_work: met.friction_work,
+            max_tangential_force: met.max_tangential_force,
+            sliding_part: met.sliding_part,
+            contact_time: met.contact_time,
+        };
+        Outcome { rebound, rates, energy_lost: taken(0) + taken(1), struck, ..self }
+    }
+
     /// Restitution along the normal.
     pub fn normal_restitution(&self) -> f64 {
-        -self.rebound.ball.normal / self.before.normal
+        let [before, after] = self.rates;
+        -after[0] / before[0]
     }
 
     /// Tangential speed of the centre after the impact over that before; NaN for a normal impact.
@@ -194,7 +336,8 @@ impl Outcome {
     /// Tangential speed of the contact point before the impact over that after, with the sign changed; NaN if there was
     /// none before.
     pub fn contact_point_restitution(&self) -> f64 {
-        -ratio(self.rebound.ball.slip(), self.before.slip())
+        let [before, after] = self.rates;
+        -ratio(after[1], before[1])
     }
 
     /// Angle of the rebound from the normal \[degrees\]; negative if the ball flies back.
@@ -207,16 +350,10 @@ impl Outcome {
         self.rebound.ball.tangential.hypot(self.rebound.ball.normal)
     }
 
-    /// Kinetic energy lost in all \[J\].
-    pub fn energy_lost(&self) -> f64 {
-        let normal = |ball: &Ball| 0.5 * ball.mass * ball.normal * ball.normal;
-        normal(&self.before) - normal(&self.rebound.ball) + self.rebound.friction_work
-    }
-
     /// The slip in words: "slides throughout", "sticks", or for which part of the contact time it slides.
     pub fn words(&self) -> String {
         match self.rebound.sliding_part {
-            _ if self.before.slip() == 0.0 && self.rebound.friction_work == 0.0 => "no slip".into(),
+            _ if self.rates[0][1] == 0.0 && self.rebound.friction_work == 0.0 => "no slip".into(),
             part if part > 0.999 => "slides throughout".into(),
             part if part < 5e-4 => "sticks, or slips partly, throughout".into(),
             part => format!("slides for {:.1} % of the contact time, else sticks or slips partly", 100.0 * part),
@@ -224,9 +361,9 @@ impl Outcome {
     }
 
     /// The quantities of the rebound: name, value, unit.
-    pub fn quantities(&self) -> [Quantity; 12] {
+    pub fn quantities(&self) -> Vec<Quantity> {
         let ball = &self.rebound.ball;
-        [
+        let own = [
             ("rebound angle", self.angle(), "deg"),
             ("rebound speed", self.speed(), "m/s"),
             ("normal rebound speed", -ball.normal, "m/s"),
@@ -237,9 +374,19 @@ impl Outcome {
             ("contact point restitution", self.contact_point_restitution(), ""),
             ("largest tangential force", self.rebound.max_tangential_force, "N"),
             ("friction work", self.rebound.friction_work, "J"),
-            ("energy lost", self.energy_lost(), "J"),
+            ("energy lost", self.energy_lost, "J"),
             ("sliding part", self.rebound.sliding_part, ""),
-        ]
+        ];
+        let struck = self.struck.map(|Struck { speeds: [normal, tangential], spin }| {
+            [
+                ("struck angle", tangential.atan2(normal).to_degrees(), "deg"),
+                ("struck speed", normal.hypot(tangential), "m/s"),
+                ("struck normal speed", normal, "m/s"),
+                ("struck tangential speed", tangential, "m/s"),
+                ("struck spin", spin, "rad/s"),
+            ]
+        });
+        own.into_iter().chain(struck.into_iter().flatten()).collect()
     }
 }
 

@@ -5,6 +5,7 @@ use crate::numbers::{cell, quantity};
 use crate::rods::Rod;
 use brinell_contact::losses::Loss;
 use brinell_contact::rate::Factors;
+use brinell_contact::validity::size_of;
 use brinell_contact::{OtherBody, Pair, TwoBodies};
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -178,6 +179,12 @@ impl Scene {
             poissons_ratio: value(body.poissons_ratio(), poissons_ratio),
         };
         [of(Body::Impactor, [f64::NAN, f64::INFINITY, 0.0]), of(Body::Target, [f64::INFINITY, f64::NAN, f64::NAN])]
+    }
+
+    /// The size of the smaller body of `group` \[m\], with other values for some of the parameters: its radius, or that of a rod.
+    pub fn size_with(&self, group: usize, values: &[(&str, f64)]) -> f64 {
+        let size = size_of(self.bodies_with(group, values).map(|body| body.radius));
+        self.contacts[group].rod_radius().map_or(size, |radius| size.min(radius))
     }
 
     /// The number `name` of `group`: the one in `values`, otherwise that of the scene.

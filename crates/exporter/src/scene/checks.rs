@@ -16,6 +16,7 @@ use crate::mistake::Spanned;
 use crate::mistake::{Mistake, positive};
 use crate::model::{check_energy, speed_of_height};
 use crate::numbers::in_message;
+use crate::predict::check_width;
 use crate::table::VARIABLES;
 use brinell_contact::damped::Damped;
 use brinell_contact::hardening::Hardening;
@@ -45,7 +46,7 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     }
     let loss = losses::check(&file, &contacts, laws.damped_name())?;
     let damps_by_mass = damped.filter(|(_, law)| law.needs_mass()).map(|(name, _)| name);
-    let inverse_masses = shared_bodies::check(&file, laws.damped_name())?;
+    let (inverse_masses, meeting) = shared_bodies::check(&file, laws.damped_name())?;
     let (coupling, known_mass) = fmu::check_coupling(file.coupling.as_ref(), damps_by_mass, inverse_masses.is_some())?;
     let beside = friction::BesideFriction {
         damped: laws.damped_name(),
@@ -108,6 +109,7 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         factors,
         coupling,
         inverse_masses,
+        meeting,
         directions,
         impact,
         predictions: Vec::new(),
@@ -183,6 +185,13 @@ fn settle(mut scene: Scene, contacts: &Contacts, place: &Range<usize>) -> Result
     let predictions = scene.by_bodies(predict).into_iter().enumerate();
     let predictions = predictions.map(|(group, prediction)| prediction.ok_or_else(|| no_prediction(group)));
     scene.predictions = predictions.collect::<Result<_, _>>()?;
+    // an impact that nobody has asked for may be
+    if !scene.impact_is_assumed {
+        for (group, prediction) in scene.predictions.iter().enumerate() {
+            let checked = check_width(&scene, group, scene.law_name(), &scene.impact_of(group), prediction, &[]);
+            checked.map_err(|error| Mistake(place.clone(), contacts.said(group, &error.to_string())))?;
+        }
+    }
     Ok(scene)
 }
 

@@ -113,6 +113,12 @@ impl Group {
         }
     }
 
+    /// Radius of the thinnest of its rods \[m\], as if it were round.
+    pub fn rod_radius(&self) -> Option<f64> {
+        let rods = [self.rods.impactor, self.rods.target].into_iter().flatten();
+        rods.map(|rod| rod.radius()).reduce(f64::min)
+    }
+
     /// The number of variables for the group's own `parameter`.
     pub fn variables_of(&self, parameter: &Parameter) -> usize {
         if parameter.per_contact { self.size() } else { 1 }

@@ -57,6 +57,12 @@ impl Inertia {
         definite.then_some(Inertia { pivots, lower: [yx, zx, zy] })
     }
 
+    /// The part along a unit vector `axis` of the spin that a `moment` gives the body \[1/(kg.m^2)\].
+    pub(super) fn turn(&self, axis: Vector, moment: Vector) -> f64 {
+        let [one, other] = [axis, moment].map(|vector| self.solved(vector));
+        (0..3).fold(0.0, |sum, k| sum + one[k] * other[k] / self.pivots[k])
+    }
+
     /// `L^-1` times a vector.
     fn solved(&self, [x, y, z]: Vector) -> Vector {
         let [yx, zx, zy] = self.lower;
@@ -102,7 +108,7 @@ impl End {
 /// Sine of the angle up to which two directions are parallel. It changes an effective mass by the square of that.
 const PARALLEL: f64 = 1e-9;
 
-fn dot(one: Vector, other: Vector) -> f64 {
+pub(super) fn dot(one: Vector, other: Vector) -> f64 {
     one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 }
 

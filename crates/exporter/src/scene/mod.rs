@@ -43,7 +43,7 @@ pub use inverse_masses::{InverseMasses, place};
 pub use losses::{Loss, WAVES};
 pub use names::{IDENTIFIER, any_case, is_no_name};
 pub use quantities::{PRODUCT, quantity_of};
-pub use shared_bodies::GROUND;
+pub use shared_bodies::{GROUND, Meeting};
 pub use strength::{Flow, InImpact, MODELS as RATE_MODELS, PowerLaw, Rate};
 
 /// Whether an FMU can have this `name`: a C identifier that every operating system accepts as a file name.
@@ -113,6 +113,8 @@ pub struct Scene {
     /// How the force of each contact accelerates the others, if they share bodies. The unit then moves these bodies: there is a
     /// `coupling`, and no effective mass of a contact by itself.
     pub inverse_masses: Option<InverseMasses>,
+    /// The two bodies of the first contact, if it has friction and its bodies are in tables.
+    pub meeting: Option<[Meeting; 2]>,
     /// Number of tangential directions, zero without friction.
     pub directions: usize,
     pub impact: Impact,
@@ -249,6 +251,11 @@ impl Scene {
     pub fn assumption(&self) -> &'static str {
         let knows_mass = self.coupling.is_some() && self.inverse_masses != Some(InverseMasses::Inputs);
         if knows_mass { "1 m/s is assumed" } else { "a solid impactor is assumed" }
+    }
+
+    /// The name of the loading law, or of the law whose force depends on the rate.
+    pub fn law_name(&self) -> &'static str {
+        self.damped.map_or(self.loading.0, |(name, _)| name)
     }
 
     /// The elastoplastic model of the first contact.

@@ -19,17 +19,31 @@ pub const GROUND: &str = "ground";
 /// Largest number of contacts of a unit whose bodies are shared. The matrix of the inverse masses grows with its square.
 const MOST_SHARING: usize = 256;
 
-/// The inverse effective masses of the scene `file`, if its contacts share bodies. `damped` is the name of a law whose force
-/// depends on the rate.
+/// A body of the first contact, in an impact on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meeting {
+    /// Its name.
+    pub name: String,
+    /// \[kg\]; infinite for the ground.
+    pub mass: f64,
+    /// How the force along the normal, and that along the first tangent, turn it about the axis across both: the change of the spin
+    /// \[rad/s\] by an impulse \[N.s\].
+    pub turns: [f64; 2],
+    /// How a spin about that axis moves its contact point along the normal, and along the tangent \[m\].
+    pub arms: [f64; 2],
+}
+
+/// The inverse effective masses of the scene `file`, if its contacts share bodies, and the two bodies of the first contact if it has
+/// friction. `damped` is the name of a law whose force depends on the rate.
 ///
 /// # Errors
 /// The first mistake in the bodies, or what doesn't go with them.
-pub fn check(file: &SceneFile, damped: Option<&str>) -> Result<Option<InverseMasses>, Mistake> {
+pub fn check(file: &SceneFile, damped: Option<&str>) -> Result<(Option<InverseMasses>, Option<[Meeting; 2]>), Mistake> {
     let inputs = file.coupling.as_ref().and_then(|coupling| coupling.get_ref().inverse_masses.as_ref());
-    let inverse_masses = match (&file.body, inputs) {
+    let (inverse_masses, meeting) = match (&file.body, inputs) {
         (None, None) => {
             refuse_ends(file, "needs tables [[body]], which say what the bodies weigh; the scene has none")?;
-            return Ok(None);
+            return Ok((None, None));
         }
         (Some(_), Some(inputs)) => {
             let message = "coupling.inverse_masses = \"input\" doesn't go with tables [[body]], from which the inverse masses \
@@ -43,7 +57,7 @@ pub fn check(file: &SceneFile, damped: Option<&str>) -> Result<Option<InverseMas
             )?;
             refuse_masses(file, "the masses are those of coupling.inverse_masses")?;
             check_count(inputs.span(), file)?;
-            InverseMasses::Inputs
+            (InverseMasses::Inputs, None)
         }
         (Some(bodies), None) => {
             refuse_masses(file, "the masses are those of the tables [[body]]")?;
@@ -61,7 +75,7 @@ pub fn check(file: &SceneFile, damped: Option<&str>) -> Result<Option<InverseMas
         }
     };
     refuse_rates(file, damped)?;
-    Ok(Some(inverse_masses))
+    Ok((Some(inverse_masses), meeting))
 }
 
 /// The number of tangential directions that the scene asks for, whether or not that is right.
@@ -190,6 +204,19 @@ impl<'a> Bodies<'a> {
         Ok(bodies)
     }
 
+    /// A body in an impact on a contact with these `axes`, the normal and a tangent, at this `arm`.
+    fn meeting(&self, body: Option<usize>, axes: [Vector; 2], arm: Vector) -> Meeting {
+        let Some(body) = body else {
+            return Meeting { name: GROUND.into(), mass: f64::INFINITY, turns: [0.0; 2], arms: [0.0; 2] };
+        };
+        let FreeBody { mass, inertia } = self.free[body];
+        let across = inverse_masses::cross(axes[0], axes[1]);
+        let arms = axes.map(|axis| inverse_masses::dot(across, inverse_masses::cross(arm, axis)));
+        let turns =
+            axes.map(|axis| inertia.map_or(0.0, |inertia| inertia.turn(across, inverse_masses::cross(arm, axis))));
+        Meeting { name: self.names[body].into(), mass, turns, arms }
+    }
+
     /// The two bodies of a `contact`.
     fn between(&self, contact: &Spanned<ContactTable>) -> Result<[Option<usize>; 2], Mistake> {
         let table = contact.get_ref();
@@ -281,8 +308,9 @@ fn of_bodies(
     tables: &[Spanned<SharedBodyTable>],
     contacts: &[Spanned<ContactTable>],
     directions: usize,
-) -> Result<InverseMasses, Mistake> {
+) -> Result<(InverseMasses, Option<[Meeting; 2]>), Mistake> {
     let bodies = Bodies::of(tables)?;
+    let mut meeting = None;
     let normals = contacts.iter().any(|contact| contact.get_ref().normal.is_some());
     let (mut all, mut touched) = (vec![Vec::new(); 1 + directions], HashSet::new());
     for contact in contacts {
@@ -297,8 +325,11 @@ fn of_bodies(
         let between = bodies.between(contact)?;
         touched.extend(between);
         let normal = if normals || directions > 0 { normal_of(contact)? } else { line_of(table)? };
-        let tangents = tangents_of(contact, normal, directions)?;
+        let tangents: Vec<_> = tangents_of(contact, normal, directions)?.collect();
         let arms = arms_of(table, between)?;
+        if let (None, Some(tangent)) = (&meeting, tangents.first()) {
+            meeting = Some([0, 1].map(|place| bodies.meeting(between[place], [normal, *tangent], arms[place])));
+        }
         for (rows, axis) in all.iter_mut().zip([normal].into_iter().chain(tangents)) {
             rows.push(ends_of(table, &bodies, between, (axis, arms))?);
         }
@@ -318,7 +349,7 @@ fn of_bodies(
             return Err(wrong(contact.get_ref(), contact.span(), &message));
         }
     }
-    Ok(matrix)
+    Ok((matrix, meeting))
 }
 
 /// The ends of a `contact` along an `axis`, its normal or a tangent, at the bodies `between` which it is and at these `arms`.

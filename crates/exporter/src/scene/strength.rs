@@ -528,6 +528,18 @@ impl Scene {
         Some(self.with_strengths(&found))
     }
 
+    /// The scene's first contact alone, with a `body` whose strength is so many times what a reading says. `None` if it is from no reading.
+    pub fn with_strength_of(mut self, body: Body, factor: f64) -> Option<Scene> {
+        self.contacts.truncate(1);
+        let mut measured = self.measured(0, body)?.clone();
+        measured.stress *= factor;
+        let flow = Flow::Measured(measured);
+        let flows = &mut self.contacts[0].flows;
+        let slot = if body == Body::Impactor { &mut flows.impactor } else { &mut flows.target };
+        *slot = (factor > 0.0).then(|| flow.into());
+        slot.is_some().then_some(self)
+    }
+
     /// The scene with the strengths that its bodies have under a slow load. A power law keeps the straight line of the
     /// scene's impact. `None` beyond the range of the law.
     pub fn under_slow_load(self) -> Option<Scene> {

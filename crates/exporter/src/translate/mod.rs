@@ -25,7 +25,7 @@ pub mod tools;
 
 use crate::layout;
 use crate::numbers::{in_message, significant};
-use crate::predict::{PredictError, beyond};
+use crate::predict::{PredictError, beyond, check_width, spread};
 use crate::scene::Scene;
 use crate::units;
 use crate::validity;
@@ -118,6 +118,8 @@ pub struct Translation {
     pub left_out: Vec<String>,
     /// What is to know of the scene.
     pub notes: Vec<String>,
+    /// What the uncertainty of a strength makes of the impact at the speed above.
+    pub spread: Option<serde_json::Value>,
 }
 
 /// One set of numbers.
@@ -177,7 +179,8 @@ pub fn translate(scene: &Scene, request: &Request) -> Result<Translation, Transl
         return Err(TranslateError::NoNumbers { tool: tool.title.clone(), why: left_out.join("; ") });
     }
     let Case { mass, speed, speeds, wanted, pair: _, law } = case;
-    let notes = sentences::of_scene(scene, (mass, &speeds, &wanted), request, tool);
+    let mut notes = sentences::of_scene(scene, (mass, &speeds, &wanted), request, tool);
+    notes.extend(spread::sentence(scene, &Impact { mass, speed }));
     let Tool { name, title, versions, reference, .. } = tool;
     let units = if request.millimetres { "mm-t-s" } else { "si" };
     Ok(Translation {
@@ -194,6 +197,7 @@ pub fn translate(scene: &Scene, request: &Request) -> Result<Translation, Transl
         ways,
         left_out,
         notes,
+        spread: spread::of_impact(scene, &Impact { mass, speed }).map(|(_, bands)| bands.json()),
     })
 }
 
@@ -222,7 +226,10 @@ impl Case {
             .collect();
         speeds.sort_by(f64::total_cmp);
         speeds.dedup_by(|one, other| (*one / *other - 1.0).abs() < 1e-9);
-        let wanted = speeds.iter().map(|speed| of_law(scene, Impact { mass, speed: *speed })).collect::<Result<_, _>>();
+        // beyond the scene's own speed the contact may be too wide, unless the user asks for it
+        let asks = |at: f64| request.speeds.is_some() || at == speed;
+        let of = |at: &f64| of_law(scene, Impact { mass, speed: *at }, asks(*at));
+        let wanted = speeds.iter().map(of).collect::<Result<_, _>>();
         let choices = crate::laws::choose(scene, &[]).expect("a scene has laws");
         let law = choices[0].laws.clone();
         Ok(Case { mass, speed, speeds, wanted: wanted?, pair: scene.any_model().pair(), law })
@@ -345,12 +352,15 @@ fn printed(value: f64) -> String {
     if value.is_finite() { significant(value, DIGITS) } else { "none".into() }
 }
 
-/// The outcome of an impact by the scene's law.
-fn of_law(scene: &Scene, impact: Impact) -> Result<Outcome, TranslateError> {
+/// The outcome of an impact by the scene's law. `is_asked` rejects one that makes the contact as wide as the smaller body.
+fn of_law(scene: &Scene, impact: Impact, is_asked: bool) -> Result<Outcome, TranslateError> {
     let beyond = || PredictError::Beyond { law: scene.name.clone(), mass: impact.mass, speed: impact.speed };
     crate::model::check_energy(&impact).map_err(PredictError::from)?;
     let own = scene.clone().with_strengths_for(Some(&impact)).ok_or_else(beyond)?;
     let prediction = own.any_model().predict(&impact).ok_or_else(beyond)?;
+    if is_asked {
+        check_width(&own, 0, own.law_name(), &impact, &prediction, &[])?;
+    }
     Ok(Outcome {
         restitution: prediction.restitution,
         largest_force: prediction.max_force,

@@ -75,6 +75,7 @@ fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
     match fault {
         Fault::NoPointContact { contact, .. }
         | Fault::TooDeep { contact, .. }
+        | Fault::TooWide { contact, .. }
         | Fault::TooLong { contact, .. }
         | Fault::UnknownMass { contact } => Some(contact),
         Fault::FixedParameter { index } | Fault::OutOfRange { index, .. } => S::settable(index)?.1,
@@ -205,6 +206,10 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             numbers[0] = indentation;
             "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
         }
+        Fault::TooWide { indentation, possible, .. } => {
+            (numbers[0], numbers[1]) = (indentation, possible);
+            "the indentation would become ~ m: from ~ m on the contact is as wide as the smaller body; is indentation_rate in m/s?"
+        }
         Fault::TooLong { step, .. } => {
             numbers[0] = step;
             "the bodies rebound too often to be followed within communicationStepSize = ~ s"
@@ -268,7 +273,7 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
         Warning::Deep { contact, indentation, allowed } => {
             message.contact = Some(contact);
             (message.numbers[0], message.numbers[1]) = (indentation, allowed);
-            "at an indentation of ~ m the contact radius is above 0.3 effective radii: the law is valid up to ~ m"
+            "at an indentation of ~ m the contact radius is above 0.3 effective radii, or 0.3 of the smaller body: the law is valid up to ~ m"
         }
         Warning::Fast { contact, rate, allowed } => {
             message.contact = Some(contact);

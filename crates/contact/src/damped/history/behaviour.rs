@@ -4,6 +4,7 @@ use super::{Damped, Factors, History, Model, Regime, Sum, TooDeep, within};
 use crate::behaviour::{Contact, slopes};
 use crate::path::Course;
 use crate::regime::LARGEST_INDENTATION;
+use crate::validity::Depths;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
@@ -129,8 +130,8 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         History { indentation: Sum::new(indentation), ..*self }
     }
 
-    fn valid_depth(model: &Model<D>) -> f64 {
-        model.valid_depth()
+    fn depths(model: &Model<D>, size: f64) -> Depths {
+        model.depths(size)
     }
 
     /// True: a large damping or heat may overflow.

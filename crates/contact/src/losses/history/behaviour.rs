@@ -7,6 +7,7 @@ use crate::loading::Loading;
 use crate::losses::{Loss, Model};
 use crate::path::Course;
 use crate::unloading::Unloading;
+use crate::validity::Depths;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
@@ -117,8 +118,8 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
         moved
     }
 
-    fn valid_depth(model: &Model<L, U, K>) -> f64 {
-        model.plastic.valid_depth()
+    fn depths(model: &Model<L, U, K>, size: f64) -> Depths {
+        model.plastic.depths(size)
     }
 
     /// True: a heat may overflow.
