@@ -80,7 +80,8 @@ def bands(
     """
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         unit, usual = scene.unit(Path(path), Path(folder), mass)
-        return _drawn(Library.of(unit), usual, uncertainty, speed, draws, seed)
+        with scene.naming(path, unit.name):
+            return _drawn(Library.of(unit), usual, uncertainty, speed, draws, seed)
 
 
 def _drawn(

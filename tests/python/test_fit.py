@@ -383,3 +383,47 @@ def test_the_scene_of_a_result_predicts_what_was_fitted(scene, tmp_path):
     again = [brinell.predict(path, speed=it).restitution for it in points["speed"]]
     assert again == pytest.approx(points["restitution"], rel=1e-4)
     assert brinell.export(path, tmp_path / "unit.fmu").exists()
+
+
+POOL = """\
+name = "pool"
+impactor = {{ radius = 28.575e-3, youngs_modulus = 5.84e9, poissons_ratio = 0.34 }}
+target = {{ radius = 28.575e-3, youngs_modulus = 5.84e9, poissons_ratio = 0.34, yield_strength = {} }}
+law = {{ loading = "brinell"{} }}
+friction = {{ coefficient = {} }}
+impact = {{ speed = 2.0 }}
+body = [
+  {{ name = "cue", mass = "170 g", inertia = 5.552e-5 }},
+  {{ name = "object", mass = "170 g", inertia = 5.552e-5 }},
+]
+[[contact]]
+name = "hit"
+between = ["cue", "object"]
+normal = [1, 0, 0]
+tangent = [0, 1, 0]
+arms = [[28.575e-3, 0, 0], [-28.575e-3, 0, 0]]
+"""
+
+
+def test_scenes_with_bodies_are_fitted_like_others(tmp_path):
+    true, start = tmp_path / "true.toml", tmp_path / "start.toml"
+    true.write_text(POOL.format("40e6", "", 0.2))
+    start.write_text(POOL.format("90e6", "", 0.2))
+    found = brinell.fit(start, rebounds(true, (1.0, 2.0, 4.0)))
+    close(found.values["target.yield_strength"], 40e6, 1e-4)
+
+
+def test_friction_of_bodies_is_fitted_with_their_masses_and_a_loss(tmp_path):
+    true, start = tmp_path / "true.toml", tmp_path / "start.toml"
+    loss = ", elastic_restitution = 0.95"
+    true.write_text(POOL.format("1e9", loss, 0.06))
+    start.write_text(POOL.format("1e9", loss, 0.2))
+    angles = [20.0, 40.0, 60.0]
+    table = brinell.sweep(true, {"angle": angles}, speed=2.0)
+    points = {
+        "angle [deg]": angles,
+        "speed [m/s]": [2.0] * 3,
+        "tangential restitution": table["tangential_restitution"].tolist(),
+    }
+    found = brinell.fit(start, points, parameters=["friction"])
+    close(found.values["friction.coefficient"], 0.06, 1e-3)

@@ -445,3 +445,43 @@ brinell.study({str(unit)!r}, {{"speed": "0.1:10:40"}}, mass=4e-3, output="x.csv"
 def test_progress_is_counted_in_runs(unit, capsys):
     quick(unit, {"speed": "1:2:7"}, progress=True)
     assert "7/7" in capsys.readouterr().err
+
+
+BODIES = """\
+name = "thrown"
+impactor = { radius = "5 mm", material = "mild steel" }
+target = { material = "mild steel" }
+friction = { coefficient = 0.3 }
+[[body]]
+name = "ball"
+mass = "4.1 g"
+inertia = 4.1e-8
+[[contact]]
+name = "floor"
+between = ["ball", "ground"]
+normal = [0, 0, -1]
+tangent = [1, 0, 0]
+arms = [[0, 0, -5e-3], []]
+[impact]
+speed = 1
+"""
+
+
+def test_a_study_of_a_scene_with_bodies_has_the_mass_of_its_contact(tmp_path):
+    path = tmp_path / "slope.toml"
+    path.write_text(BODIES)
+    table = brinell.study(path, {"speed": [0.5, 2.0]}, progress=False)
+    for speed, found in zip(table["speed"], table["restitution"], strict=True):
+        assert found == pytest.approx(brinell.predict(path, speed=speed).restitution, rel=1e-9)
+    assert set(table["mass"]) == {4.1e-3}
+    with pytest.raises(ContactError) as told:
+        brinell.study(path, {"target.strength": [1.0]}, progress=False)
+    assert str(told.value).startswith(f"{path} has no parameter 'target.strength'")
+
+
+def test_what_is_wrong_with_a_scene_that_was_made_names_the_file_of_the_user(tmp_path):
+    made = tmp_path / "made.toml"
+    made.write_text(BODIES.replace("speed = 1", "speed = -1"))
+    with pytest.raises(ProgramError) as told, scene.naming("mine.toml", made):
+        brinell.export(made, tmp_path / "unit.fmu")
+    assert str(told.value).startswith("mine.toml: impact.speed = -1"), told.value

@@ -1,5 +1,6 @@
 """Uncertainty forward: bands of predictions and studies."""
 
+import json
 import os
 import subprocess
 import sys
@@ -8,6 +9,7 @@ from pathlib import Path
 import brinell
 import numpy as np
 import pytest
+from brinell.program import run
 from brinell.studies import store
 from scipy import stats
 
@@ -102,3 +104,17 @@ def test_a_spread_that_can_not_be_is_told(spread, error, words):
 def test_several_laws_have_no_bands():
     with pytest.raises(ValueError, match="leave laws out"):
         brinell.predict(SCENE, laws=["brinell"], uncertainty={STRENGTH: "5 %"})
+
+
+def test_the_program_has_the_band_of_a_hardness(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        'name = "ball"\nimpactor = { radius = 5e-3 }\nimpact = { mass = 4e-3, speed = 1.0 }\n'
+        "[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n"
+        'hardness = "180 HBW"\nhardening_exponent = 0.0\nrate = { model = "johnson-cook", c = 0.0 }\n'
+    )
+    said = json.loads(run("predict", path)[0])["laws"][0]["spread"]
+    drawn = brinell.predict(path, uncertainty={STRENGTH: "8 %"}).bands.bands
+    for name in ("restitution", "dent"):
+        width = said[name][1] - said[name][0]
+        assert np.allclose(said[name], drawn[name], atol=0.03 * width), (name, said[name], drawn[name])

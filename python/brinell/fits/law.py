@@ -24,7 +24,7 @@ from ..errors import ContactError, ProgramError
 from ..library import Library
 from ..program import export, of_scene, options_of, predict, run, tables
 from ..studies.impacts import impact
-from ..studies.scene import OUTPUTS, of_impacts, toml
+from ..studies.scene import OUTPUTS, has_bodies, naming, of_impacts, toml
 from ..sweeps import sweep
 from .measured import Measured
 from .parameters import DEFAULTS, INSTRUMENT, RATES
@@ -59,6 +59,7 @@ class Law:
         loading: str | None = None,
     ) -> None:
         self.points = points
+        self._path = path
         self.rates: dict[str, dict[str, Any]] = {}
         """The strain rates of bodies whose strength was read from a test, with all their numbers."""
         self._of_impacts = points.kind == "impacts"
@@ -118,7 +119,8 @@ class Law:
         with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
             path = Path(folder) / "scene.toml"
             path.write_text(toml(data), encoding="utf-8")
-            library = Library.of(export(path, Path(folder) / "unit.fmu"))
+            with naming(self._path, path):
+                library = Library.of(export(path, Path(folder) / "unit.fmu"))
         parameters = (one for one in library.variables.values() if one.causality == "parameter")
         self._starts = {one.name: float(one.start) for one in parameters}
         self._contact = Contact(library)
@@ -203,6 +205,14 @@ class Law:
         radii = (f"{body}.radius" for body in ("impactor", "target"))
         return 1.0 / sum(1.0 / self._starts[name] for name in radii if name in self._starts)
 
+    @property
+    def size(self) -> float:
+        """The radius of the smaller body [m]: its own, or that of a rod's cross-section."""
+        radii = [f"{body}.radius" for body in ("impactor", "target")]
+        areas = [self._data[body]["area"] for body in ("impactor", "target") if "area" in self._data[body]]
+        own = [abs(self._starts[name]) for name in radii if name in self._starts]
+        return min(*own, *(float(np.sqrt(area / np.pi)) for area in areas), np.inf)
+
     # values
 
     def values(self, points: Measured, flow: Flow) -> dict[str, Numbers]:
@@ -227,7 +237,7 @@ class Law:
             else:
                 radii = 0.5 * self._by_unit(points, flow, ("dent_diameter",))["dent_diameter"]
         # beyond the range of the law, nothing is known
-        return ~(radii <= LARGEST_RADIUS_RATIO * self.radius)
+        return ~(radii <= LARGEST_RADIUS_RATIO * min(self.radius, self.size))
 
     def _own(self, flow: Flow) -> dict[str, float]:
         """The parameters of the FMU."""
@@ -388,13 +398,26 @@ class Law:
         data = self.changed(flow) | {"friction": self._friction | {"coefficient": flow["friction"]}}
         for key in ("coupling", "fmu"):
             data.pop(key, None)
+        together = has_bodies(self.scene)
+        if together:
+            if "mass" in points.arguments:
+                raise ValueError(
+                    f"{self._path}: the masses of oblique impacts are those of its tables [[body]]: "
+                    "leave the column of masses out"
+                )
+            first, *others = self.scene["contact"]
+            # what the first contact has of its own is in the tables of all already
+            first = {key: it for key, it in first.items() if key not in ("impactor", "target")}
+            data |= {"body": self.scene["body"], "contact": [first, *others]}
+            if "impact" in data:
+                data["impact"] = {key: it for key, it in data["impact"].items() if key != "mass"}
 
         def one(path: Path, index: int) -> list[float]:
             table = sweep(
                 path,
                 {"angle": [float(angles[index])]},
                 speed=float(speeds[index]),
-                mass=float(masses[index]),
+                mass=None if together else float(masses[index]),
                 friction=flow["friction"],
             )
             return [float(table[name][0]) for name in names]
@@ -452,14 +475,15 @@ def strengths_of(readings: tuple[str, ...], path: str | Path, law: Law) -> Numbe
             one = Path(folder) / "scene.toml"
             data = scene | {law.body: own | {"hardness": reading}}
             one.write_text(toml(data), encoding="utf-8")
-            found[reading] = _flow_stress(one)
+            with naming(path, one):
+                found[reading] = _flow_stress(one)
     return np.array([found[it] for it in readings])
 
 
 def _flow_stress(path: Path) -> float:
     strength = _strength(path)
     if strength is None:
-        raise ValueError(f"{path}: the program gives no strength for this reading")
+        raise ProgramError(f"{path}: the program gives no strength for this reading")
     return float(strength["yield_strength"] / strength["factor"])
 
 

@@ -304,7 +304,9 @@ def _outside(problem: Problem, wide: NDArray[np.bool_], left_out: int) -> str | 
     count = int(np.count_nonzero(wide))
     if not count:
         return None
-    words = f"The contact radius exceeds {LARGEST_RADIUS_RATIO} effective radii, where no law is valid, at "
+    narrow = problem.law.size < problem.law.radius
+    of = "of the smaller body's radius" if narrow else "effective radii"
+    words = f"The contact radius exceeds {LARGEST_RADIUS_RATIO} {of}, where no law is valid, at "
     words += f"{count} of {len(wide)} points"
     if left_out:
         return f"{words}: they were left out."

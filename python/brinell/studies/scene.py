@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from ..program import export, tables
+from ..errors import ContactError, ProgramError
+from ..program import export, of_scene, tables
 
 OUTPUTS = ["indentation", "max_indentation", "residual_indentation", "dissipated_energy"]
 
@@ -21,17 +24,43 @@ def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str,
     data = tables(scene)
     impact = dict(data.get("impact", {}))
     known = mass or impact.get("mass") or data.get("coupling", {}).get("effective_mass")
+    if known is None and has_bodies(data):
+        # the effective mass of the first contact follows from its bodies
+        known = json.loads(of_scene("predict", scene)[0])["mass"]
     if known is None:
         raise ValueError(f"{scene} has no [impact] with a mass: pass mass=, or vary it")
     path = folder / "scene.toml"
     path.write_text(toml(of_impacts(data, float(known))), encoding="utf-8")
     usual = {name: impact[name] for name in ("speed",) if name in impact}
-    return export(path, folder / "unit.fmu"), usual | {"mass": float(known)}
+    with naming(scene, path):
+        return export(path, folder / "unit.fmu"), usual | {"mass": float(known)}
+
+
+@contextmanager
+def naming(scene: str | Path, path: str | Path) -> Iterator[None]:
+    """Errors name the file `scene` instead of `path`, which was made of it: what is wrong there is wrong
+    in the scene, or doesn't go with what is asked for."""
+    try:
+        yield
+    except (ProgramError, ContactError) as error:
+        words = " ".join(str(error).split())
+        if str(path) not in words or Path(path).name == Path(scene).name:
+            raise
+        # lines are those of a text that nobody sees
+        words = re.sub(rf"{re.escape(str(path))}(:\d+)*", lambda _: str(scene), words)
+        raise type(error)(words) from error
+
+
+def has_bodies(data: Mapping[str, Any]) -> bool:
+    """Whether the masses are those of tables `[[body]]`."""
+    return bool(data.get("body"))
 
 
 def of_impacts(data: Mapping[str, Any], mass: float) -> dict[str, Any]:
     """The scene with one contact, a known mass, and all parameters settable."""
-    made = {key: value for key, value in data.items() if key not in ("contact", "fmu")}
+    # friction doesn't change the motion along the normal, which the mass of the contact determines
+    other = ("body", "contact", "fmu", "friction")
+    made = {key: value for key, value in data.items() if key not in other}
     first = data.get("contact", [{}])[0]
     for body in ("impactor", "target"):
         made[body] = {**data.get(body, {}), **first.get(body, {})}

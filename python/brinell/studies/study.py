@@ -92,11 +92,12 @@ def study(
         columns = _columns(values, {**usual, **fixed})
         # in memory until the end: processes that are forked have it without unpacking it again
         library = Library.of(unit)
-        if uncertainty:
-            known_names = dict.fromkeys(columns, 0.0)
-            for name, value in forward.centres(library, known_names, uncertainty).items():
-                columns.setdefault(name, np.full(len(next(iter(columns.values()))), value))
-        _check(library, columns)
+        with scene.naming(scene_file, unit.name):
+            if uncertainty:
+                known_names = dict.fromkeys(columns, 0.0)
+                for name, value in forward.centres(library, known_names, uncertainty).items():
+                    columns.setdefault(name, np.full(len(next(iter(columns.values()))), value))
+            _check(library, columns)
         names, rows = list(columns), np.column_stack(list(columns.values()))
         drawn = forward.spread(names, rows, uncertainty, draws, seed) if uncertainty else rows
         workers = workers or _workers(len(drawn), scheduler)
