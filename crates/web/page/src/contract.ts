@@ -66,6 +66,8 @@ export interface Prediction {
   rebound_speed: number;
   onsets: { regime_name: string; speed: number }[];
   warnings: string[];
+  /** What the uncertainty of a strength makes of some quantities: 95 % are within. */
+  spread: Record<string, [number, number]> | null;
 }
 
 export interface Predict {

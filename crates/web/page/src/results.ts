@@ -106,13 +106,19 @@ function card(test: string, label: string, value: string, more: string): HTMLEle
     h("dd", {}, h("b", {}, number), h("span", {}, unit.join(" ")), h("small", {}, more)));
 }
 
+/** The range that the uncertainty of a strength makes of a quantity, before what else a card says. */
+function range(law: Prediction, name: string, unit: string): string {
+  const [low, high] = law.spread?.[name] ?? [0, 0];
+  return high - low > 1e-9 * high ? `${format(low, unit, 3)} to ${format(high, unit, 3)}; ` : "";
+}
+
 function cards(law: Prediction): HTMLElement[] {
   const time = law.loading_time + law.unloading_time;
   return [
-    card("force", "Largest force", format(law.largest_force, "N"), `at ${format(law.largest_indentation, "m", 3)} of indentation`),
+    card("force", "Largest force", format(law.largest_force, "N"), `${range(law, "largest_force", "N")}at ${format(law.largest_indentation, "m", 3)} of indentation`),
     card("dent", "Dent", law.dent > 0 ? format(law.dent, "m") : "none",
-      law.dent > 0 ? `${format(2 * law.largest_contact_radius, "m", 3)} in diameter` : "no yielding"),
-    card("restitution", "Restitution", String(Number(law.restitution.toPrecision(4))), `leaves with ${format(law.rebound_speed, "m/s", 3)}`),
+      range(law, "dent", "m") + (law.dent > 0 ? `${format(2 * law.largest_contact_radius, "m", 3)} in diameter` : "no yielding")),
+    card("restitution", "Restitution", String(Number(law.restitution.toPrecision(4))), `${range(law, "restitution", "")}leaves with ${format(law.rebound_speed, "m/s", 3)}`),
     card("time", "Contact time", format(time, "s"), `${format(law.loading_time, "s", 3)} in, ${format(law.unloading_time, "s", 3)} out`),
     card("energy", "Energy lost", format(law.energy_lost, "J"), `${percent(law.energy_lost / law.kinetic_energy)} of ${format(law.kinetic_energy, "J", 3)}`),
     card("regime", "Regime", law.regime_name.replace(/ \(.*/, ""), /\((.*)\)/.exec(law.regime_name)?.[1] ?? (law.onsets.length ? "" : "at any speed")),
