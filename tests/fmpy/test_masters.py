@@ -116,6 +116,22 @@ def test_a_master_of_the_other_order_is_told_once_with_the_line_to_change(name, 
     assert len(master.told()) == 2, "and again after a reset"
 
 
+@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("size", [1e-6, 1e-3])
+@pytest.mark.parametrize(("share", "expected"), [
+    (0.5, "the rate follows 0.5 times mean_force: the master moves a mass of 0.008 kg, the FMU one of 0.004 kg; give the same to both"),
+    (0.0, ": the rate does not follow mean_force at all; apply it to the bodies, or, for a prescribed motion, leave out [coupling] in the"),
+])
+def test_a_master_that_moves_another_mass_or_applies_no_force_is_told_so(name, size, share, expected):
+    master = Master(name, name.split("_")[0], 1.0, gap=0.5 * size)
+    for _ in range(30):
+        before = master.speed
+        master.step(size)
+        master.speed = before + share * (master.speed - before)
+    (message,) = master.told()
+    assert expected in message
+
+
 def test_the_mass_is_a_tunable_parameter_and_an_input_to_the_same_effect():
     tuned, wired = Master("serial", "serial", 1.0), Master("serial_wired", "serial", 1.0)
     for count in range(60):
@@ -240,6 +256,21 @@ def test_steps_that_are_unstable_with_the_mass_of_the_impact_are_told_once():
     assert abs(speed) > 100.0
     told = [message for *_, category, message in contact.log if "unstable" in message and category == "logStatusWarning"]
     assert told == ["fmi2DoStep: steps of 0.002 s are unstable with a mass of 0.004 kg: make them shorter, or let the unit move it by [coupling]"]
+
+
+@pytest.mark.parametrize(("late", "expected"), [
+    (True, "fmi2DoStep: the master applies the force one step late: connect predicted_force, or step the contact first and connect force"),
+    (False, "fmi2DoStep: the master applies predicted_force one step early: connect force instead"),
+])
+def test_a_force_that_is_late_or_early_is_told_once(late, expected):
+    contact = unit("coupled").instance()
+    contact.initialize(initial_gap=1e-6)
+    speed, size = 1.0, 5e-7
+    for _ in range(60):
+        before = contact.get("force")
+        contact.step(size, rate=speed)
+        speed -= size * (before if late else contact.get("predicted_force")) / MASS
+    assert [message for *_, message in contact.log] == [expected]
 
 
 def test_a_prescribed_motion_of_the_same_length_is_not_told():

@@ -27,13 +27,18 @@ struct State {
     words: Vec<u64>,
     /// What the instance shows.
     shown: Vec<u64>,
-    /// The rates that an importer with the other order of execution would give next, if the unit moves the bodies [m/s].
-    other_order: Vec<f64>,
+    /// The rates that an importer with the other order of execution, and one that applies no force, would give next, if the unit moves
+    /// the bodies [m/s].
+    wrong: [Vec<f64>; 2],
 }
 
 impl State {
     fn of<S: Scene>(instance: &Instance<S>) -> State {
-        State { words: words(instance), shown: shown(instance), other_order: vec![0.1; S::contacts()] }
+        State {
+            words: words(instance),
+            shown: shown(instance),
+            wrong: [vec![0.1; S::contacts()], vec![0.1; S::contacts()]],
+        }
     }
 }
 
@@ -97,10 +102,11 @@ fn states<S: Scene>() -> Vec<State> {
                 let mass = if mass.is_nan() { S::impact_mass() } else { mass };
                 let acceleration = if acceleration.is_nan() { 0.0 } else { acceleration };
                 let applied = if is_parallel { force(instance, contact) } else { before };
-                rate + (acceleration - applied / mass) * length
+                (rate + (acceleration - applied / mass) * length, rate + acceleration * length)
             });
-            let speeds: Vec<f64> = speeds.collect();
-            State { other_order: if moves::<S>() { speeds } else { vec![0.1; S::contacts()] }, ..State::of(instance) }
+            let (other_order, unmoved): (Vec<f64>, Vec<f64>) = speeds.unzip();
+            let state = State::of(instance);
+            if moves::<S>() { State { wrong: [other_order, unmoved], ..state } } else { state }
         };
         (0..S::contacts()).for_each(|contact| set(&mut instance, contact, 1.0 + 0.1 * contact as f64, [0.3, -0.2]));
         instance.do_step(0.0, 2e-6).expect("within the range of the law");
@@ -157,9 +163,9 @@ fn step<S: Scene>(instance: &mut Instance<S>, rates: Option<&[f64]>, length: f64
 }
 
 /// What an instance with these `words` shows: at once; in two steps with the inputs that it has and in others, the last of them
-/// too long for a stop time; told by an importer with the other order of execution; and when the bodies part and meet again at
+/// too long for a stop time; told by importers that apply the force otherwise; and when the bodies part and meet again at
 /// the speed of the first impact. `None` if it refuses them.
-fn course<S: Scene>(words: &[u64], other_order: &[f64]) -> Option<Vec<u64>> {
+fn course<S: Scene>(words: &[u64], wrong: &[Vec<f64>; 2]) -> Option<Vec<u64>> {
     let mut instance = loaded::<S>(words)?;
     let mut all = shown(&instance);
     if instance.phase() != Phase::StepComplete {
@@ -179,9 +185,11 @@ fn course<S: Scene>(words: &[u64], other_order: &[f64]) -> Option<Vec<u64>> {
         }
     }
     for contact in (0..S::contacts()).filter(|_| moves::<S>()) {
-        let mut rates = vec![0.1; S::contacts()];
-        rates[contact] = other_order[contact];
-        step(&mut loaded::<S>(words)?, Some(&rates), 1e-7, &mut all);
+        for wrong in wrong {
+            let mut rates = vec![0.1; S::contacts()];
+            rates[contact] = wrong[contact];
+            step(&mut loaded::<S>(words)?, Some(&rates), 1e-7, &mut all);
+        }
     }
     let mut again = loaded::<S>(words)?;
     if S::has_input(Real::ExternalAcceleration) {
@@ -202,7 +210,7 @@ fn course<S: Scene>(words: &[u64], other_order: &[f64]) -> Option<Vec<u64>> {
 /// The words of an instance of `S` that don't matter in any state, although they are not the same in all.
 fn idle<S: Scene>() -> Vec<usize> {
     let states = states::<S>();
-    let course = |words: &[u64], state: &State| course::<S>(words, &state.other_order);
+    let course = |words: &[u64], state: &State| course::<S>(words, &state.wrong);
     let expected: Vec<Option<Vec<u64>>> = states.iter().map(|state| course(&state.words, state)).collect();
     let matters = |place: usize| {
         // those first in which the word is in use

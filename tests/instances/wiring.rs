@@ -1,11 +1,11 @@
 //! What a unit that moves its bodies notices of its master, and what can be set while it runs.
 
-use crate::masters::{MASS, Master, PATTERNS, Parallel, Serial, WiredParallel, WiredSerial, choice};
-use crate::physics::{Random, all_models, mild};
+use crate::masters::{MASS, Master, PATTERNS, Parallel, Pattern, Serial, WiredParallel, WiredSerial, choice};
+use crate::physics::{AnyModel, Random, all_models, mild};
 use crate::scenes::{Choice, Chosen, Massive, choose, ready, set_rate, words};
 use brinell_contact::Surface;
 use brinell_contact::impact::{Impact, predict};
-use brinell_fmu::instance::{Fault, Instance, Warning};
+use brinell_fmu::instance::{Cause, Fault, Instance, Warning};
 use brinell_fmu::scene::{Coupled, Present, Real, Scene};
 
 type SeveralWired = Chosen<Massive<Coupled<Present, Present, Present>>, 3, Present>;
@@ -34,16 +34,239 @@ fn a_master_of_the_other_order_of_execution_is_noticed_in_the_first_contact() {
                 let mut steps = |index: usize| size * pattern.factor(index, &mut random);
                 let what = format!("{name}, {size} s, {pattern:?}");
                 let found = notices(&mut Master::<Serial>::new(choice, true, false, 1.0, 0.0), 1000, &mut steps);
-                let Some(Warning::Miswired { parallel: false, .. }) = found else {
+                let Some(Warning::Miswired { cause: Cause::Order { parallel: false }, .. }) = found else {
                     panic!("{what}: a serial unit in a parallel master: {found:?}")
                 };
                 let found = notices(&mut Master::<Parallel>::new(choice, false, false, 1.0, 0.0), 1000, &mut steps);
-                let Some(Warning::Miswired { parallel: true, .. }) = found else {
+                let Some(Warning::Miswired { cause: Cause::Order { parallel: true }, .. }) = found else {
                     panic!("{what}: a parallel unit in a serial master: {found:?}")
                 };
             }
         }
     }
+}
+
+/// How an importer tells the FMU of gravity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Told {
+    Wired,
+    Derivative,
+    Not,
+}
+
+/// What an importer does, and the first impact in it.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    parallel: bool,
+    told: Told,
+    gravity: f64,
+    /// The part of the force that it applies.
+    share: f64,
+    size: f64,
+    pattern: Pattern,
+    speed: f64,
+    /// Number of steps before the contact.
+    flight: f64,
+}
+
+/// What else accelerates the bodies, without the FMU's knowledge.
+#[derive(Clone, Copy, Debug)]
+enum Disturbance {
+    None,
+    /// Forces that are switched, by up to a hundred thousand m/s^2.
+    Switched,
+    /// A spring of a thousand radians a second, and a damper.
+    Spring,
+    /// An importer that computes in single precision.
+    Rounded,
+}
+
+impl Row {
+    fn master<S: Scene>(&self, choice: Choice) -> Master<S> {
+        let Row { parallel, told, gravity, share, speed, .. } = *self;
+        let (told_of, untold) = if told == Told::Not { (0.0, gravity) } else { (gravity, 0.0) };
+        let master = Master::<S>::new(choice, parallel, told == Told::Wired, speed, told_of);
+        Master { untold, share, ..master }
+    }
+
+    fn choice(&self, model: &AnyModel) -> Choice {
+        let fall = self.speed + 0.5 * self.gravity * self.size * self.flight;
+        choice(model, Surface::Dented, fall * self.size * self.flight)
+    }
+
+    /// The first warning with its step, and the step with which the first impact is over: the bodies are apart and no force is left to
+    /// apply.
+    fn run<S: Scene>(&self, model: &AnyModel, count: usize, what: Disturbance) -> (Option<(usize, Warning)>, usize) {
+        let mut master = self.master::<S>(self.choice(model));
+        let (mut random, mut chance) = (Random(3), Random(29));
+        let (mut found, mut touched, mut over, mut way) = (None, false, count, 0.0);
+        for index in 0..count {
+            let step = self.size * self.pattern.factor(index, &mut random);
+            match what {
+                Disturbance::None => {}
+                Disturbance::Switched if chance.next() < 0.2 => {
+                    master.untold = (2.0 * chance.next() - 1.0) * 10f64.powf(7.0 * chance.next() - 2.0);
+                }
+                Disturbance::Switched => {}
+                Disturbance::Spring => {
+                    way += step * master.speed;
+                    master.untold = -1e6 * way - 100.0 * master.speed;
+                }
+                Disturbance::Rounded => master.speed = f64::from(master.speed as f32),
+            }
+            if master.speed.abs() > 100.0 {
+                break;
+            }
+            master.step(step);
+            found = found.or(master.instance.take_miswired().map(|warning| (index, warning)));
+            let pushes = [Real::Force, Real::MeanForce].into_iter().any(|output| master.get(output) != 0.0);
+            touched |= pushes;
+            if touched && !pushes {
+                over = over.min(index);
+            }
+            if found.is_some() {
+                break;
+            }
+        }
+        (found, over)
+    }
+
+    /// The same with the scene for this importer, or for the other order.
+    fn run_with(
+        &self,
+        for_parallel: bool,
+        model: &AnyModel,
+        count: usize,
+        what: Disturbance,
+    ) -> (Option<(usize, Warning)>, usize) {
+        match (for_parallel, self.told == Told::Wired) {
+            (false, false) => self.run::<Serial>(model, count, what),
+            (true, false) => self.run::<Parallel>(model, count, what),
+            (false, true) => self.run::<WiredSerial>(model, count, what),
+            (true, true) => self.run::<WiredParallel>(model, count, what),
+        }
+    }
+}
+
+/// Rows of every kind with a law each, whose bodies move on by the `share` of the force.
+fn rows(share: f64, mut each: impl FnMut(Row, &AnyModel)) {
+    let models: Vec<AnyModel> = all_models(mild()).into_iter().map(|(_, model)| model).collect();
+    let mut count = 0;
+    for parallel in [false, true] {
+        for told in [Told::Wired, Told::Derivative, Told::Not] {
+            for gravity in [0.0, 0.01, 9.81, 1000.0] {
+                for size in [1e-6, 3e-6, 3e-5, 3e-4, 2e-3] {
+                    for speed in [0.01, 1.0, 10.0] {
+                        for flight in [0.0, 0.4, 3.3] {
+                            count += 1;
+                            let pattern = PATTERNS[count % PATTERNS.len()];
+                            let model = &models[count % models.len()];
+                            each(Row { parallel, told, gravity, share, size, pattern, speed, flight }, model);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_other_order_of_execution_is_told_within_the_first_impact_whatever_else_accelerates_the_bodies() {
+    rows(1.0, |row, model| {
+        let (found, over) = row.run_with(!row.parallel, model, 400, Disturbance::None);
+        let Some((index, Warning::Miswired { cause: Cause::Order { parallel }, .. })) = found else {
+            panic!("{row:?}: {found:?}")
+        };
+        assert!(parallel != row.parallel && index <= over + 1, "{row:?}: step {index} of {over}, {parallel}");
+    });
+}
+
+#[test]
+fn the_right_order_of_execution_raises_no_alarm_whatever_else_accelerates_the_bodies() {
+    rows(1.0, |row, model| {
+        for what in [Disturbance::None, Disturbance::Switched, Disturbance::Spring, Disturbance::Rounded] {
+            let (found, _) = row.run_with(row.parallel, model, 300, what);
+            assert_eq!(found, None, "{row:?}, {what:?}");
+        }
+    });
+}
+
+#[test]
+fn a_spring_switched_forces_and_single_precision_hide_no_wrong_order() {
+    for what in [Disturbance::Switched, Disturbance::Spring, Disturbance::Rounded] {
+        rows(1.0, |row, model| {
+            // the momentum of a step is far above what the disturbance gives
+            if row.speed < 1.0 || row.size > 5e-6 {
+                return;
+            }
+            let (found, _) = row.run_with(!row.parallel, model, 400, what);
+            let Some((_, Warning::Miswired { cause: Cause::Order { parallel }, .. })) = found else {
+                panic!("{row:?}, {what:?}: {found:?}")
+            };
+            assert!(parallel != row.parallel, "{row:?}, {what:?}");
+        });
+    }
+}
+
+#[test]
+fn an_importer_that_moves_another_mass_or_none_is_told_so_and_nothing_else() {
+    for share in [0.0, 0.1, 0.5, 0.9, 2.0, 5.0, -1.0] {
+        rows(share, |row, model| {
+            // in the other order, that is told first
+            let orders = [false, true].into_iter().filter(|&order| share == 0.0 || order == row.parallel);
+            // a body that is drawn in leaves the range of the law
+            if share < 0.0 && (row.size > 5e-6 || row.speed > 1.0) {
+                return;
+            }
+            for for_parallel in orders {
+                let (found, _) = row.run_with(for_parallel, model, 300, Disturbance::None);
+                let Some((_, Warning::Miswired { cause, .. })) = found else {
+                    // a single change of the force tells no multiple
+                    let may_hide = share != 0.0 && (row.flight < 1.0 || row.size > 1e-5 || row.speed < 1.0);
+                    assert!(may_hide, "{row:?}, for_parallel {for_parallel}: {found:?}");
+                    continue;
+                };
+                let is_told = match cause {
+                    Cause::Unmoved => share == 0.0,
+                    Cause::Reversed => share < 0.0,
+                    Cause::Mass { moved, known } => (known / moved / share - 1.0).abs() < 1e-2,
+                    Cause::Order { .. } | Cause::Shared { .. } => false,
+                };
+                assert!(is_told, "{row:?}, for_parallel {for_parallel}: {cause:?}");
+            }
+        });
+    }
+}
+
+#[test]
+fn a_prescribed_motion_is_told_to_follow_no_force() {
+    // in and out, at once or with ramps
+    let held = |time: f64| if time < 1e-4 { 0.1 } else { -0.1 };
+    let ramp = |time: f64| 0.1 - 1e3 * time;
+    for motion in [&held as &dyn Fn(f64) -> f64, &ramp] {
+        for size in [1e-7, 1e-6, 1e-5, 3e-5] {
+            for parallel in [false, true] {
+                let found = if parallel { follows::<Parallel>(motion, size) } else { follows::<Serial>(motion, size) };
+                assert_eq!(found, Some(Cause::Unmoved), "{size} s, parallel {parallel}");
+            }
+        }
+    }
+}
+
+/// What a scene says of a prescribed rate [m/s].
+fn follows<S: Scene>(motion: &dyn Fn(f64) -> f64, size: f64) -> Option<Cause> {
+    choose(default_choice(0.0));
+    let mut instance = ready::<S>();
+    (0..1000).find_map(|index| {
+        let time = f64::from(index) * size;
+        set_rate(&mut instance, 0, motion(time).max(-0.1));
+        let now = instance.time();
+        instance.do_step(now, size).unwrap();
+        instance.take_miswired().map(|warning| match warning {
+            Warning::Miswired { cause, .. } => cause,
+            other => panic!("{other:?}"),
+        })
+    })
 }
 
 /// An importer with forces that the FMU does not know: constant and arbitrary, large and small.

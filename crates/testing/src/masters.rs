@@ -51,12 +51,17 @@ pub struct Master<S: Scene> {
     pub speed: f64,
     /// Acceleration by all forces except the contact force \[m/s^2\].
     pub acceleration: f64,
+    /// A further one of which it doesn't tell \[m/s^2\].
+    pub untold: f64,
+    /// The part of the contact force that it applies.
+    pub share: f64,
 }
 
 impl<S: Scene> Master<S> {
     pub fn new(choice: Choice, parallel: bool, wired: bool, speed: f64, acceleration: f64) -> Master<S> {
         choose(choice);
-        Master { instance: ready::<S>(), parallel, wired, mass: choice.effective_mass, speed, acceleration }
+        let (instance, mass) = (ready::<S>(), choice.effective_mass);
+        Master { instance, parallel, wired, mass, speed, acceleration, untold: 0.0, share: 1.0 }
     }
 
     pub fn get(&self, output: Real) -> f64 {
@@ -75,7 +80,7 @@ impl<S: Scene> Master<S> {
         let time = self.instance.time();
         self.instance.do_step(time, step).expect("the bodies can be followed");
         let force = if self.parallel { before } else { self.get(Real::MeanForce) };
-        self.speed += step * (self.acceleration - force / self.mass);
+        self.speed += step * (self.acceleration + self.untold - self.share * force / self.mass);
     }
 
     /// Whether the bodies are apart and separating, and the importer knows their speed.

@@ -11,7 +11,7 @@ use brinell_exporter::numbers::quantity;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::prebuilt::{Library, PrebuiltUnit};
 use brinell_exporter::scene::{InverseMasses, Scene, place};
-use brinell_fmu::instance::{Fault, Warning};
+use brinell_fmu::instance::{Cause, Fault, Warning};
 use brinell_fmu::scene::Real;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -438,7 +438,7 @@ fn refusal(fault: &Fault) -> String {
 /// A warning in words.
 fn words(warning: &Warning) -> String {
     match warning {
-        Warning::Miswired { rate, expected, parallel, .. } => {
+        Warning::Miswired { rate, expected, cause: Cause::Order { parallel }, .. } => {
             let [is, should] = if *parallel { ["at once", "one step late"] } else { ["one step late", "at once"] };
             format!(
                 "the FMU warns: it was made for a master that applies its force {should}, and this one applies it {is} \
@@ -447,6 +447,11 @@ fn words(warning: &Warning) -> String {
                 quantity(*expected, "m/s")
             )
         }
+        Warning::Miswired { rate, expected, .. } => format!(
+            "the FMU warns: the bodies don't move as it expects (rate {}, expected {})",
+            quantity(*rate, "m/s"),
+            quantity(*expected, "m/s")
+        ),
         Warning::Deep { indentation, allowed, .. } => format!(
             "the FMU warns: the contact is wider than its law allows ({}, allowed {})",
             quantity(*indentation, "m"),
@@ -454,6 +459,10 @@ fn words(warning: &Warning) -> String {
         ),
         Warning::Unstable { step, .. } => {
             format!("the FMU warns: steps of {} are too long for this way to couple", quantity(*step, "s"))
+        }
+        Warning::Untimely { late } => {
+            let when = if *late { "late" } else { "early" };
+            format!("the FMU warns: the master applies the force one step {when}")
         }
         Warning::Fast { rate, allowed, .. } => format!(
             "the FMU warns: {} is fast, and elastic waves count above {}",

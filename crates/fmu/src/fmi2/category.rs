@@ -30,7 +30,8 @@ pub const DEEP: u8 = 8;
 /// The bit of [`Warning::Fast`](crate::instance::Warning::Fast).
 pub const FAST: u8 = 16;
 
-/// The bit of [`Warning::Miswired`](crate::instance::Warning::Miswired).
+/// The bit of [`Warning::Miswired`](crate::instance::Warning::Miswired) and, in a scene that does not move its bodies, of
+/// [`Warning::Untimely`](crate::instance::Warning::Untimely).
 pub const MISWIRED: u8 = 32;
 /// The bit of [`Warning::Unstable`](crate::instance::Warning::Unstable).
 pub const UNSTABLE: u8 = 64;

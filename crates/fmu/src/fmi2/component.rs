@@ -111,8 +111,12 @@ impl<S: Scene> Component<S> {
     #[inline(never)]
     pub fn warn_of_limits(&mut self, function: Function) {
         if let Some(warning) = self.instance.take_deep() {
-            let long = S::Watch::IS_PRESENT && matches!(warning, Warning::Unstable { .. });
-            self.warn(function, if long { UNSTABLE } else { DEEP }, &warning);
+            let bit = match warning {
+                Warning::Unstable { .. } if S::Watch::IS_PRESENT => UNSTABLE,
+                Warning::Untimely { .. } if S::Watch::IS_PRESENT => MISWIRED,
+                _ => DEEP,
+            };
+            self.warn(function, bit, &warning);
         }
         if let Some(warning) = self.instance.find_fast() {
             self.warn(function, FAST, &warning);

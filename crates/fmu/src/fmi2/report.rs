@@ -2,7 +2,7 @@
 
 use crate::c::complaint::Complaint;
 use crate::c::text::Text;
-use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, SWIFTEST, Warning};
+use crate::instance::{Cause, FASTEST, Fault, LATEST, MASSES, Phase, SWIFTEST, Warning};
 use crate::scene::{Coupling, Presence, Real, Scene, Settable};
 use brinell_contact::Contact;
 use brinell_contact::shared::NotInverseMasses;
@@ -284,6 +284,12 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             (message.numbers[0], message.numbers[1]) = (step, mass);
             "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
+        Warning::Untimely { late } if S::Watch::IS_PRESENT => match late {
+            true => {
+                "the master applies the force one step late: connect predicted_force, or step the contact first and connect force"
+            }
+            false => "the master applies predicted_force one step early: connect force instead",
+        },
         // a library contains no text for features that its scene lacks
         _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired::<S>(&mut message, *warning),
         _ => GUARD,
@@ -294,36 +300,50 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
 /// The template for what the passivity guard does.
 const GUARD: &str = "@";
 
-/// The template for an importer with the other order of execution or with bodies that contacts share, otherwise that of the
-/// passivity guard.
+/// The template for an importer that does not move the bodies as the scene assumes, otherwise that of the passivity guard.
 fn miswired<S: Scene>(message: &mut Message, warning: Warning) -> &'static str {
-    let Warning::Miswired { contact, rate, expected, parallel, shared_with } = warning else { return GUARD };
+    let Warning::Miswired { contact, rate, expected, cause } = warning else { return GUARD };
     message.contact = Some(contact);
     (message.numbers[0], message.numbers[1]) = (rate, expected);
-    if S::contacts() > 1
-        && let Some(other) = shared_with
-    {
-        message.numbers[2] = other as f64 + 1.0;
-        return match () {
-            () if S::inverse_mass_inputs() > 0 => {
-                "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one otherwise than the \
-                 inputs inverse_mass say; set them from the masses of the bodies"
+    match cause {
+        Cause::Order { parallel: true } => {
+            "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
+             master = \"parallel\" under [coupling] in the scene"
+        }
+        Cause::Order { parallel: false } => {
+            "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force one step late; write \
+             master = \"parallel\" under [coupling] in the scene"
+        }
+        Cause::Unmoved => {
+            "indentation_rate = ~ m/s, expected ~ m/s: the rate does not follow mean_force at all; apply it to the bodies, or, for a \
+             prescribed motion, leave out [coupling] in the scene"
+        }
+        Cause::Reversed => {
+            "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force in the wrong direction; it pushes the bodies apart"
+        }
+        Cause::Mass { moved, known } => {
+            (message.numbers[0], message.numbers[1], message.numbers[2]) = (known / moved, moved, known);
+            "the rate follows ~ times mean_force: the master moves a mass of ~ kg, the FMU one of ~ kg; give the same to both, or, if other \
+             contacts push the body too, tables [[body]] in the scene"
+        }
+        // there is no other one
+        Cause::Shared { .. } if S::contacts() == 1 => "",
+        Cause::Shared { with } => {
+            message.numbers[2] = with as f64 + 1.0;
+            match () {
+                () if S::inverse_mass_inputs() > 0 => {
+                    "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one otherwise than the \
+                     inputs inverse_mass say; set them from the masses of the bodies"
+                }
+                () if S::is_shared() => {
+                    "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one otherwise than the \
+                     tables [[body]] of the scene say"
+                }
+                () => {
+                    "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one, too, and this FMU \
+                     moves the bodies of each contact alone; give tables [[body]] in the scene, and `between` in each [[contact]]"
+                }
             }
-            () if S::is_shared() => {
-                "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one otherwise than the \
-                 tables [[body]] of the scene say"
-            }
-            () => {
-                "indentation_rate = ~ m/s, expected ~ m/s: the force of contact number ~ moves a body of this one, too, and this FMU \
-                 moves the bodies of each contact alone; give tables [[body]] in the scene, and `between` in each [[contact]]"
-            }
-        };
-    }
-    if parallel {
-        "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
-         master = \"parallel\" under [coupling] in the scene"
-    } else {
-        "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force one step late; write \
-         master = \"parallel\" under [coupling] in the scene"
+        }
     }
 }

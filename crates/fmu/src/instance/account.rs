@@ -22,25 +22,27 @@ pub(super) struct Ending {
     /// Change of speed that the change of this force causes in a step of the same length \[m/s\]. An importer with the other
     /// order of execution adds or subtracts it.
     pub jump: f64,
+    /// The rate that the importer gives next if it applies no contact force \[m/s\].
+    pub free: f64,
 }
 
 impl Ending {
     /// Number of words that hold an ending.
-    pub const WORDS: usize = 3;
+    pub const WORDS: usize = 4;
 
     /// A contact before any motion, with this `force` \[N\].
     pub fn start(force: f64) -> Ending {
-        Ending { speed: 0.0, force, jump: 0.0 }
+        Ending { speed: 0.0, force, jump: 0.0, free: 0.0 }
     }
 
     pub fn save(&self, store: &mut impl FnMut(u64)) {
-        store_numbers(&[self.speed, self.force, self.jump], store);
+        store_numbers(&[self.speed, self.force, self.jump, self.free], store);
     }
 
     /// The ending that [`Ending::save`] has stored; `None` if a word is not a finite number.
     pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Ending> {
-        let [speed, force, jump] = load_numbers(words)?;
-        Some(Ending { speed, force, jump })
+        let [speed, force, jump, free] = load_numbers(words)?;
+        Some(Ending { speed, force, jump, free })
     }
 }
 
@@ -83,15 +85,6 @@ impl Account {
         Some(Account { debt, span })
     }
 }
-
-/// A change below this fraction of the speeds, or of the force, does not reveal the order of execution.
-const TELLING: f64 = 1e-6;
-
-/// Two forces that differ by this part are not the same one.
-const DIFFERENT: f64 = 1e-2;
-
-/// Rounding error of the importer's own sums, as a fraction of such a change.
-const ROUNDING: f64 = 1e-8;
 
 impl<S: Scene> Instance<S> {
     /// Effective mass of `contact` \[kg\]. Of contacts that share bodies, it is that of this contact alone.
@@ -137,14 +130,19 @@ impl<S: Scene> Instance<S> {
     /// Records the end of a `step` \[s\] of `contact`: its `speed` \[m/s\] and its `mean_force` \[N\].
     pub(super) fn end_step(&mut self, contact: usize, speed: f64, mean_force: f64, step: f64) {
         let mass = self.mass(contact);
-        let change = self.book(contact, speed, mean_force, step);
+        let slope = self.contacts.curves.as_ref().get(contact).map_or(0.0, |curve| curve.slope);
+        let change = self.book(contact, speed, mean_force, self.acceleration(contact, slope), step);
         if let Some(ending) = self.contacts.endings.as_mut().get_mut(contact) {
             ending.jump = change / mass;
         }
     }
 
-    /// Records the end of a step except for the jump, and returns the change of the impulse of a step that causes it \[N.s\].
-    pub(super) fn book(&mut self, row: usize, speed: f64, mean_force: f64, step: f64) -> f64 {
+    /// Records the end of a step with this `acceleration` by all other forces \[m/s^2\], except for the jump, and returns the change of
+    /// the impulse of a step that causes it \[N.s\].
+    pub(super) fn book(&mut self, row: usize, speed: f64, mean_force: f64, acceleration: f64, step: f64) -> f64 {
+        let rate = self.given_rate(row);
+        let free = rate + acceleration * step;
+        let free = if free.is_finite() { free } else { rate };
         let Contacts { endings, accounts, .. } = &mut self.contacts;
         let Some(ending) = endings.as_mut().get_mut(row) else { return 0.0 };
         let account = accounts.as_mut().get_mut(row).filter(|_| S::is_parallel());
@@ -153,100 +151,7 @@ impl<S: Scene> Instance<S> {
             None => mean_force,
         };
         let change = force - ending.force;
-        *ending = Ending { speed, force, jump: 0.0 };
-        // of bodies at rest, it is as large as the rounding of the importer
-        if change.abs() > TELLING * force.abs() { change * step } else { 0.0 }
+        *ending = Ending { speed, force, jump: 0.0, free };
+        change * step
     }
-
-    /// Checks whether the rate of `contact` for the next step comes from an importer with the other order of execution.
-    pub(super) fn check_wiring(&mut self, contact: usize) {
-        let (Some(ending), Some(&rate)) = (self.contacts.endings.as_ref().get(contact), self.rates().get(contact))
-        else {
-            return;
-        };
-        let expected = ending.speed + self.owed(contact);
-        // a serial importer has already applied the new force, a parallel one still the old force
-        let other = if S::is_parallel() { -ending.jump } else { ending.jump };
-        let size = rate.abs() + ending.speed.abs() + expected.abs();
-        if other.abs() > TELLING * size && (rate - expected - other).abs() <= ROUNDING * other.abs() {
-            let wiring = Miswired { contact: contact as u32 + 1, rate, expected, other: 0 };
-            self.contacts.miswired.as_mut().fill(wiring);
-        }
-    }
-
-    /// The warning, once, that the last step began with the rate of an importer with the other order of execution.
-    pub fn take_miswired(&mut self) -> Option<Warning> {
-        let Miswired { contact, rate, expected, other } = core::mem::take(self.contacts.miswired.as_mut().first_mut()?);
-        let contact = contact.checked_sub(1)? as usize;
-        let shared_with = other.checked_sub(1).map(|other| other as usize);
-        Some(Warning::Miswired { contact, rate, expected, parallel: S::is_parallel(), shared_with })
-    }
-
-    /// Looks for contacts that share a body of which the FMU does not know, or with another mass than it knows: in two steps, the rate of a contact
-    /// differs from the expected one by the same multiple of the force of another contact, which alone pushes.
-    pub(super) fn check_sharing(&mut self) {
-        if S::contacts() < 2 || !S::moves() {
-            return;
-        }
-        let mut pushing = None;
-        let mut count = 0_usize;
-        let Contacts { endings, suspects, .. } = &mut self.contacts;
-        for (contact, (ending, suspect)) in endings.as_ref().iter().zip(suspects.as_mut()).enumerate() {
-            let applied = if S::is_parallel() { suspect.before } else { ending.force };
-            suspect.before = ending.force;
-            if applied != 0.0 {
-                pushing = Some((contact, applied));
-                count += 1;
-            }
-        }
-        let Some((other, force)) = pushing.filter(|_| count == 1) else { return };
-        for contact in (0..S::contacts()).filter(|&contact| contact != other) {
-            let (Some(ending), Some(&rate)) = (self.contacts.endings.as_ref().get(contact), self.rates().get(contact))
-            else {
-                continue;
-            };
-            let expected = ending.speed + self.owed(contact);
-            let (beyond, size) = (rate - expected, rate.abs() + ending.speed.abs() + expected.abs());
-            let tells = beyond.abs() > TELLING * size;
-            let ratio = quotient(beyond, force, tells, 0.0);
-            let Some(suspect) = self.contacts.suspects.as_mut().get_mut(contact) else { continue };
-            let same = suspect.other == other as u32 + 1 && (ratio - suspect.ratio).abs() <= ROUNDING * ratio.abs();
-            let differs = (force - suspect.force).abs() > DIFFERENT * force.abs();
-            // the same force tells nothing new
-            if !tells || same && !differs {
-                continue;
-            }
-            let (contact, other) = (contact as u32 + 1, other as u32 + 1);
-            *suspect = Suspect { other, ratio, force, before: suspect.before };
-            if same {
-                self.contacts.miswired.as_mut().fill(Miswired { contact, rate, expected, other });
-            }
-        }
-    }
-}
-
-/// A contact whose rate came from an importer with the other order of execution, until the warning is taken.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Miswired {
-    /// The contact, counted from 1; 0 is none.
-    contact: u32,
-    /// The rate that was given \[m/s\].
-    rate: f64,
-    /// The rate that was expected \[m/s\].
-    expected: f64,
-    /// The contact whose force moves its body, counted from 1; 0 if the order is the reason.
-    other: u32,
-}
-
-/// A contact whose rate was not the expected one when another one pushed.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Suspect {
-    /// The other contact, counted from 1; 0 is none.
-    other: u32,
-    /// Difference of the rate over the force of the other contact \[m/(N.s)\].
-    ratio: f64,
-    /// That force \[N\].
-    force: f64,
-    /// Force of this contact before the last step \[N\].
-    before: f64,
 }

@@ -170,8 +170,7 @@ pub enum Warning {
         /// The indentation up to which the law is valid \[m\].
         allowed: f64,
     },
-    /// The importer applies the force in another order than the scene assumes, or two contacts share a body of which the FMU does not
-    /// know.
+    /// The importer does not move the bodies as the scene assumes.
     Miswired {
         /// The contact, counted from 0.
         contact: usize,
@@ -179,10 +178,8 @@ pub enum Warning {
         rate: f64,
         /// The expected rate \[m/s\].
         expected: f64,
-        /// Whether the scene is for an importer that steps all FMUs at once.
-        parallel: bool,
-        /// Another contact, counted from 0, whose force moves a body of this one, if that is the reason.
-        shared_with: Option<usize>,
+        /// How it moves them.
+        cause: Cause,
     },
     /// A step beyond the stability limit of a mass that responds to the force.
     Unstable {
@@ -190,6 +187,11 @@ pub enum Warning {
         step: f64,
         /// The mass of the scene's impact \[kg\].
         mass: f64,
+    },
+    /// A mass follows the force of another step, which makes its rebound less accurate.
+    Untimely {
+        /// Whether that is the step before; otherwise it is the one after, which is predicted.
+        late: bool,
     },
     /// A contact closes so fast that elastic waves are not negligible.
     Fast {
@@ -199,5 +201,31 @@ pub enum Warning {
         rate: f64,
         /// The rate up to which the law is valid \[m/s\].
         allowed: f64,
+    },
+}
+
+/// What an importer does otherwise than the scene assumes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cause {
+    /// It applies the force in the other order of execution.
+    Order {
+        /// Whether the scene is for an importer that steps all FMUs at once.
+        parallel: bool,
+    },
+    /// It applies no contact force.
+    Unmoved,
+    /// It applies the force in the wrong direction.
+    Reversed,
+    /// It moves another mass, or other contacts push the body, too.
+    Mass {
+        /// The mass that it moves \[kg\].
+        moved: f64,
+        /// The mass that the FMU moves \[kg\].
+        known: f64,
+    },
+    /// The force of another contact moves a body of this one.
+    Shared {
+        /// The other contact, counted from 0.
+        with: usize,
     },
 }

@@ -16,14 +16,15 @@ mod stepping;
 mod together;
 mod validity;
 mod variables;
+mod wiring;
 
 pub use clock::{LATEST, Phase, SHORTEST};
-pub use fault::{Fault, Warning};
+pub use fault::{Cause, Fault, Warning};
 pub use stepping::Plain;
 
 use crate::c::span::Free;
 use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
-use account::{Account, Ending, Miswired, Suspect};
+use account::{Account, Ending};
 use brinell_contact::behaviour::is_finite_at;
 use brinell_contact::shared::Work;
 use brinell_contact::{Contact, Depths, TooDeep};
@@ -31,6 +32,7 @@ use clock::Clock;
 use coupling::{Curve, Momentum};
 use stability::Watched;
 use start::{Bodies, BodiesOf, model_of};
+use wiring::{Evidence, Miswired, Suspect};
 
 /// The largest absolute value of the rate of an input \[m/s\].
 pub const FASTEST: f64 = 1e40;
@@ -67,6 +69,8 @@ struct Contacts<S: Scene> {
     /// Number of next steps to examine.
     looks: <S::Watch as Presence>::Of<u32, [u32; 1]>,
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
+    /// What the steps so far say of the importer.
+    evidence: IfPresent<<S::Coupling as Coupling>::Ending, S, Evidence>,
     /// What is known of bodies that contacts share without the FMU's knowledge.
     suspects: IfPresent<<S::Coupling as Coupling>::Ending, S, Suspect>,
     /// Moments of the impulses of the last step, if contacts share bodies \[N.s^2\].
@@ -109,6 +113,7 @@ macro_rules! arrays {
         $each!((contacts.accelerations) S::accelerations());
         $each!((contacts.masses) S::masses());
         $each!((contacts.watched) S::watched());
+        $each!((contacts.evidence) S::moved_contacts());
         $each!((contacts.suspects) S::moved_contacts());
         $each!((contacts.moments) S::shared_rows());
         $each!((contacts.inverse_masses) S::inverse_mass_inputs());
@@ -309,7 +314,8 @@ impl<S: Scene> Instance<S> {
         // moved bodies have their speed from the start
         for row in 0..S::rows() {
             let rate = self.given_rate(row);
-            self.contacts.endings.as_mut().get_mut(row).into_iter().for_each(|ending| ending.speed = rate);
+            let ending = self.contacts.endings.as_mut().get_mut(row);
+            ending.into_iter().for_each(|ending| (ending.speed, ending.free) = (rate, rate));
         }
         self.set_phase(Phase::StepComplete);
         // a contact may begin at any indentation

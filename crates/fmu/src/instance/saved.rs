@@ -79,6 +79,7 @@ impl<S: Scene> Instance<S> {
             put_all(own.curves.as_mut(), given.curves.as_ref());
         }
         self.clock = other.clock;
+        self.forget_importer();
         if S::guard().is_some() {
             // what has been told of the other contacts is not known here
             self.look();
@@ -215,6 +216,7 @@ impl<S: Scene> Instance<S> {
         self.contacts.last_step.as_mut().fill(last_step);
         // the earlier warnings are not known here
         self.look();
+        self.forget_importer();
         self.note_forces();
         Some(())
     }

@@ -1,4 +1,4 @@
-//! Detects an importer with steps that are too long for the contact force.
+//! Detects an importer with steps that are too long for the contact force, or that applies it one step late or early.
 //!
 //! An explicit importer that moves a mass under the contact force is stable for steps of up to `2 sqrt(m/K)`. Beyond
 //! this limit the mass gains energy in every step. A prescribed motion is exact for any step. The rate of a coupled
@@ -30,12 +30,16 @@ const PATIENCE: u32 = 200;
 /// Larger forces, stiffnesses, inverse masses and inverse steps are not examined: their products may overflow.
 const LARGEST: f64 = 1e90;
 
-/// Stored in place of the contact number for a step that was too long; no contact has this number.
+/// Stored in place of the contact number for a step that was too long, or a force that comes late or early; no contact has these
+/// numbers.
 pub(super) const UNSTABLE: u32 = u32::MAX;
+pub(super) const LATE: u32 = UNSTABLE - 1;
+pub(super) const EARLY: u32 = UNSTABLE - 2;
 
 /// Number of forces that an importer may have applied over a step: the new one, the old one, their mean, the new one
-/// extrapolated by half a step, and the mean force output of the contact.
-const KINDS: usize = 5;
+/// extrapolated by half a step, the mean force output of the contact, the same of the step before, and the force predicted for the
+/// step after.
+const KINDS: usize = 7;
 
 /// The last examined step of a contact.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,6 +60,8 @@ pub(super) struct Watched {
     long: f64,
     /// Number of long steps in which the rate changed without responding to the force.
     unanswered: u32,
+    /// 1 if a force that comes late or early has been found.
+    found: u32,
 }
 
 /// The next step of a contact.
@@ -74,27 +80,41 @@ pub(super) struct Ahead<'a, C> {
 }
 
 impl Watched {
-    /// Whether the rates \[m/s\] of the step `ahead` and of the last step respond to the contact force, which is now
+    /// Whether the rates \[m/s\] of the step `ahead` and of the last step respond to each kind of contact force, which is now
     /// `start` times the mass \[m/s^2\].
-    fn answers<C>(&mut self, ahead: &Ahead<C>, start: f64, mean: f64) -> bool {
+    fn answers<C>(&mut self, ahead: &Ahead<C>, start: f64, mean: f64, next: f64) -> [bool; KINDS] {
         let change = (ahead.rate - self.rate) / self.step;
-        let applied = [start, self.start, 0.5 * (start + self.start), 1.5 * start - 0.5 * self.start, mean];
-        let mut answers = false;
+        let [.., last_mean, _, _] = self.applied;
+        let trapezoid = 0.5 * (start + self.start);
+        let applied = [start, self.start, trapezoid, 1.5 * start - 0.5 * self.start, mean, last_mean, next];
+        let mut answers = [false; KINDS];
         let kinds = self.applied.iter_mut().zip(&mut self.others).zip(applied);
-        for ((last, others), applied) in kinds {
+        for (((last, others), applied), answers) in kinds.zip(&mut answers) {
             let size = if applied.abs() > last.abs() { applied.abs() } else { last.abs() };
             let differs = (applied - *last).abs() > CHANGE * size;
-            answers |= differs && (change + applied - *others).abs() <= ROUNDING * size;
+            *answers = differs && (change + applied - *others).abs() <= ROUNDING * size;
             (*last, *others) = (applied, change + applied);
         }
         answers
     }
 
+    /// What is found, once, if the rate responds to the force of the step before or after, and to no other.
+    fn untimely(&mut self, answers: [bool; KINDS]) -> Option<Deep> {
+        let contact = match answers {
+            [false, true, false, false, false, false, false] => LATE,
+            [false, false, false, false, false, true, false] => LATE,
+            [false, false, false, false, false, false, true] => EARLY,
+            _ => return None,
+        };
+        let found = core::mem::replace(&mut self.found, 1);
+        (found == 0).then_some(Deep { contact, indentation: self.step })
+    }
+
     /// Examines the step `ahead` of a contact: whether this step, or a recent one, is longer than the stable limit
-    /// while the rate responds to the force. Returns that step \[s\]. `looks` is the number of next steps to examine.
+    /// while the rate responds to the force, or the force comes late or early. `looks` is the number of next steps to examine.
     #[cold]
     #[inline(never)]
-    fn look<S: Scene>(&mut self, looks: &mut u32, ahead: &Ahead<S::Contact>) -> Option<f64> {
+    fn look<S: Scene>(&mut self, looks: &mut u32, ahead: &Ahead<S::Contact>) -> Option<Deep> {
         let &Ahead { history, rate, time, step, end, mean_force } = ahead;
         let mass = S::impact_mass();
         // a prebuilt library that examines nothing has no room for it
@@ -114,10 +134,17 @@ impl Watched {
         let start = force / mass;
         let ratio = step * step * stiffness / mass;
         let is_long = force > 0.0 && ratio > STABLE;
-        let mut answers = false;
+        let (mut answers, mut untimely) = (false, None);
         if follows {
             let last = self.rate;
-            answers = self.answers(ahead, start, mean_force / mass);
+            // the force predicted from this rate; only on a branch, where that is quick
+            let mut next = *history;
+            let predicts = S::Prediction::IS_PRESENT && next.short_step(last * self.step);
+            let predicted = if predicts { next.force(last) } else { force };
+            let predicted = if predicted < LARGEST { predicted } else { force };
+            let all = self.answers(ahead, start, mean_force / mass, predicted / mass);
+            answers = all.contains(&true);
+            untimely = self.untimely(all);
             self.unanswered = self.unanswered.saturating_add(u32::from(is_long && rate != last && !answers));
         } else {
             // the step before is unknown, and nothing is equal to it
@@ -132,7 +159,8 @@ impl Watched {
         if (ratio > NEARLY || touches) && self.unanswered < PATIENCE {
             *looks = LOOKS;
         }
-        (answers && self.long > 0.0).then_some(self.long)
+        let is_unstable = answers && self.long > 0.0;
+        if is_unstable { Some(Deep { contact: UNSTABLE, indentation: self.long }) } else { untimely }
     }
 }
 
@@ -145,8 +173,7 @@ pub(super) fn watch<S: Scene>(
     ahead: &Ahead<S::Contact>,
 ) -> Option<Deep> {
     let watched = watched.as_mut().get_mut(contact)?;
-    let long = watched.look::<S>(looks.as_mut().first_mut()?, ahead)?;
-    Some(Deep { contact: UNSTABLE, indentation: long })
+    watched.look::<S>(looks.as_mut().first_mut()?, ahead)
 }
 
 impl<S: Scene> Instance<S> {

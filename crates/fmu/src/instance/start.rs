@@ -120,6 +120,7 @@ impl<S: Scene> Instance<S> {
                 accelerations: Store::filled(0.0),
                 masses: Store::filled(f64::NAN),
                 miswired: Store::filled(Miswired::default()),
+                evidence: Store::filled(Evidence::default()),
                 suspects: Store::filled(Suspect::default()),
                 watched: Store::filled(Watched::default()),
                 looks: Store::filled(0),
@@ -221,6 +222,7 @@ impl<S: Scene> Instance<S> {
         suspects.as_mut().fill(Suspect::default());
         watched.as_mut().fill(Watched::default());
         looks.as_mut().fill(0);
+        self.forget_importer();
         self.note_forces();
         Ok(())
     }

@@ -275,7 +275,7 @@ impl<S: Scene> Instance<S> {
         self.clock.curved |= !Self::is_plain();
         self.check_sharing();
         for contact in 0..S::contacts() {
-            self.check_wiring(contact);
+            self.check_wiring(contact, step);
             let Moved { mut history, course, mean_force, speed, deepest } = self.moved(contact, step)?;
             self.end_step(contact, speed, mean_force, step);
             let Depths { valid, possible } = self.depths(contact);

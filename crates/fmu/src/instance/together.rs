@@ -55,7 +55,7 @@ impl<S: Scene> Instance<S> {
             let (contact, direction) = Self::place_of(row);
             let slope = match direction {
                 None => {
-                    self.check_wiring(contact);
+                    self.check_wiring(contact, step);
                     self.contacts.curves.as_ref().get(contact).map_or(0.0, |curve| curve.slope)
                 }
                 Some(direction) => {
@@ -77,7 +77,8 @@ impl<S: Scene> Instance<S> {
                 None => (work.impulse(), work.moment()),
                 Some(direction) => (work.tangential_impulse(direction), work.tangential_moment(direction)),
             };
-            let change = self.book(row, rate, impulse / step, step);
+            let acceleration = self.number(Number::Acceleration, row);
+            let change = self.book(row, rate, impulse / step, acceleration, step);
             self.note(Number::Change, row, change);
             self.contacts.moments.as_mut().get_mut(row).into_iter().for_each(|slot| *slot = moment);
             if direction.is_none() {

@@ -120,8 +120,17 @@ impl<S: Scene> Instance<S> {
     /// The warning about that contact, once.
     pub fn take_deep(&mut self) -> Option<Warning> {
         let contact = core::mem::take(&mut self.deep.contact).checked_sub(1)? as usize;
-        if S::Watch::IS_PRESENT && contact + 1 == stability::UNSTABLE as usize {
-            return Some(Warning::Unstable { step: self.deep.indentation, mass: S::impact_mass() });
+        if S::Watch::IS_PRESENT {
+            let found = contact as u32 + 1;
+            match found {
+                stability::UNSTABLE => {
+                    return Some(Warning::Unstable { step: self.deep.indentation, mass: S::impact_mass() });
+                }
+                stability::LATE | stability::EARLY => {
+                    return Some(Warning::Untimely { late: found == stability::LATE });
+                }
+                _ => {}
+            }
         }
         Some(Warning::Deep { contact, indentation: self.deep.indentation, allowed: self.depths(contact).valid })
     }
