@@ -124,7 +124,7 @@ def test_a_master_of_the_other_order_is_told_once_with_the_line_to_change(name, 
 ])
 def test_a_master_that_moves_another_mass_or_applies_no_force_is_told_so(name, size, share, expected):
     master = Master(name, name.split("_")[0], 1.0, gap=0.5 * size)
-    for _ in range(30):
+    for _ in range(100):
         before = master.speed
         master.step(size)
         master.speed = before + share * (master.speed - before)
