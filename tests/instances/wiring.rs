@@ -210,14 +210,10 @@ fn a_spring_switched_forces_and_single_precision_hide_no_wrong_order() {
 
 #[test]
 fn an_importer_that_moves_another_mass_or_none_is_told_so_and_nothing_else() {
-    for share in [0.0, 0.1, 0.5, 0.9, 2.0, 5.0, -1.0] {
+    for share in [0.0, 0.1, 0.5, 0.9, 2.0, 5.0] {
         rows(share, |row, model| {
             // in the other order, that is told first
             let orders = [false, true].into_iter().filter(|&order| share == 0.0 || order == row.parallel);
-            // a body that is drawn in leaves the range of the law
-            if share < 0.0 && (row.size > 5e-6 || row.speed > 1.0) {
-                return;
-            }
             for for_parallel in orders {
                 let (found, _) = row.run_with(for_parallel, model, 300, Disturbance::None);
                 let Some((_, Warning::Miswired { cause, .. })) = found else {
@@ -228,7 +224,6 @@ fn an_importer_that_moves_another_mass_or_none_is_told_so_and_nothing_else() {
                 };
                 let is_told = match cause {
                     Cause::Unmoved => share == 0.0,
-                    Cause::Reversed => share < 0.0,
                     Cause::Mass { moved, known } => (known / moved / share - 1.0).abs() < 1e-2,
                     Cause::Order { .. } | Cause::Shared { .. } => false,
                 };

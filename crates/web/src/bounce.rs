@@ -460,10 +460,7 @@ fn words(warning: &Warning) -> String {
         Warning::Unstable { step, .. } => {
             format!("the FMU warns: steps of {} are too long for this way to couple", quantity(*step, "s"))
         }
-        Warning::Untimely { late } => {
-            let when = if *late { "late" } else { "early" };
-            format!("the FMU warns: the master applies the force one step {when}")
-        }
+        Warning::Late => "the FMU warns: the master applies the force one step late".into(),
         Warning::Fast { rate, allowed, .. } => format!(
             "the FMU warns: {} is fast, and elastic waves count above {}",
             quantity(*rate, "m/s"),

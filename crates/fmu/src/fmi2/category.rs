@@ -31,7 +31,7 @@ pub const DEEP: u8 = 8;
 pub const FAST: u8 = 16;
 
 /// The bit of [`Warning::Miswired`](crate::instance::Warning::Miswired) and, in a scene that does not move its bodies, of
-/// [`Warning::Untimely`](crate::instance::Warning::Untimely).
+/// [`Warning::Late`](crate::instance::Warning::Late).
 pub const MISWIRED: u8 = 32;
 /// The bit of [`Warning::Unstable`](crate::instance::Warning::Unstable).
 pub const UNSTABLE: u8 = 64;

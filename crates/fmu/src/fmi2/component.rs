@@ -113,7 +113,7 @@ impl<S: Scene> Component<S> {
         if let Some(warning) = self.instance.take_deep() {
             let bit = match warning {
                 Warning::Unstable { .. } if S::Watch::IS_PRESENT => UNSTABLE,
-                Warning::Untimely { .. } if S::Watch::IS_PRESENT => MISWIRED,
+                Warning::Late if S::Watch::IS_PRESENT => MISWIRED,
                 _ => DEEP,
             };
             self.warn(function, bit, &warning);

@@ -284,12 +284,9 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             (message.numbers[0], message.numbers[1]) = (step, mass);
             "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
-        Warning::Untimely { late } if S::Watch::IS_PRESENT => match late {
-            true => {
-                "the master applies the force one step late: connect predicted_force, or step the contact first and connect force"
-            }
-            false => "the master applies predicted_force one step early: connect force instead",
-        },
+        Warning::Late if S::Watch::IS_PRESENT => {
+            "the master applies the force one step late: connect predicted_force, or step the contact first and connect force"
+        }
         // a library contains no text for features that its scene lacks
         _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired::<S>(&mut message, *warning),
         _ => GUARD,
@@ -317,9 +314,6 @@ fn miswired<S: Scene>(message: &mut Message, warning: Warning) -> &'static str {
         Cause::Unmoved => {
             "indentation_rate = ~ m/s, expected ~ m/s: the rate does not follow mean_force at all; apply it to the bodies, or, for a \
              prescribed motion, leave out [coupling] in the scene"
-        }
-        Cause::Reversed => {
-            "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force in the wrong direction; it pushes the bodies apart"
         }
         Cause::Mass { moved, known } => {
             (message.numbers[0], message.numbers[1], message.numbers[2]) = (known / moved, moved, known);

@@ -188,11 +188,8 @@ pub enum Warning {
         /// The mass of the scene's impact \[kg\].
         mass: f64,
     },
-    /// A mass follows the force of another step, which makes its rebound less accurate.
-    Untimely {
-        /// Whether that is the step before; otherwise it is the one after, which is predicted.
-        late: bool,
-    },
+    /// A mass follows the force of the step before, which makes its rebound less accurate.
+    Late,
     /// A contact closes so fast that elastic waves are not negligible.
     Fast {
         /// The contact, counted from 0.
@@ -214,8 +211,6 @@ pub enum Cause {
     },
     /// It applies no contact force.
     Unmoved,
-    /// It applies the force in the wrong direction.
-    Reversed,
     /// It moves another mass, or other contacts push the body, too.
     Mass {
         /// The mass that it moves \[kg\].

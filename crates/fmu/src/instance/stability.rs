@@ -1,4 +1,4 @@
-//! Detects an importer with steps that are too long for the contact force, or that applies it one step late or early.
+//! Detects an importer with steps that are too long for the contact force, or that applies it one step late.
 //!
 //! An explicit importer that moves a mass under the contact force is stable for steps of up to `2 sqrt(m/K)`. Beyond
 //! this limit the mass gains energy in every step. A prescribed motion is exact for any step. The rate of a coupled
@@ -30,16 +30,13 @@ const PATIENCE: u32 = 200;
 /// Larger forces, stiffnesses, inverse masses and inverse steps are not examined: their products may overflow.
 const LARGEST: f64 = 1e90;
 
-/// Stored in place of the contact number for a step that was too long, or a force that comes late or early; no contact has these
-/// numbers.
+/// Stored in place of the contact number for a step that was too long, or a force that comes late; no contact has these numbers.
 pub(super) const UNSTABLE: u32 = u32::MAX;
 pub(super) const LATE: u32 = UNSTABLE - 1;
-pub(super) const EARLY: u32 = UNSTABLE - 2;
 
 /// Number of forces that an importer may have applied over a step: the new one, the old one, their mean, the new one
-/// extrapolated by half a step, the mean force output of the contact, the same of the step before, and the force predicted for the
-/// step after.
-const KINDS: usize = 7;
+/// extrapolated by half a step, the mean force output of the contact, and the same of the step before.
+const KINDS: usize = 6;
 
 /// The last examined step of a contact.
 #[derive(Clone, Copy, Debug, Default)]
@@ -60,7 +57,7 @@ pub(super) struct Watched {
     long: f64,
     /// Number of long steps in which the rate changed without responding to the force.
     unanswered: u32,
-    /// 1 if a force that comes late or early has been found.
+    /// 1 if a force that comes late has been found.
     found: u32,
 }
 
@@ -82,11 +79,11 @@ pub(super) struct Ahead<'a, C> {
 impl Watched {
     /// Whether the rates \[m/s\] of the step `ahead` and of the last step respond to each kind of contact force, which is now
     /// `start` times the mass \[m/s^2\].
-    fn answers<C>(&mut self, ahead: &Ahead<C>, start: f64, mean: f64, next: f64) -> [bool; KINDS] {
+    fn answers<C>(&mut self, ahead: &Ahead<C>, start: f64, mean: f64) -> [bool; KINDS] {
         let change = (ahead.rate - self.rate) / self.step;
-        let [.., last_mean, _, _] = self.applied;
+        let [.., last_mean, _] = self.applied;
         let trapezoid = 0.5 * (start + self.start);
-        let applied = [start, self.start, trapezoid, 1.5 * start - 0.5 * self.start, mean, last_mean, next];
+        let applied = [start, self.start, trapezoid, 1.5 * start - 0.5 * self.start, mean, last_mean];
         let mut answers = [false; KINDS];
         let kinds = self.applied.iter_mut().zip(&mut self.others).zip(applied);
         for (((last, others), applied), answers) in kinds.zip(&mut answers) {
@@ -98,20 +95,16 @@ impl Watched {
         answers
     }
 
-    /// What is found, once, if the rate responds to the force of the step before or after, and to no other.
-    fn untimely(&mut self, answers: [bool; KINDS]) -> Option<Deep> {
-        let contact = match answers {
-            [false, true, false, false, false, false, false] => LATE,
-            [false, false, false, false, false, true, false] => LATE,
-            [false, false, false, false, false, false, true] => EARLY,
-            _ => return None,
-        };
-        let found = core::mem::replace(&mut self.found, 1);
-        (found == 0).then_some(Deep { contact, indentation: self.step })
+    /// What is found, once, if the rate responds to a force of the step before, and to no other.
+    fn late(&mut self, answers: [bool; KINDS]) -> Option<Deep> {
+        let is_late =
+            matches!(answers, [false, true, false, false, false, false] | [false, false, false, false, false, true]);
+        let is_new = is_late && core::mem::replace(&mut self.found, 1) == 0;
+        is_new.then_some(Deep { contact: LATE, indentation: self.step })
     }
 
     /// Examines the step `ahead` of a contact: whether this step, or a recent one, is longer than the stable limit
-    /// while the rate responds to the force, or the force comes late or early. `looks` is the number of next steps to examine.
+    /// while the rate responds to the force, or the force comes late. `looks` is the number of next steps to examine.
     #[cold]
     #[inline(never)]
     fn look<S: Scene>(&mut self, looks: &mut u32, ahead: &Ahead<S::Contact>) -> Option<Deep> {
@@ -134,17 +127,12 @@ impl Watched {
         let start = force / mass;
         let ratio = step * step * stiffness / mass;
         let is_long = force > 0.0 && ratio > STABLE;
-        let (mut answers, mut untimely) = (false, None);
+        let (mut answers, mut late) = (false, None);
         if follows {
             let last = self.rate;
-            // the force predicted from this rate; only on a branch, where that is quick
-            let mut next = *history;
-            let predicts = S::Prediction::IS_PRESENT && next.short_step(last * self.step);
-            let predicted = if predicts { next.force(last) } else { force };
-            let predicted = if predicted < LARGEST { predicted } else { force };
-            let all = self.answers(ahead, start, mean_force / mass, predicted / mass);
+            let all = self.answers(ahead, start, mean_force / mass);
             answers = all.contains(&true);
-            untimely = self.untimely(all);
+            late = self.late(all);
             self.unanswered = self.unanswered.saturating_add(u32::from(is_long && rate != last && !answers));
         } else {
             // the step before is unknown, and nothing is equal to it
@@ -160,7 +148,7 @@ impl Watched {
             *looks = LOOKS;
         }
         let is_unstable = answers && self.long > 0.0;
-        if is_unstable { Some(Deep { contact: UNSTABLE, indentation: self.long }) } else { untimely }
+        if is_unstable { Some(Deep { contact: UNSTABLE, indentation: self.long }) } else { late }
     }
 }
 

@@ -121,14 +121,11 @@ impl<S: Scene> Instance<S> {
     pub fn take_deep(&mut self) -> Option<Warning> {
         let contact = core::mem::take(&mut self.deep.contact).checked_sub(1)? as usize;
         if S::Watch::IS_PRESENT {
-            let found = contact as u32 + 1;
-            match found {
+            match contact as u32 + 1 {
                 stability::UNSTABLE => {
                     return Some(Warning::Unstable { step: self.deep.indentation, mass: S::impact_mass() });
                 }
-                stability::LATE | stability::EARLY => {
-                    return Some(Warning::Untimely { late: found == stability::LATE });
-                }
+                stability::LATE => return Some(Warning::Late),
                 _ => {}
             }
         }

@@ -185,7 +185,7 @@ impl Evidence {
             () if other >= ENOUGH && leads(other, none, mass) => Some(1.0),
             () if none >= ENOUGH && leads(none, other, mass) => Some(0.0),
             () if self.mass.certain.product() >= ENOUGH && leads(mass, other, none) => {
-                self.mass.earlier.share().filter(|share| (share - 1.0).abs() > DIFFERENT)
+                self.mass.earlier.share().filter(|share| *share > DIFFERENT && (share - 1.0).abs() > DIFFERENT)
             }
             () => None,
         }
@@ -258,8 +258,7 @@ impl<S: Scene> Instance<S> {
         let cause = match other.checked_sub(1) {
             Some(other) => Cause::Shared { with: other as usize },
             None if share == 1.0 => Cause::Order { parallel: S::is_parallel() },
-            None if share.abs() <= DIFFERENT => Cause::Unmoved,
-            None if share < 0.0 => Cause::Reversed,
+            None if share == 0.0 => Cause::Unmoved,
             None => Cause::Mass { moved: self.mass(contact) / share, known: self.mass(contact) },
         };
         Some(Warning::Miswired { contact, rate, expected, cause })
