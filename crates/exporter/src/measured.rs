@@ -210,12 +210,12 @@ enum Reading {
 }
 
 /// The scales, as messages name them.
-pub const SCALES: &str =
-    "\"200 HBW 10/3000\" (ball in mm, load in kgf), \"640 HV10\", \"58 HRC\", \"90 HRB\" or \"700 HLD\"";
+pub const SCALES: &str = "\"200 HBW 10/3000\" (ball in mm, load in kgf), \"640 HV10\", \"58 HRC\", \"90 HRB\", \"700 HLD\" or a range, \
+                          \"180-220 HBW\"";
 
 /// The names of the scales.
-const BRINELL: [&str; 3] = ["HBW", "HB", "HBS"];
-const VICKERS: [&str; 1] = ["HV"];
+const BRINELL: [&str; 4] = ["HBW", "HB", "HBS", "BHN"];
+const VICKERS: [&str; 2] = ["HV", "VHN"];
 const ROCKWELL: [&str; 4] = ["HRC", "HRB", "HRBW", "HRBS"];
 const LEEB: [&str; 2] = ["HLD", "LD"];
 
@@ -223,9 +223,59 @@ const LEEB: [&str; 2] = ["HLD", "LD"];
 pub fn pattern() -> String {
     let [brinell, vickers, rockwell] = [any_case(&BRINELL), any_case(&VICKERS), any_case(&ROCKWELL)];
     let test = r"(?:\s*[0-9.]+\s*/\s*[0-9.]+(?:\s*/\s*[0-9.]+)?)?";
+    let spread = spread_pattern();
     let scale = format!(r"(?:(?:{brinell}){test}|{vickers}[0-9./ ]*|{rockwell}|{})", any_case(&LEEB));
     // the scale may be the first
-    format!(r"^\s*[0-9.]+\s*{scale}\s*$|^\s*[A-Za-z].*[0-9]")
+    format!(r"^\s*[0-9.]+{spread}\s*{scale}\s*$|^\s*[A-Za-z].*[0-9]")
+}
+
+/// What stands between the two numbers of a range, and before a standard deviation.
+const RANGE: [&str; 6] = ["-", "\u{2013}", "\u{2212}", "...", "\u{2026}", ".."];
+const DEVIATION: [&str; 3] = ["\u{b1}", "+/-", "+-"];
+
+fn spread_pattern() -> String {
+    let signs = RANGE.iter().chain(&DEVIATION).map(|sign| sign.replace('.', r"\.").replace('+', r"\+"));
+    format!(r"(?:\s*(?:{}|{})\s*[0-9.]+)?", signs.collect::<Vec<_>>().join("|"), any_case(&["TO"]))
+}
+
+/// The scale that the heading of a column names, as a reading has it: `HV10`, `HBW 10/3000`. A number of the column may follow. A rebound
+/// hardness without the letter of its device is that of device D.
+pub fn scale_in(heading: &str) -> Option<String> {
+    let heading = heading.trim();
+    let letters = heading.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(heading.len());
+    let (name, rest) = (heading[..letters].to_uppercase(), &heading[letters..]);
+    let mut words = rest.split([' ', '_', '#', '(', ')', '[', ']']).filter(|word| !word.is_empty()).peekable();
+    let is_number = |word: &str| word.parse::<f64>().is_ok_and(f64::is_finite);
+    let scale = match name.as_str() {
+        name if BRINELL.contains(&name) => {
+            let test = words.next_if(|word| word.contains('/') && word.split('/').all(is_number));
+            test.map_or(name.to_string(), |test| format!("{name} {test}"))
+        }
+        name if VICKERS.contains(&name) => {
+            let load = words.next_if(|word| word.split('/').all(is_number));
+            format!("{name}{}", load.unwrap_or_default())
+        }
+        name if ROCKWELL.contains(&name) || LEEB.contains(&name) => name.to_string(),
+        "HL" => LEEB[0].to_string(),
+        _ => return None,
+    };
+    words.all(is_number).then_some(scale)
+}
+
+/// Whether a `text` is a reading.
+///
+/// # Errors
+/// A sentence with what is wrong, and what is allowed.
+pub fn check_reading(text: &str) -> Result<(), String> {
+    Reading::parse(&parted(text)?.0).map(|_| ())
+}
+
+/// A reading in capitals, and its spread.
+fn parted(text: &str) -> Result<(String, Option<Spread>), String> {
+    match units::decimal_comma(text.split_whitespace().next().unwrap_or_default()) {
+        Some(comma) => Err(comma),
+        None => without_spread(&text.trim().to_uppercase()),
+    }
 }
 
 /// That of one that was measured by impacts, the rate of which is in its strength.
@@ -233,14 +283,42 @@ pub fn of_impacts() -> String {
     any_case(&LEEB)
 }
 
+/// The spread of a reading: that of its two ends, over this many standard deviations on each side.
+struct Spread {
+    ends: [String; 2],
+    deviations: f64,
+}
+
+/// A reading without its spread, and the spread of `180-220 HBW` or `212 ± 3 HV10`. In a range each number is as likely as any other.
+fn without_spread(text: &str) -> Result<(String, Option<Spread>), String> {
+    let is_number = |c: char| c.is_ascii_digit() || c == '.';
+    let ranges = RANGE.iter().chain(&["TO"]).map(|sign| (*sign, true));
+    for (sign, is_range) in DEVIATION.iter().map(|sign| (*sign, false)).chain(ranges) {
+        let Some((before, after)) = text.split_once(sign) else { continue };
+        let (before, after) = (before.trim_end(), after.trim_start());
+        let start = before.trim_end_matches(is_number).len();
+        let end = after.find(|c: char| !is_number(c)).unwrap_or(after.len());
+        let (Ok(first), Ok(second)) = (before[start..].parse::<f64>(), after[..end].parse::<f64>()) else { continue };
+        // the load of a scale is none
+        if before[..start].ends_with(|c: char| !c.is_whitespace()) {
+            continue;
+        }
+        if is_range && !(first < second) {
+            let [first, second] = [first, second].map(in_message);
+            return Err(format!("a range goes from the least number to the largest, not from {first} to {second}"));
+        }
+        let reading = |number: f64| format!("{}{}{}", &before[..start], in_message(number), &after[end..]);
+        let (number, half) = if is_range { (0.5 * (first + second), 0.5 * (second - first)) } else { (first, second) };
+        let deviations = if is_range { 3.0_f64.sqrt() } else { 1.0 };
+        return Ok((reading(number), Some(Spread { ends: [number - half, number + half].map(reading), deviations })));
+    }
+    Ok((text.into(), None))
+}
+
 impl Reading {
-    /// The reading in `text`: a number and its scale, in either order.
+    /// The reading in a `text` in capitals: a number and its scale, in either order.
     fn parse(text: &str) -> Result<Reading, String> {
         let unknown = || Err(format!("a hardness is a number with its scale, such as {SCALES}"));
-        if let Some(comma) = units::decimal_comma(text.split_whitespace().next().unwrap_or_default()) {
-            return Err(comma);
-        }
-        let text = text.trim().to_uppercase();
         let end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
         let (number, scale) = match end {
             0 => {
@@ -291,8 +369,20 @@ impl Reading {
 /// # Errors
 /// A sentence with what is wrong, and what is allowed.
 pub fn of_hardness(text: &str, metal: &Metal) -> Result<MeasuredStrength, String> {
+    let (reading, spread) = parted(text)?;
+    let found = of_reading(text, &reading, metal)?;
+    let Some(Spread { ends, deviations }) = spread else { return Ok(found) };
+    let stress = |end: &String| of_reading(text, end, metal).map(|found| found.at(IMPACT_STRAIN));
+    let [low, high] = [stress(&ends[0])?, stress(&ends[1])?];
+    let of_spread = (high - low).abs() / (high + low) / deviations;
+    let way = format!("{}; {} % of spread", found.way, cell(100.0 * of_spread, 1.0));
+    Ok(MeasuredStrength { uncertainty: found.uncertainty.hypot(of_spread), way, ..found })
+}
+
+/// What one number on its scale says, which is `given` as this text.
+fn of_reading(given: &str, reading: &str, metal: &Metal) -> Result<MeasuredStrength, String> {
     let class = metal.class;
-    let reading = Reading::parse(text)?;
+    let reading = Reading::parse(reading)?;
     let has_rate = matches!(reading, Reading::Leeb(_));
     let (stress, strain, vickers, uncertainty, way) = match reading {
         Reading::Brinell(number, test) => {
@@ -335,7 +425,7 @@ pub fn of_hardness(text: &str, metal: &Metal) -> Result<MeasuredStrength, String
     };
     // tension says 9 % more of aluminium than its hardness
     let stress = if class == Class::Aluminium && !has_rate { 1.09 * stress } else { stress };
-    measured(text, (stress, strain), (uncertainty, way), has_rate, (vickers, metal))
+    measured(given, (stress, strain), (uncertainty, way), has_rate, (vickers, metal))
 }
 
 /// What a tensile `strength` \[Pa\] says of the flow stress of a `metal`: 1.05 times it at a strain of 8 %.
@@ -608,10 +698,63 @@ mod tests {
                 assert_eq!((found.stress, found.strain), (first.stress, first.strain), "{text}");
             }
         };
-        same(&["200 HBW 10/3000", "200HBW10/3000", "200 HBW 10/3000/15", "200 HB", "HB 200", "HBW 200", "200.0 hbw"]);
+        same(&[
+            "200 HBW 10/3000",
+            "200HBW10/3000",
+            "200 HBW 10/3000/15",
+            "200 HB",
+            "HB 200",
+            "HBW 200",
+            "200.0 hbw",
+            "200 BHN",
+        ]);
         same(&["640 HV10", "HV10 640", "640 HV 30", "640HV", "hv 640"]);
         same(&["58 HRC", "HRC 58", "58HRC", " 58 hrc "]);
         same(&["700 HLD", "700 LD", "LD 700"]);
+    }
+
+    /// A range is its middle with the standard deviation of what is equally likely within, its half width over the root of three; both ends
+    /// are taken on the scale.
+    #[test]
+    fn a_range_is_its_middle_with_a_larger_uncertainty() {
+        for (range, middle, relative) in [
+            ("180-220 HBW", "200 HBW", 0.1 / 3.0_f64.sqrt()),
+            ("180 \u{2013} 220 HBW 10/3000", "200 HBW", 0.1 / 3.0_f64.sqrt()),
+            ("HBW 180 to 220", "200 HBW", 0.1 / 3.0_f64.sqrt()),
+            ("190...210 HV10", "200 HV10", 0.05 / 3.0_f64.sqrt()),
+            ("200 \u{b1} 10 HV10", "200 HV10", 0.05),
+            ("200+/-10 HV10", "200 HV10", 0.05),
+        ] {
+            let [found, alone] = [range, middle].map(|text| of(text, &STEEL));
+            assert_eq!(
+                (found.stress, found.strain, found.exponent),
+                (alone.stress, alone.strain, alone.exponent),
+                "{range}"
+            );
+            assert_eq!(found.given, range);
+            let expected = alone.uncertainty.hypot(relative);
+            assert!(
+                (found.uncertainty / expected - 1.0).abs() < 0.02,
+                "{range}: {}, not {expected}",
+                found.uncertainty
+            );
+            assert!(found.words().contains("% of spread; standard deviation"), "{}", found.words());
+        }
+        // a scale whose steps grow
+        let rockwell = of("58-62 HRC", &STEEL);
+        let [low, high] = ["58 HRC", "62 HRC"].map(|text| of(text, &STEEL).at(IMPACT_STRAIN));
+        let spread = (high - low) / (high + low) / 3.0_f64.sqrt();
+        assert!((rockwell.uncertainty / of("60 HRC", &STEEL).uncertainty.hypot(spread) - 1.0).abs() < 1e-9);
+        for (text, why) in [
+            ("220-180 HBW", "a range goes from the least number to the largest, not from 220 to 180"),
+            ("600-700 HBW", "700 HBW is out of range: allowed is 3 to 650"),
+            ("18-22 HRC", "18 HRC is out of range: allowed is 20 to 68"),
+            ("HV10-640", "a hardness is a number with its scale"),
+            ("180- HBW", "a hardness is a number with its scale"),
+        ] {
+            let said = of_hardness(text, &STEEL).map(|found| found.stress).unwrap_err();
+            assert!(said.contains(why), "{text}: {said}");
+        }
     }
 
     /// Rows of ASTM E140 (HRC with HBW, HRB with HB) and of ISO 18265 (HV with tensile strength): whichever column one reads, the flow
