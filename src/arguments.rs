@@ -100,9 +100,27 @@ pub enum Command {
     /// Print numbers that have units in SI units, as JSON: "target.yield_strength=400 MPa"
     #[command(hide = true)]
     Numbers { numbers: Vec<String> },
+    /// Print a table of measurements with the quantities of its columns, as JSON, or what is wrong with it
+    #[command(hide = true)]
+    Table(TableArguments),
     /// Prints the Rust source of the prebuilt library that a scene fits into
     #[command(hide = true)]
     Kind { scene: PathBuf },
+}
+
+#[derive(clap::Args)]
+pub struct TableArguments {
+    /// The file; standard input without one
+    pub file: Option<PathBuf>,
+    /// The decimal sign, where the file leaves it open
+    #[arg(long)]
+    pub decimal: Option<char>,
+    /// The sign between cells, where it is known
+    #[arg(long)]
+    pub separator: Option<char>,
+    /// Other headings for columns, as a JSON object
+    #[arg(long, default_value = "{}")]
+    pub columns: String,
 }
 
 #[derive(clap::Args)]

@@ -41,8 +41,9 @@ mod tangential_curve;
 mod translate;
 mod truth;
 
-use arguments::{Arguments, Command, PlatformArguments};
+use arguments::{Arguments, Command, PlatformArguments, TableArguments};
 use brinell_exporter::layout::json_line;
+use brinell_exporter::measurement::{self, Choices};
 use brinell_exporter::plan::Plan;
 use brinell_exporter::prebuilt::Library;
 use brinell_exporter::predict::axis;
@@ -50,6 +51,7 @@ use brinell_exporter::{constants, numbers};
 use clap::Parser;
 use messages::WrongCall;
 use package::LibraryWay;
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -158,6 +160,14 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Numbers { numbers }) => {
             let numbers = numbers.iter().map(|words| axis::in_si(words)).collect::<Result<Vec<_>, _>>();
             print!("{}", json_line(&serde_json::json!(numbers.map_err(WrongCall)?)));
+        }
+        Some(Command::Table(arguments)) => {
+            let renamed: BTreeMap<String, String> = serde_json::from_str(&arguments.columns).map_err(WrongCall::of)?;
+            let TableArguments { decimal, separator, .. } = *arguments;
+            let choices = Choices { decimal, separator, renamed: renamed.into_iter().collect() };
+            let bytes = scene_file::bytes_or_standard_input(arguments.file.as_deref())?;
+            let table = measurement::read(&bytes, &choices).and_then(|table| table.json());
+            print!("{}", json_line(&table.unwrap_or_else(|wrong| serde_json::json!({ "wrong": wrong }))));
         }
         Some(Command::Kind { scene }) => {
             let library = Library::of(&scene_file::read(scene)?);

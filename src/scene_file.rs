@@ -5,13 +5,17 @@ use crate::messages::warn;
 use brinell_exporter::layout::shown;
 use brinell_exporter::mistake::{self, SceneError};
 use brinell_exporter::scene::{self, Beside, MaterialTable, Scene};
+use std::collections::BTreeMap;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The name of a table of materials of one's own, and where it may lie.
 const TABLE: &str = "materials.toml";
 const BESIDE: &str = "materials.toml beside the scene";
 const OF_USER: &str = "materials.toml in the user's configuration folder";
+
+/// The variable by which Python says where the texts of workbooks are, by the names that a scene gives them.
+const WORKBOOKS: &str = "BRINELL_WORKBOOKS";
 
 /// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
 const LARGEST: u64 = 256 << 20;
@@ -52,8 +56,10 @@ fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<SceneError>), SceneError>
 /// What lies beside the scene with this `text` at `path`.
 fn beside(text: &str, path: &Path) -> Result<Beside, SceneError> {
     let folder = path.parent().unwrap_or(Path::new(""));
+    let workbooks: BTreeMap<String, PathBuf> =
+        std::env::var(WORKBOOKS).map_or(BTreeMap::new(), |texts| serde_json::from_str(&texts).unwrap_or_default());
     let read = |name: String| {
-        let path = folder.join(&name);
+        let path = workbooks.get(&name).cloned().unwrap_or_else(|| folder.join(&name));
         let found = bytes(&path).map_err(|error| match error {
             SceneError::Unreadable { source, .. } => format!("{} can't be read: {source}", shown(&path)),
             other => other.to_string(),
@@ -88,12 +94,25 @@ pub fn in_si(path: &Path) -> Result<String, SceneError> {
     scene::in_si(&text, path, &beside(&text, path)?)
 }
 
-/// The contents of the file at `path`, which may be a device that never ends.
+/// The contents of the file at `path`, or of standard input.
+///
+/// # Errors
+/// A file that can't be read, or is too large.
+pub fn bytes_or_standard_input(path: Option<&Path>) -> Result<Vec<u8>, SceneError> {
+    path.map_or_else(|| limited(io::stdin(), Path::new("standard input")), bytes)
+}
+
+/// The contents of the file at `path`.
 fn bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
+    let file = std::fs::File::open(path);
+    limited(file.map_err(|source| SceneError::Unreadable { path: path.into(), source })?, path)
+}
+
+/// All that comes from a `source`, which may be a device that never ends.
+fn limited(source: impl Read, path: &Path) -> Result<Vec<u8>, SceneError> {
     let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
     let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(unreadable)?;
-    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    source.take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > LARGEST {
         let message = format!("it is larger than {} MB, which no scene needs", LARGEST >> 20);
         return Err(unreadable(io::Error::other(message)));

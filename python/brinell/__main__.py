@@ -16,6 +16,7 @@ from .errors import ContactError, ProgramError
 from .fits import command_line
 from .program import program
 from .studies.study import study
+from .workbooks import environment
 
 if TYPE_CHECKING:
     import pandas
@@ -148,8 +149,9 @@ def _tell(table: pandas.DataFrame, failed: NDArray[np.int_], names: Sequence[str
 def _exporter(arguments: Sequence[str]) -> int:
     """Run the exporter; return its exit status."""
     try:
-        return subprocess.run([program(), *arguments], check=False).returncode
-    except (ProgramError, OSError) as error:
+        with environment(arguments) as own:
+            return subprocess.run([program(), *arguments], check=False, env=own).returncode
+    except (ProgramError, OSError, ModuleNotFoundError) as error:
         print(f"brinell: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

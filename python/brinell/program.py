@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, overload
 from .errors import ProgramError, ProgramWarning, missing, tell
 from .prediction import Prediction
 from .version import MODULE, installed
+from .workbooks import environment
 
 if TYPE_CHECKING:
     from .uncertainty import Spread
@@ -60,11 +61,15 @@ def _of_the_wheel() -> Path | None:
     return next((path.resolve() for path in programs + moved if path.is_file()), None)
 
 
-def run(*arguments: str | Path) -> tuple[str, tuple[str, ...]]:
-    """The JSON output of the exporter, and its warnings, which are warnings of Python, too."""
+def run(*arguments: str | Path, text: str | None = None) -> tuple[str, tuple[str, ...]]:
+    """The JSON output of the exporter, with a `text` as its input, and its warnings, which are
+    warnings of Python, too."""
     command = [str(program()), *map(str, arguments), "--json"]
     try:
-        result = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+        with environment(arguments) as own:
+            result = subprocess.run(
+                command, capture_output=True, encoding="utf-8", check=False, input=text, env=own
+            )
     except OSError as error:
         raise ProgramError(f"{command[0]} cannot be run: {error}") from error
     if result.returncode != 0:

@@ -75,6 +75,57 @@ fn a_tensile_test_in_a_file_beside_the_scene_says_what_its_points_say() {
     }
 }
 
+/// The same specimen in a machine that gives way: without a warning only where it doesn't, and the same impact where its compliance is taken
+/// off. Force and travel with the specimen's sizes are the same test.
+#[test]
+fn a_crosshead_is_warned_of_and_its_compliance_can_be_taken_off() {
+    let rows: Vec<[f64; 2]> = (0..110)
+        .map(|step| {
+            // its elastic part, then a power law from 2e-5 on
+            let plastic = if step < 30 { 0.0 } else { 2e-5 * 1.11_f64.powi(step - 30) };
+            let stress = if step < 30 { 114.0 * f64::from(step) / 30.0 } else { 1000.0 * plastic.powf(0.2) };
+            let strain = plastic + stress / 210e3;
+            [strain.exp_m1(), stress * (-strain).exp()]
+        })
+        .collect();
+    let table = |part: f64| {
+        let row = |[strain, stress]: &[f64; 2]| format!("{};{stress}\n", strain + stress / 210e3 * (1.0 / part - 1.0));
+        "strain;stress [MPa]\n".to_string() + &rows.iter().map(row).collect::<String>()
+    };
+    let raw = |[strain, stress]: &[f64; 2]| format!("{}\t{}\n", 30.0 * strain, 7.5 * stress);
+    let raw = "# travel [mm]\tforce [N]\n".to_string() + &rows.iter().map(raw).collect::<String>();
+    let scene = |test: &str| format!("{BALL}[target]\n{STEEL}tensile_test = {test}\n");
+    let [right, most, soft] = [1.0, 0.95, 0.5].map(table);
+    let folder = folder_with(&[
+        ("right.csv", &right),
+        ("most.csv", &most),
+        ("soft.csv", &soft),
+        ("raw.csv", &raw),
+        ("right.toml", &scene("\"right.csv\"")),
+        ("most.toml", &scene("\"most.csv\"")),
+        ("soft.toml", &scene("\"soft.csv\"")),
+        ("off.toml", &scene("{ curve = \"soft.csv\", compliance_correction = true }")),
+        ("raw.toml", &scene("{ curve = \"raw.csv\", section = \"7.5 mm^2\", gauge_length = \"3 cm\" }")),
+    ]);
+    let told = |scene: &str| {
+        let run = run(folder.path(), ["predict", scene]).with_status(0);
+        run.err.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    for scene in ["right.toml", "most.toml", "off.toml", "raw.toml"] {
+        assert_eq!(told(scene), "", "{scene}");
+    }
+    let warning = "target.tensile_test: the curve begins with a slope of 105 GPa, 0.5 of youngs_modulus = 210 GPa; a strain by the crosshead \
+                   contains the machine: give that of an extensometer, take the record's own slope off with compliance_correction = true";
+    assert!(told("soft.toml").contains(warning), "{}", told("soft.toml"));
+    let restitution = |scene: &str| number(&predicted(folder.path(), scene), "restitution");
+    let expected = restitution("right.toml");
+    for (scene, tolerance) in [("off.toml", 1e-3), ("raw.toml", 1e-9)] {
+        let error = restitution(scene) / expected - 1.0;
+        assert!(error.abs() < tolerance, "{scene}: {error}");
+    }
+    assert!(restitution("soft.toml") < 0.98 * expected, "the crosshead makes it softer");
+}
+
 /// Hollomon and Considere: sigma = Rm (e eps/n)^n, n from Rp0.2 and Rm.
 #[test]
 fn two_numbers_of_a_tensile_test_are_a_power_law() {
@@ -265,7 +316,7 @@ fn a_mistake_in_a_table_of_materials_has_its_place() {
 fn a_tensile_test_that_cant_be_used_is_told_with_its_place() {
     for (test, said) in [
         ("\"none.csv\"", "scene.toml:7:16: target.tensile_test = \"none.csv\": none.csv can't be read: "),
-        ("\"bad.csv\"", "target.tensile_test = \"bad.csv\": line 3: `soft` is no number"),
+        ("\"bad.csv\"", "target.tensile_test = \"bad.csv\": line 3, column 2: stress [MPa] = `soft` is no number"),
         (
             "{ proof_stress = \"480 MPa\", tensile_strength = \"240 MPa\" }",
             "target.tensile_test: proof_stress = 480 MPa is 2 of tensile_strength",
@@ -273,7 +324,35 @@ fn a_tensile_test_that_cant_be_used_is_told_with_its_place() {
         ("{ proof_stress = \"480 mm\", tensile_strength = \"240 MPa\" }", "proof_stress = \"480 mm\": mm is a length"),
         (
             "{ proof_stress = \"480 MPa\" }",
-            "target.tensile_test: it is the name of a file; or has proof_stress and tensile_strength; or",
+            "target.tensile_test: it is the name of a file; or has curve, the name of a file; or proof_stress and",
+        ),
+        (
+            "{ curve = \"bad.csv\", section = \"7.5 mm2\" }",
+            "target.tensile_test.curve = \"bad.csv\": section has no effect: the file has the column `stress [MPa]`",
+        ),
+        (
+            "{ curve = \"raw.csv\", section = \"7.5 mm\", gauge_length = \"30 mm\" }",
+            "target.tensile_test.section = \"7.5 mm\": mm is a length",
+        ),
+        (
+            "{ curve = \"raw.csv\", section = 0, gauge_length = \"30 mm\" }",
+            "tensile_test.section = 0 is out of range: allowed is 1e-18 to 1e12 m^2",
+        ),
+        (
+            "{ curve = \"raw.csv\", section = \"7.5 mm2\" }",
+            "target.tensile_test.curve = \"raw.csv\": `travel [mm]` becomes a strain by the gauge length of the specimen: give gauge_length",
+        ),
+        (
+            "{ proof_stress = 24e7, tensile_strength = 48e7, gauge_length = 0.03 }",
+            "target.tensile_test: section and gauge_length belong to the force and the travel of a curve",
+        ),
+        (
+            "{ proof_stress = 24e7, tensile_strength = 48e7, compliance_correction = true }",
+            "target.tensile_test.compliance_correction belongs to a curve",
+        ),
+        (
+            "\"book.xlsx\"",
+            "target.tensile_test = \"book.xlsx\": it is a workbook: save it as CSV, or let Python read it",
         ),
         ("{ true_strain = [0.01, 0.02], true_stress = [3e8] }", "2 strains and 1 stresses: each point has both"),
         ("{ rp02 = 3e8 }", "unknown key `rp02`"),
@@ -289,7 +368,9 @@ fn a_tensile_test_that_cant_be_used_is_told_with_its_place() {
     ] {
         let scene = format!("{BALL}[target]\n{STEEL}tensile_test = {test}\n");
         let bad = "strain [%];stress [MPa]\n1;200\n2;soft\n";
-        let folder = folder_with(&[("scene.toml", &scene), ("bad.csv", bad)]);
+        let raw = "travel [mm],force [N]\n0.1,3000\n0.2,3100\n";
+        let files = [("scene.toml", scene.as_str()), ("bad.csv", bad), ("raw.csv", raw), ("book.xlsx", "PK\u{3}\u{4}")];
+        let folder = folder_with(&files);
         let failed = run(folder.path(), ["predict", "scene.toml"]).with_status(1);
         assert!(failed.err.replace("\n  ", " ").contains(said), "no {said:?} in {}", failed.err);
     }

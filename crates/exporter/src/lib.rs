@@ -8,6 +8,7 @@
 //! | [`scene`] | a checked scene |
 //! | [`schema`] | the JSON Schema of scenes |
 //! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
+//! | [`measurement`] | tables of measurements, in any dialect |
 //! | [`tension`], [`measured`] | the flow stress that a tensile test, a hardness or a tensile strength says |
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
 //! | [`curve`] | force, pressure and energies along loading and unloading |
@@ -61,6 +62,7 @@ pub mod laws;
 pub mod layout;
 pub mod master;
 pub mod measured;
+pub mod measurement;
 pub mod mistake;
 pub mod model;
 pub mod model_description;

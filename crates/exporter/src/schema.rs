@@ -218,7 +218,7 @@ fn form(schema: &mut Map<String, Value>, table: &str, key: &str) {
             json!({ "type": ["number", "string"], "pattern": format!("^{WAVES}$") })
         }
         // the name of a file
-        (_, "tensile_test") => json!({ "type": ["object", "string"] }),
+        (_, "tensile_test") | ("tensile_test", "curve") => json!({ "type": ["object", "string"] }),
         ("law", "loading_parameters" | "unloading_parameters") => {
             json!({ "additionalProperties": { "type": ["number", "string"] } })
         }

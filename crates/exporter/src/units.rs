@@ -273,6 +273,17 @@ pub fn with_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     if value.is_finite() { Some(Ok(value)) } else { Some(Err("the number is too large".into())) }
 }
 
+/// The size of the unit `text` in this SI `unit`; `None` for what is no unit of that dimension.
+pub fn size(text: &str, unit: &str) -> Option<f64> {
+    let (own, si) = (Unit::parse(text)?, Unit::parse(unit)?);
+    (own.dimension == si.dimension).then(|| own.number("1", si))
+}
+
+/// Whether a `text` is a unit that some quantity has.
+pub fn is_unit(text: &str) -> bool {
+    Unit::parse(text).is_some_and(|unit| unit.kind().is_some())
+}
+
 /// The message about a number with a decimal comma, and perhaps a unit: `this is a decimal comma; write 5.3`.
 pub fn decimal_comma(text: &str) -> Option<String> {
     let text = text.trim_matches(['"', '\'']);

@@ -11,19 +11,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .quantities import (
-    GRAVITY,
-    QUANTITIES,
-    Column,
-    column,
-    nearest,
-    one_of,
-    shortened,
-)
-from .reading import EXPECTED, Decimal, Rows, number, rows_of
+from .quantities import GRAVITY, one_of, shortened
+from .reading import Decimal, Rows, rows_of
 
 Kind = Literal["impacts", "record", "hardness"]
 Numbers = NDArray[np.float64]
+Column = Mapping[str, Any]
+"""A column of a table, as the exporter read it."""
 Table = Mapping[str, Sequence[float] | NDArray[np.float64]]
 """Columns of numbers by their headings; a pandas DataFrame is one, too."""
 
@@ -37,9 +31,14 @@ RESULTS = (
     "tangential_restitution", "rebound_angle",
 )  # fmt: skip
 """What is measured of an impact."""
-UNITS = {name: QUANTITIES[name].unit for name in (*RESULTS, "force", "depth", "speed", "angle")} | {
-    "flow_stress": "Pa"
-}
+MAY_BE_MISSING = ("rebound_speed", "rebound_height", "bounce_interval", "bounce_time")
+MAY_BE_ANY = ("angle", "tangential_restitution", "rebound_angle", "bounce_time")
+ABOVE = "must be above 0 and at most 1"
+UNITS = {
+    "restitution": "", "dent_depth": "m", "dent_diameter": "m", "contact_time": "s",
+    "largest_force": "N", "tangential_restitution": "", "rebound_angle": "deg", "force": "N",
+    "depth": "m", "speed": "m/s", "angle": "deg", "flow_stress": "Pa",
+}  # fmt: skip
 """SI units of results and arguments."""
 
 
@@ -104,156 +103,104 @@ def measured(
     `columns` gives columns of the source other headings, `{"E2 [mm]": "depth [mm]"}`. Raises
     `ValueError` with the place of the first mistake, and what is expected there.
     """
-    rows = rows_of(source, decimal)
-    found, notes = _columns(rows, columns or {})
-    quantities = {one.quantity: one for one in found}
-    if "hardness" in quantities and len(_known(quantities, RESULTS)) == 0:
-        return _hardness(rows, quantities["hardness"], notes)
-    if {"depth", "force"} <= set(quantities):
+    rows = rows_of(source, decimal, columns)
+    if not rows.lines:
+        raise ValueError(f"{rows.name}: there are no numbers; expected {rows.examples}")
+    found = {one["quantity"]: one for one in rows.columns}
+    notes = list(rows.notes)
+    if "hardness" in found and len(_known(found, RESULTS)) == 0:
+        return _hardness(rows, notes)
+    if {"depth", "force"} <= set(found):
         used = ["depth", "force"]
         make = _record
     else:
-        used = _used(rows, quantities)
+        used = _used(rows, found)
         make = _impacts
     notes += [
-        f"The column `{one.heading}` was not used." for one in found if one.quantity not in used
+        f"The column `{one['heading']}` was not used."
+        for one in found.values()
+        if one["quantity"] not in used
     ]
-    values = {name: _numbers(rows, quantities[name]) for name in used}
+    values = {name: _numbers(rows, found[name]) for name in used}
     for name in used:
-        _check(rows, quantities[name], values[name], make is _record)
+        _check(rows, found[name], values[name], make is _record)
     return make(rows, values, notes)
 
 
-def _known(quantities: Mapping[str, Column], names: Sequence[str]) -> list[str]:
+def _known(found: Mapping[str, Any], names: Sequence[str]) -> list[str]:
     more = {"restitution": ("rebound_speed", "rebound_height")}
-    return [it for it in names if any(one in quantities for one in (it, *more.get(it, ())))]
+    return [it for it in names if any(one in found for one in (it, *more.get(it, ())))]
 
 
-def _columns(rows: Rows, renamed: Mapping[str, str]) -> tuple[list[Column], list[str]]:
-    """The columns that are recognised, and notes on them and on the others."""
-    for heading in renamed:
-        if heading not in rows.heading:
-            raise ValueError(
-                f"{rows.name}: columns names `{heading}`, which is no heading; there are "
-                f"{one_of(f'`{it}`' for it in rows.heading)}"
-            )
-    found, unknown = list[Column](), list[str]()
-    for index, heading in enumerate(rows.heading):
-        below = rows.units[index] if rows.units else None
-        try:
-            one = column(index, renamed.get(heading, heading), below)
-        except ValueError as error:
-            raise ValueError(f"{rows.place}, column {index + 1}: {error}") from None
-        if one is None:
-            unknown.append(heading)
-            continue
-        twice = next((it for it in found if it.quantity == one.quantity), None)
-        if twice is not None:
-            name = QUANTITIES[one.quantity].names[0]
-            raise ValueError(
-                f"{rows.place}: `{twice.heading}` and `{one.heading}` are both {name}; give one "
-                "another name, or pass columns="
-            )
-        found.append(one)
-    if not found:
-        first = rows.heading[0] if rows.heading else ""
-        raise ValueError(
-            f"{rows.place}, column 1: no quantity is called `{shortened(first)}`; {nearest(first)}; "
-            f"for example {EXPECTED}"
-        )
-    if not rows.rows:
-        raise ValueError(f"{rows.name}: there are no numbers; expected {EXPECTED}")
-    notes = [*rows.notes, "Columns: " + "; ".join(one.said() for one in found) + "."]
-    for heading in unknown:
-        notes.append(f"The column `{shortened(heading)}` is unknown and was not used.")
-    return found, notes
-
-
-def _used(rows: Rows, quantities: Mapping[str, Column]) -> list[str]:
+def _used(rows: Rows, found: Mapping[str, Column]) -> list[str]:
     """The columns of impacts that are used."""
-    speed = next((it for it in ("speed", "drop_height") if it in quantities), None)
-    results = _known(quantities, RESULTS)
+    speed = next((it for it in ("speed", "drop_height") if it in found), None)
+    results = _known(found, RESULTS)
+    if speed is None and not results:
+        for bounces in ("bounce_interval", "bounce_time"):
+            if bounces in found:
+                return [bounces, *(it for it in ("mass",) if it in found)]
     if speed is None or not results:
-        names = " and ".join(one.heading for one in quantities.values())
+        names = " and ".join(one["heading"] for one in found.values())
         hint = ""
-        if {"depth", "force"} & {*quantities}:
-            other = "force" if "depth" in quantities else "depth"
+        if {"strain", "stress"} & {*found}:
+            hint = "a tensile test belongs into the scene, as tensile_test. "
+        elif {"depth", "force"} & {*found}:
+            other = "force" if "depth" in found else "depth"
             hint = f"a record needs a {other}, too. "
         elif results:
             hint = "impacts need a speed or a drop height. "
         elif speed is not None:
             hint = "impacts need a result, such as restitution or dent depth. "
-        raise ValueError(f"{rows.place}: {names}: {hint}Expected {EXPECTED}")
-    used = [speed, *(it for it in ("mass", "angle") if it in quantities)]
+        unknown = f"Unknown: {', '.join(rows.unknown)}. " if rows.unknown else ""
+        raise ValueError(f"{rows.place()}: {names}: {hint}{unknown}Expected {rows.examples}")
+    used = [speed, *(it for it in ("mass", "angle") if it in found)]
     for name in results:
         choices = (name, "rebound_speed", "rebound_height") if name == "restitution" else (name,)
-        used.append(next(it for it in choices if it in quantities))
+        used.append(next(it for it in choices if it in found))
     return used
 
 
 def _numbers(rows: Rows, one: Column) -> Numbers:
-    values = np.empty(len(rows.rows))
-    for index, (place, cells) in enumerate(rows.rows):
-        cell = cells[one.index]
-        try:
-            values[index] = one.size * number(cell, rows.decimal)
-        except (TypeError, ValueError, OverflowError):
-            raise ValueError(
-                f"{place}, column {one.index + 1}: {one.heading} = `{shortened(str(cell))}` is no number"
-            ) from None
-    return values
+    at = next((at for at, cell in enumerate(one["cells"]) if isinstance(cell, str)), None)
+    if at is not None:
+        said = f"{one['heading']} = `{shortened(one['cells'][at])}`"
+        raise ValueError(f"{rows.place(at, one)}: {said} is no number")
+    cells = [np.nan if cell is None else cell for cell in one["cells"]]
+    return np.array(cells, dtype=float) * float(one["size"])
 
 
 def _check(rows: Rows, one: Column, values: Numbers, is_record: bool) -> None:
     """Refuse numbers out of range, with their place."""
-    quantity = QUANTITIES[one.quantity]
-    name = quantity.names[0]
-    may_be_missing = one.quantity in ("rebound_speed", "rebound_height", *RESULTS)
-    largest = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
-    if one.unit is None and largest > quantity.largest:
-        if not quantity.unit:
-            at = int(np.flatnonzero(np.abs(values) == largest)[0])
-            place = f"{rows.rows[at][0]}, column {one.index + 1}"
-            raise ValueError(
-                f"{place}: {name} = {_shown(rows, at, one)} must be above 0 and at most 1"
-            )
-        from .quantities import UNITS as ALL
+    quantity, name, cells = one["quantity"], one["name"], one["cells"]
 
+    def refuse(at: int, what: str) -> None:
+        shown = "``" if cells[at] is None else f"{cells[at]:g}"
+        raise ValueError(f"{rows.place(at, one)}: {name} = {shown} {what}")
+
+    may_be_missing = quantity in (*MAY_BE_MISSING, *RESULTS)
+    largest = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
+    most = 1.0 if quantity == "restitution" else np.inf
+    if one["unit"] is None and one["largest"] is not None and largest > one["largest"]:
+        if not one["si"]:
+            refuse(int(np.flatnonzero(np.abs(values) == largest)[0]), ABOVE)
         raise ValueError(
-            f"{rows.place}, column {one.index + 1}: `{one.heading}` has no unit, and numbers up to "
-            f"{largest:g}, too large for {quantity.unit}: write `{one.heading} [UNIT]` with "
-            f"{one_of(ALL[quantity.unit])}"
+            f"{rows.place(None, one)}: `{one['heading']}` has no unit, and numbers up to "
+            f"{largest:g}, too large for {one['si']}: write `{one['heading']} [UNIT]` with "
+            f"{one_of(one['usual'])}"
         )
     for at, value in enumerate(values.tolist()):
-        place = f"{rows.rows[at][0]}, column {one.index + 1}"
-        if np.isnan(value) and may_be_missing and _is_empty(rows.rows[at][1][one.index]):
-            continue
-        if not np.isfinite(value):
-            what = "is no number" if _is_empty(rows.rows[at][1][one.index]) else "must be finite"
-            raise ValueError(f"{place}: {name} = {_shown(rows, at, one)} {what}")
-        if is_record or one.quantity in ("angle", "tangential_restitution", "rebound_angle"):
-            continue
-        if one.quantity == "restitution" and not 0.0 < value <= 1.0:
-            raise ValueError(
-                f"{place}: {name} = {_shown(rows, at, one)} must be above 0 and at most 1"
-            )
-        if not value > 0.0:
-            raise ValueError(
-                f"{place}: {name} = {_shown(rows, at, one)} must be positive and finite"
-            )
-
-
-def _shown(rows: Rows, at: int, one: Column) -> str:
-    cell = rows.rows[at][1][one.index]
-    return "``" if _is_empty(cell) else shortened(str(cell))
-
-
-def _is_empty(cell: Any) -> bool:
-    is_nan = isinstance(cell, float) and np.isnan(cell)
-    return cell is None or bool(is_nan) or (isinstance(cell, str) and not cell.strip())
+        if np.isnan(value):
+            if not may_be_missing:
+                refuse(at, "is no number")
+        elif not is_record and quantity not in MAY_BE_ANY and not 0.0 < value <= most:
+            refuse(at, ABOVE if quantity == "restitution" else "must be positive and finite")
 
 
 def _impacts(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measured:
+    at_row = np.arange(len(rows.lines))
+    if {"bounce_interval", "bounce_time"} & {*values}:
+        at_row = _bounces(rows, values)
     height = values.pop("drop_height", None)
     speed = values.pop("speed") if height is None else np.sqrt(2.0 * GRAVITY * height)
     if (rebound := values.pop("rebound_speed", None)) is not None:
@@ -264,12 +211,13 @@ def _impacts(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measur
     for at, value in enumerate(results.get("restitution", np.empty(0)).tolist()):
         if value > 1.0:
             raise ValueError(
-                f"{rows.rows[at][0]}: the impactor rebounds faster than it came: restitution = "
-                f"{value:.4g} must be above 0 and at most 1"
+                f"{rows.place(int(at_row[at]))}: the impactor rebounds faster than it came: "
+                f"restitution = {value:.4g} must be above 0 and at most 1"
             )
     for at, point in enumerate(np.column_stack(list(results.values()))):
         if np.all(np.isnan(point)):
-            raise ValueError(f"{rows.rows[at][0]}: no result is given: {one_of(results)}")
+            where = rows.place(int(at_row[at]))
+            raise ValueError(f"{where}: no result is given: {one_of(results)}")
     arguments = {"speed": speed} | {
         name: values[name] for name in ("mass", "angle") if name in values
     }
@@ -277,7 +225,7 @@ def _impacts(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measur
         "tangential_restitution" in results or "rebound_angle" in results
     ) and "angle" not in values:
         raise ValueError(
-            f"{rows.place}: oblique impacts need a column `angle [deg]`, from the normal"
+            f"{rows.place()}: oblique impacts need a column `angle [deg]`, from the normal"
         )
     order = np.lexsort((arguments.get("angle", speed), speed))
     return Measured(
@@ -289,28 +237,38 @@ def _impacts(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measur
     )
 
 
-def _hardness(rows: Rows, one: Column, notes: list[str]) -> Measured:
-    readings = []
-    for place, cells in rows.rows:
-        cell, scale = cells[one.index], one.unit
-        text = cell.strip() if isinstance(cell, str) else ""
-        if scale is None and any(it.isalpha() for it in text):
-            readings.append(text)
-            continue
-        where = f"{place}, column {one.index + 1}: {one.heading} = `{shortened(str(cell))}`"
-        if scale is None:
-            raise ValueError(
-                f"{where} has no scale; expected a heading such as `HV10` or `HBW 10/3000`"
-            )
-        try:
-            value = number(cell, rows.decimal)
-        except (TypeError, ValueError):
-            value = np.nan
-        if not (value > 0.0 and np.isfinite(value)):
-            raise ValueError(f"{where} must be positive and finite")
-        readings.append(f"{value:g} {scale}")
+def _bounces(rows: Rows, values: dict[str, Numbers]) -> NDArray[np.int_]:
+    """Put the impacts between the flights of a ball that bounces in place of their times; return the
+    row of each.
+
+    A flight of the time T begins and ends with g T/2, so an impact between two flights has the
+    restitution T'/T. An empty cell ends a series.
+    """
+    intervals = values.pop("bounce_interval", None)
+    if intervals is None:
+        intervals = np.diff(values.pop("bounce_time"), append=np.nan)
+        if np.any(wrong := intervals <= 0.0):
+            at = int(np.flatnonzero(wrong)[0]) + 1
+            raise ValueError(f"{rows.place(at)}: the bounces are not in the order of their times")
+    before, after = intervals[:-1], intervals[1:]
+    found = np.flatnonzero(np.isfinite(before) & np.isfinite(after))
+    if len(found) == 0:
+        raise ValueError(f"{rows.name}: an impact needs the flight before it and the one after it")
+    if "mass" in values:
+        values["mass"] = values["mass"][found]
+    values["speed"] = 0.5 * GRAVITY * before[found]
+    values["restitution"] = after[found] / before[found]
+    return found + 1
+
+
+def _hardness(rows: Rows, notes: list[str]) -> Measured:
+    if wrong := rows.wrong_reading:
+        at = rows.lines.index(wrong["line"]) if wrong["line"] in rows.lines else None
+        where = rows.place(at, {"index": wrong["column"] - 1})
+        raise ValueError(f"{where}: {wrong['why']}")
+    readings = tuple(rows.readings or ())
     none = np.zeros(len(readings), dtype=int)
-    return Measured("hardness", {}, {}, none, tuple(notes), tuple(readings))
+    return Measured("hardness", {}, {}, none, tuple(notes), readings)
 
 
 def _record(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measured:

@@ -3,13 +3,15 @@
 use super::beside::{self, Beside, OwnMaterial};
 use super::contacts::MOST_CONTACTS;
 use super::parser_words;
-use super::quantities::quantity_of;
+use super::quantities::{Quantity, quantity_of};
 use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
+use crate::numbers::out_of_range;
 use crate::parameters::ConstantTable;
 use crate::table::Material;
-use crate::{tension, units};
+use crate::tension::{self, Specimen};
+use crate::units;
 use brinell_contact::Surface;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -107,12 +109,13 @@ pub struct BodyTable {
     pub power_law: Option<Spanned<PowerLawTable>>,
     /// A hardness with its scale, instead of the yield strength: the [flow stress that it says](hardness.md#strength-from-a-hardness),
     /// at the strain of the scene's impact.
-    #[schemars(with = "Option<String>", extend("examples" = ["200 HBW 10/3000", "640 HV10", "58 HRC", "90 HRB", "700 HLD"]))]
+    #[schemars(with = "Option<String>", extend("examples" = ["200 HBW 10/3000", "640 HV10", "58 HRC", "90 HRB", "700 HLD", "180-220 HBW"]))]
     pub hardness: Option<Spanned<toml::Value>>,
     /// Tensile strength, from which the same follows.
     #[schemars(extend("examples" = ["480 MPa"]))]
     pub tensile_strength: Option<Spanned<f64>>,
-    /// A [tensile test](hardness.md#strength-from-a-tensile-test): the name of a CSV file, relative to the scene; or
+    /// A [tensile test](hardness.md#strength-from-a-tensile-test): the name of a CSV file, relative to the scene, or `{ curve = "test.csv" }`
+    /// with `section`, `gauge_length` or `compliance_correction`; or
     /// `{ proof_stress = "240 MPa", tensile_strength = "480 MPa" }`; or the points `{ true_strain = [...], true_stress = [...] }`,
     /// with `plastic_strain` instead where the elastic part is subtracted.
     pub tensile_test: Option<Spanned<TensileTestTable>>,
@@ -212,7 +215,7 @@ pub struct PowerLawTable {
     pub exponent: Spanned<f64>,
 }
 
-/// A tensile test: two numbers, or a curve. The name of a file stands for its curve.
+/// A tensile test: two numbers, or a curve. The name of a file stands for a curve.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct TensileTestTable {
@@ -220,6 +223,27 @@ pub struct TensileTestTable {
     pub proof_stress: Option<Spanned<f64>>,
     /// Tensile strength.
     pub tensile_strength: Option<Spanned<f64>>,
+    /// True strains of the points.
+    pub true_strain: Option<Spanned<Vec<f64>>>,
+    /// True strains less their elastic part.
+    pub plastic_strain: Option<Spanned<Vec<f64>>>,
+    /// True stresses of the points.
+    pub true_stress: Option<Spanned<Vec<f64>>>,
+    /// The name of a file with the points, beside keys that say how it is read.
+    pub curve: Option<Spanned<CurveTable>>,
+    /// Initial cross section of the specimen, for a file with its force.
+    pub section: Option<Spanned<f64>>,
+    /// Initial gauge length of the specimen, for a file with its change of length.
+    pub gauge_length: Option<Spanned<f64>>,
+    /// Whether the compliance of the machine is taken off the strain, so that the curve begins with Young's modulus.
+    #[schemars(extend("default" = false))]
+    pub compliance_correction: Option<Spanned<bool>>,
+}
+
+/// The points of a curve.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct CurveTable {
     /// True strains of the points.
     pub true_strain: Option<Spanned<Vec<f64>>>,
     /// True strains less their elastic part.
@@ -507,8 +531,9 @@ fn deserialized<T: for<'a> Deserialize<'a>>(text: &str, files: &Files) -> Result
 /// The bytes of files by the name that a scene gives them.
 type Files = BTreeMap<String, Result<Vec<u8>, String>>;
 
-/// The key of a tensile test, which may be the name of a file.
+/// The key of a tensile test, which may be the name of a file, and the key in it that may be one.
 const TEST: &str = "tensile_test";
+const CURVE: &str = "curve";
 
 /// The names of files in the `text` of a scene. None, if it is no TOML.
 pub fn files_named(text: &str) -> Vec<String> {
@@ -518,7 +543,7 @@ pub fn files_named(text: &str) -> Vec<String> {
                 table.iter().for_each(|(key, value)| named(value.get_ref(), key.get_ref(), found));
             }
             DeValue::Array(list) => list.iter().for_each(|value| named(value.get_ref(), key, found)),
-            DeValue::String(name) if key == TEST => found.push(name.to_string()),
+            DeValue::String(name) if [TEST, CURVE].contains(&key) => found.push(name.to_string()),
             _ => {}
         }
     }
@@ -596,9 +621,9 @@ impl Found<'_> {
             let key = key.get_ref();
             let unit = quantity_of(path.rsplit('.').next().unwrap_or_default(), key).unit;
             let path = if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
-            if let (TEST, DeValue::String(name)) = (key.as_ref(), value.get_ref()) {
+            if let (TEST | CURVE, DeValue::String(name)) = (key.as_ref(), value.get_ref()) {
                 let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(name)));
-                let curve = self.curve(name).map_err(wrong)?;
+                let curve = self.curve(name, &specimen(table)?).map_err(wrong)?;
                 self.values.insert(value.span().start, (value.span().end, curve));
                 return Ok(());
             }
@@ -629,13 +654,36 @@ impl Found<'_> {
     }
 
     /// The curve of a tensile test in the file `name`, as a table of a scene.
-    fn curve(&self, name: &str) -> Result<String, String> {
+    fn curve(&self, name: &str, specimen: &Specimen) -> Result<String, String> {
         match self.files.get(name) {
-            Some(Ok(bytes)) => Ok(tension::read(bytes)?.in_toml()),
+            Some(Ok(bytes)) => Ok(tension::read(bytes, specimen)?.in_toml()),
             Some(Err(why)) => Err(why.clone()),
             None => Err("the file isn't at hand; give the points as true_strain and true_stress, or proof_stress and tensile_strength".into()),
         }
     }
+}
+
+/// What a `table` beside a curve says of its specimen.
+fn specimen(table: &DeTable) -> Result<Specimen, Mistake> {
+    let number = |key: &str| {
+        let Quantity { unit, allowed } = quantity_of(TEST, key);
+        let Some((unit, value)) = unit.zip(table.get(key)) else { return Ok(None) };
+        let number = match value.get_ref() {
+            DeValue::String(text) => units::with_unit(text, unit).and_then(Result::ok),
+            DeValue::Float(number) => number.as_str().replace('_', "").parse().ok(),
+            DeValue::Integer(number) => number.as_str().replace('_', "").parse().ok(),
+            // of another type: the parser tells
+            _ => None,
+        };
+        let is_out = |number: &f64| !allowed.contains(number);
+        match number.filter(is_out) {
+            Some(number) => {
+                Err(Mistake(value.span(), format!("{TEST}.{key} {}", out_of_range(number, &allowed, unit))))
+            }
+            None => Ok(number),
+        }
+    };
+    Ok(Specimen { section: number("section")?, gauge_length: number("gauge_length")? })
 }
 
 /// Puts the `values` in place of their texts in this `value`.

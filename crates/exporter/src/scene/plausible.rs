@@ -202,7 +202,9 @@ fn of_body(owner: &str, body: Body, table: &BodyTable, own: &[OwnMaterial]) -> V
     let mut doubts: Vec<Mistake> = numbers.into_iter().filter_map(doubt).collect();
     doubts.extend(warning);
     doubts.extend(of_own);
-    doubts.extend(table.tensile_test.iter().flat_map(|test| of_test(&name, test)));
+    let of_material = || Some(beside::find(table.material.as_ref()?, own).ok()?.youngs_modulus);
+    let modulus = table.youngs_modulus.as_ref().map(|modulus| *modulus.get_ref()).or_else(of_material);
+    doubts.extend(table.tensile_test.iter().flat_map(|test| of_test(&name, test, modulus)));
     doubts.extend(of_power_law(&name, table.power_law.as_ref()));
     if let (Body::Target, true, Some(strength), Some(modulus)) =
         (body, doubts.is_empty(), &table.yield_strength, &table.youngs_modulus)
@@ -217,16 +219,22 @@ fn of_power_law(body: &str, law: Option<&Spanned<PowerLawTable>>) -> Option<Mist
     STRENGTH.doubt(&format!("{body}.power_law.coefficient"), &law?.get_ref().coefficient)
 }
 
-/// The doubts about the tensile test of a `body`.
-fn of_test(body: &str, test: &Spanned<TensileTestTable>) -> Vec<Mistake> {
-    let TensileTestTable { proof_stress, tensile_strength, true_stress, .. } = test.get_ref();
+/// The doubts about the tensile test of a `body` with this Young's modulus \[Pa\].
+fn of_test(body: &str, test: &Spanned<TensileTestTable>, modulus: Option<f64>) -> Vec<Mistake> {
+    let TensileTestTable { proof_stress, tensile_strength, compliance_correction, .. } = test.get_ref();
     let key = |key: &str| format!("{body}.tensile_test.{key}");
+    let corrects = compliance_correction.as_ref().is_some_and(|corrects| *corrects.get_ref());
     let numbers = [("proof_stress", proof_stress), ("tensile_strength", tensile_strength)];
     let of_numbers = numbers.into_iter().filter_map(|(name, value)| STRENGTH.doubt(&key(name), value.as_ref()?));
     // the largest of many
-    let most = true_stress.iter().flat_map(|list| list.get_ref()).copied().reduce(f64::max);
+    let curve = test.get_ref().curve().ok().flatten();
+    let most = curve.as_ref().and_then(|curve| curve.points.iter().map(|point| point.1).reduce(f64::max));
     let of_curve = most.and_then(|most| STRENGTH.question(&key("true_stress"), most));
-    of_numbers.chain(of_curve.map(|message| Mistake(test.span(), message))).collect()
+    // whoever is wrong about the stress is asked about that
+    let slope = curve.zip(modulus).filter(|_| !corrects && of_curve.is_none());
+    let slope = slope.and_then(|(curve, modulus)| curve.slope_off(modulus));
+    let of_slope = slope.map(|(_, why)| format!("{body}.tensile_test: {why}"));
+    of_numbers.chain(of_curve.into_iter().chain(of_slope).map(|message| Mistake(test.span(), message))).collect()
 }
 
 /// The doubts about the numbers of a material that isn't built in, where it is used.

@@ -226,14 +226,19 @@ impl TensileTestTable {
     fn strength(&self, name: &str, metal: &Metal, hardens: bool) -> Result<MeasuredStrength, TestMistake> {
         let wrong = |why: String| TestMistake(None, format!("{name}: {why}"));
         let Metal { youngs_modulus, .. } = *metal;
-        let (given, test) = match self {
-            TensileTestTable {
-                proof_stress: Some(proof),
-                tensile_strength: Some(strength),
-                true_strain: None,
-                plastic_strain: None,
-                true_stress: None,
-            } => {
+        let curve = self.curve().map_err(wrong)?;
+        let corrects = self.compliance_correction.as_ref();
+        if let Some(key) = corrects.filter(|_| curve.is_none()) {
+            let why = format!("{name}.compliance_correction belongs to a curve");
+            return Err(TestMistake(Some(key.span()), why));
+        }
+        let (given, test) = match (self, curve) {
+            (TensileTestTable { proof_stress: None, tensile_strength: None, .. }, Some(curve)) => {
+                let corrects = corrects.is_some_and(|corrects| *corrects.get_ref());
+                let test = tension::through_curve(&curve, youngs_modulus, corrects).map_err(wrong)?;
+                ("A tensile test".into(), test)
+            }
+            (TensileTestTable { proof_stress: Some(proof), tensile_strength: Some(strength), .. }, None) => {
                 for (key, value) in [("proof_stress", proof), ("tensile_strength", strength)] {
                     check_quantity(key, &format!("{name}."), value)
                         .map_err(|Mistake(span, why)| TestMistake(Some(span), why))?;
@@ -243,47 +248,52 @@ impl TensileTestTable {
                 let [proof, strength] = [proof, strength].map(|stress| quantity(stress, "Pa"));
                 (format!("A tensile test with a proof stress of {proof} and a tensile strength of {strength}"), test)
             }
-            TensileTestTable {
-                proof_stress: None,
-                tensile_strength: None,
-                true_strain,
-                plastic_strain,
-                true_stress: Some(stress),
-            } if true_strain.is_some() != plastic_strain.is_some() => {
-                let strain =
-                    true_strain.as_ref().or(plastic_strain.as_ref()).map_or(&[][..], |strain| strain.get_ref());
-                let (stress, is_plastic) = (stress.get_ref(), plastic_strain.is_some());
-                if strain.len() != stress.len() {
-                    let message =
-                        format!("{} strains and {} stresses: each point has both", strain.len(), stress.len());
-                    return Err(wrong(message));
-                }
-                let points: Vec<_> = strain.iter().copied().zip(stress.iter().copied()).collect();
-                let [strains, stresses] =
-                    ["true_strain", "true_stress"].map(|key| quantity_of("tensile_test", key).allowed);
-                let is_one = |(strain, stress): &(f64, f64)| strains.contains(strain) && stresses.contains(stress);
-                if let Some((strain, stress)) = points.iter().find(|point| !is_one(point)) {
-                    let [strain, stress] = [*strain, *stress].map(in_message);
-                    return Err(wrong(format!(
-                        "the point with a strain of {strain} and a stress of {stress} Pa is out of range: allowed are {}, and {} Pa",
-                        in_range(&strains),
-                        in_range(&stresses)
-                    )));
-                }
-                let curve = Curve { points, is_plastic };
-                ("A tensile test".into(), tension::through_curve(&curve, youngs_modulus).map_err(wrong)?)
-            }
-            _ => {
-                return Err(wrong(
-                    "it is the name of a file; or has proof_stress and tensile_strength; or true_strain (or plastic_strain) and \
-                     true_stress"
-                        .into(),
-                ));
-            }
+            _ => return Err(wrong(WAYS.into())),
         };
         measured::of_tensile_test(&given, test, hardens, metal).map_err(wrong)
     }
+
+    /// The points of its curve, if it has one.
+    pub fn curve(&self) -> Result<Option<Curve>, String> {
+        let of_file = self.curve.as_ref().map(Spanned::get_ref);
+        let own = (&self.true_strain, &self.plastic_strain, &self.true_stress);
+        let keys = match (of_file, own) {
+            (Some(curve), (None, None, None)) => (&curve.true_strain, &curve.plastic_strain, &curve.true_stress),
+            (None, _) if self.section.is_some() || self.gauge_length.is_some() => {
+                return Err(
+                    "section and gauge_length belong to the force and the travel of a curve = \"test.csv\"".into()
+                );
+            }
+            (None, own) => own,
+            _ => return Err(WAYS.into()),
+        };
+        let (strain, stress, is_plastic) = match keys {
+            (None, None, None) => return Ok(None),
+            (Some(strain), None, Some(stress)) => (strain.get_ref(), stress.get_ref(), false),
+            (None, Some(strain), Some(stress)) => (strain.get_ref(), stress.get_ref(), true),
+            _ => return Err(WAYS.into()),
+        };
+        if strain.len() != stress.len() {
+            return Err(format!("{} strains and {} stresses: each point has both", strain.len(), stress.len()));
+        }
+        let points: Vec<_> = strain.iter().copied().zip(stress.iter().copied()).collect();
+        let [strains, stresses] = ["true_strain", "true_stress"].map(|key| quantity_of("tensile_test", key).allowed);
+        let is_one = |(strain, stress): &(f64, f64)| strains.contains(strain) && stresses.contains(stress);
+        if let Some((strain, stress)) = points.iter().find(|point| !is_one(point)) {
+            let [strain, stress] = [*strain, *stress].map(in_message);
+            return Err(format!(
+                "the point with a strain of {strain} and a stress of {stress} Pa is out of range: allowed are {}, and {} Pa",
+                in_range(&strains),
+                in_range(&stresses)
+            ));
+        }
+        Ok(Some(Curve { points, is_plastic }))
+    }
 }
+
+/// The ways to give a tensile test.
+const WAYS: &str = "it is the name of a file; or has curve, the name of a file; or proof_stress and tensile_strength; or true_strain (or \
+                    plastic_strain) and true_stress";
 
 /// The power law of a `body` of the scene.
 pub fn check_power_law(body: Body, table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
