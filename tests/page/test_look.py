@@ -1,6 +1,7 @@
 """The page on a phone, in the dark, on paper, for who can't see it; and that it asks the network for nothing."""
 
 import base64
+import tomllib
 from pathlib import Path
 from typing import Literal
 
@@ -119,6 +120,17 @@ def test_a_scene_or_an_fmu_dropped_on_it_is_opened(opened: ScenePage, tmp_path: 
     assert opened.text == first
     opened.at("file").set_input_files({"name": "chosen.toml", "mimeType": "text/plain", "buffer": second.encode()})
     opened.has_read(second)
+
+
+def test_a_tensile_test_dropped_on_it_is_that_of_the_target(opened: ScenePage) -> None:
+    opened.write(scene("steel_ball"))
+    rows = "".join(f"{strain:g};{10 * strain**0.2:.6g}\n" for strain in (0.5, 1, 2, 4, 8))
+    table = f"# plastic strain [%];true stress [kgf/mm2]\n{rows}".replace(".", ",").encode()
+    opened.page.evaluate(DROP, ["curve.csv", base64.b64encode(table).decode()])
+    opened.page.wait_for_function("() => document.body.innerText.includes('curve.csv is open')")
+    target = tomllib.loads(opened.text)["target"]
+    assert target["tensile_test"]["plastic_strain"] == [0.005, 0.01, 0.02, 0.04, 0.08]
+    assert "yield_strength" not in target
 
 
 def test_a_link_opens_the_same_scene(opened: ScenePage, page: Page) -> None:

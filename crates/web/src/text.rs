@@ -3,6 +3,7 @@
 use crate::Refused;
 use brinell_exporter::mistake::SceneError;
 use brinell_exporter::scene::{self, Beside, Scene};
+use brinell_exporter::tension::{self, Specimen};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -45,6 +46,31 @@ pub fn check(asked: &Asked) -> Value {
     };
     json!({ "values": values, "mistakes": mistakes, "doubts": doubts, "files": scene::files_named(text) })
 }
+
+/// The scene with the curve in the bytes of a table as the tensile test of its target, in place of another strength.
+///
+/// # Errors
+/// What is wrong with the table.
+pub fn tensile_test(asked: &Asked, bytes: &[u8]) -> Result<Value, Refused> {
+    let curve = tension::read(bytes, &Specimen::default())?;
+    let (strains, stresses): (Vec<f64>, Vec<f64>) = curve.points.into_iter().unzip();
+    let strain = if curve.is_plastic { "plastic_strain" } else { "true_strain" };
+    let mut edits: Vec<Edit> = STRENGTHS.iter().map(|key| Edit::of(&["target", key], Value::Null)).collect();
+    edits.push(Edit::of(&["target", "tensile_test"], json!({ strain: strains, "true_stress": stresses })));
+    Ok(json!({ "text": edited(&asked.text, &edits)? }))
+}
+
+/// The keys that say how strong a body is.
+const STRENGTHS: [&str; 8] = [
+    "yield_strength",
+    "hardening_modulus",
+    "tangent_modulus",
+    "power_law",
+    "hardness",
+    "tensile_strength",
+    "hardening_exponent",
+    "tensile_test",
+];
 
 /// A value of TOML as JSON. Dates and numbers that JSON doesn't know are texts.
 fn json_of(value: &toml::Value) -> Value {

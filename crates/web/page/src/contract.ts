@@ -139,6 +139,7 @@ export interface Methods {
   libraries: Table;
   export: Exported;
   scene_of: { text: string };
+  tensile_test: { text: string };
   picture: { svg: string };
   csv: { csv: string };
   translate: Translate;

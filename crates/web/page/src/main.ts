@@ -122,7 +122,7 @@ async function start(): Promise<void> {
   const { bar, select } = tabs(parts);
   const button = (test: string, label: string, title: string, act: () => void, more = ""): HTMLButtonElement =>
     h("button", { type: "button", "data-test": test, title, class: more, onclick: act }, label);
-  const chooser = files(workshop, (opened, name) => (editor.open(opened), toast(`${name} is open. Undo brings back what was here.`)));
+  const chooser = files(workshop, () => scene.text, (opened, name) => (editor.open(opened), toast(`${name} is open. Undo brings back what was here.`)));
   const undo = button("undo", "Undo", "Undo (Ctrl+Z)", () => editor.undo());
   const redo = button("redo", "Redo", "Redo (Ctrl+Y)", () => editor.redo());
   const head = h("header", {},
@@ -130,7 +130,7 @@ async function start(): Promise<void> {
       h("p", { class: "tagline" }, "What an impact does to metal, and its FMU. Nothing leaves this page."),
     h("div", { class: "row" }, undo, redo, button("new", "New", "Start with a commented scene",
       async () => editor.open((await engine.ask("new", { name: "ball" })).ok.text)),
-      button("open", "Open", "Open a scene (.toml) or an FMU; or drop one anywhere", () => chooser.choose()),
+      button("open", "Open", "Open a scene (.toml), an FMU or a tensile test (.csv); or drop one anywhere", () => chooser.choose()),
         button("export", "FMU", "Make the FMU and download it", () => (select("download"), void download.fmu()), "primary")));
   const [formPart, textPart, ...others] = parts.map(({ panel }) => panel);
   document.body.append(head, results.summary, h("nav", { "aria-label": "parts of the page" }, bar),

@@ -55,24 +55,26 @@ export class Share {
   }
 }
 
-async function sceneIn(file: File, engine: Engine): Promise<string> {
-  if (/\.fmu$/i.test(file.name)) return (await engine.ask("scene_of", {}, new Uint8Array(await file.arrayBuffer()))).ok.text;
+async function sceneIn(file: File, engine: Engine, now: string): Promise<string> {
+  const bytes = async (): Promise<Uint8Array> => new Uint8Array(await file.arrayBuffer());
+  if (/\.fmu$/i.test(file.name)) return (await engine.ask("scene_of", {}, await bytes())).ok.text;
+  if (/\.(csv|tsv|txt|dat)$/i.test(file.name)) return (await engine.ask("tensile_test", { text: now }, await bytes())).ok.text;
   return file.text();
 }
 
-/** Opens files that are dropped or chosen. */
-export function files(engine: Engine, open: (text: string, name: string) => void): { choose(): void } {
+/** Opens files that are dropped or chosen; a table is the tensile test of the scene that is there `now`. */
+export function files(engine: Engine, now: () => string, open: (text: string, name: string) => void): { choose(): void } {
   const take = async (file: File | undefined): Promise<void> => {
     if (!file) return;
     try {
-      open(await sceneIn(file, engine), file.name);
+      open(await sceneIn(file, engine, now()), file.name);
     } catch (error) {
       toast(`${file.name}: ${describe(error)}`);
     }
   };
-  const input = h("input", { type: "file", accept: ".toml,.fmu", hidden: true, "data-test": "file",
+  const input = h("input", { type: "file", accept: ".toml,.fmu,.csv,.tsv,.txt,.dat", hidden: true, "data-test": "file",
     onchange: () => (void take(input.files?.[0]), (input.value = "")) });
-  const shade = h("div", { class: "drop", hidden: true, "data-test": "drop" }, h("p", {}, "Drop a scene (.toml) or an FMU"));
+  const shade = h("div", { class: "drop", hidden: true, "data-test": "drop" }, h("p", {}, "Drop a scene (.toml), an FMU, or the table of a tensile test (.csv)"));
   document.body.append(input, shade);
   addEventListener("dragover", (event) => {
     if (!event.dataTransfer?.types.includes("Files")) return;
