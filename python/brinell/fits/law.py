@@ -475,8 +475,11 @@ def strengths_of(readings: tuple[str, ...], path: str | Path, law: Law) -> Numbe
             one = Path(folder) / "scene.toml"
             data = scene | {law.body: own | {"hardness": reading}}
             one.write_text(toml(data), encoding="utf-8")
-            with naming(path, one):
+            try:
                 found[reading] = _flow_stress(one)
+            except ProgramError as error:
+                # nobody wrote that scene
+                raise ValueError(str(error).split(f"{one.name}:")[-1].split(": ", 1)[-1]) from None
     return np.array([found[it] for it in readings])
 
 

@@ -377,7 +377,9 @@ pub fn usual(kind: &ColumnKind) -> Vec<&'static str> {
 pub fn nearest_name(heading: &str) -> Option<&'static str> {
     let (name, _) = parted(heading);
     let name = key(&name);
-    let names = || KINDS.iter().flat_map(|kind| kind.names).filter(|name| name.len() > 2).copied();
+    // those of a specimen stand above the heading
+    let columns = || KINDS.iter().take_while(|kind| kind.key != "section");
+    let names = || columns().flat_map(|kind| kind.names).filter(|name| name.len() > 2).copied();
     let within = || {
         let padded = format!(" {name} ");
         names()
