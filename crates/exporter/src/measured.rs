@@ -303,7 +303,7 @@ fn without_spread(text: &str) -> Result<(String, Option<Spread>), String> {
         if before[..start].ends_with(|c: char| !c.is_whitespace()) {
             continue;
         }
-        if is_range && !(first < second) {
+        if is_range && first >= second {
             let [first, second] = [first, second].map(in_message);
             return Err(format!("a range goes from the least number to the largest, not from {first} to {second}"));
         }
