@@ -103,6 +103,9 @@ pub enum Command {
     /// Print a table of measurements with the quantities of its columns, as JSON, or what is wrong with it
     #[command(hide = true)]
     Table(TableArguments),
+    /// Unpack an FMU that keeps the rules of this program, for programs that load it
+    #[command(hide = true)]
+    Unpack { fmu: PathBuf, to: PathBuf },
     /// Prints the Rust source of the prebuilt library that a scene fits into
     #[command(hide = true)]
     Kind { scene: PathBuf },

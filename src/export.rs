@@ -60,7 +60,7 @@ pub fn check_own(path: &Path, unit: Option<&str>, text: &str, source: Option<&Pa
     if !path.exists() {
         return Ok(());
     }
-    let Some(old) = importer::scene_in(path, unit) else { return kept(&format!("no {what} of a scene")) };
+    let Ok(Some(old)) = importer::scene_in(path, unit) else { return kept(&format!("no {what} of a scene")) };
     if old == text {
         return Ok(());
     }

@@ -1,11 +1,13 @@
 //! Reading and writing of files for the user.
 
+use crate::temporary::draft_in;
 use brinell_exporter::layout::shown;
+use brinell_exporter::nearest::nearest;
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{NamedTempFile, TempDir};
+use tempfile::NamedTempFile;
 
 /// A file that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -33,7 +35,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     match &goal {
         Goal::Stream => fs::OpenOptions::new().write(true).open(path).and_then(|mut stream| stream.write_all(bytes)),
         Goal::File(file) => check_writable(file)
-            .and_then(|()| draft().tempfile_in(folder_of(file)))
+            .and_then(|()| draft_in(folder_of(file)))
             .and_then(|draft| fill_and_rename(draft, file, bytes)),
     }
     .map_err(&file_error)
@@ -109,26 +111,6 @@ fn check_stream(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// A temporary file with the permissions of the umask.
-fn draft() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.prefix(".brinell-");
-    builder
-}
-
-/// A new folder in `parent` whose name begins with `prefix`. Only its owner can read or write it. It is removed when dropped.
-///
-/// # Errors
-/// [`FileError`]
-pub fn private_folder(prefix: &str, parent: &Path) -> Result<TempDir, FileError> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-    builder.prefix(prefix).tempdir_in(parent).map_err(FileError::at(parent))
-}
-
 /// Rejects a target that cannot be written, before any work is done: a folder, or a file in a folder that does not exist or
 /// cannot be written to.
 ///
@@ -150,7 +132,63 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
     }
     check_name(&file).map_err(FileError::at(path))?;
     // only creating a file shows whether it is possible; the file is deleted immediately
-    draft().tempfile_in(folder).map(drop).map_err(FileError::at(path))
+    draft_in(folder).map(drop).map_err(FileError::at(path))
+}
+
+/// What a command reads, by the ending of its files.
+pub struct Kind {
+    ending: &'static str,
+    name: &'static str,
+    /// How one is made.
+    made: &'static str,
+}
+
+pub const SCENE: Kind = Kind { ending: "toml", name: "scene", made: "`brinell new NAME` writes one" };
+pub const FMU: Kind = Kind { ending: "fmu", name: "FMU", made: "`brinell export` makes the FMU of a scene" };
+
+/// Files that end like scenes and are none.
+const NO_SCENES: [&str; 3] = ["materials.toml", "Cargo.toml", "pyproject.toml"];
+
+/// Rejects a folder, with the files of the `kind` that are in it, and a missing file, with one beside it that has a similar name.
+///
+/// # Errors
+/// [`io::Error`]
+pub fn check_readable(path: &Path, kind: &Kind) -> io::Result<()> {
+    let names = |folder: &Path| {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let is_it = |path: &PathBuf| path.extension().is_some_and(|ending| ending == kind.ending) && path.is_file();
+        let files = entries.filter(is_it).filter_map(|path| Some(path.file_name()?.to_str()?.to_string()));
+        let mut names: Vec<_> = files.filter(|name| !NO_SCENES.contains(&name.as_str())).collect();
+        names.sort();
+        names
+    };
+    match fs::metadata(path) {
+        Ok(there) if there.is_dir() => {
+            let in_it = |name: &String| shown(&path.join(name));
+            let found = names(path);
+            let Kind { ending, name, made } = kind;
+            let said = match found.as_slice() {
+                [] => format!("this is a folder, and no {name} (.{ending}) is in it; {made}"),
+                [only] => format!("this is a folder; the {name} in it is {}", in_it(only)),
+                all => {
+                    const NAMED: usize = 5;
+                    let more =
+                        if all.len() > NAMED { format!(" and {} more", all.len() - NAMED) } else { String::new() };
+                    let named = all.iter().take(NAMED).map(in_it).collect::<Vec<_>>().join(", ");
+                    format!("this is a folder; name one of the files (.{ending}) in it: {named}{more}")
+                }
+            };
+            Err(io::Error::new(io::ErrorKind::IsADirectory, said))
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            let (folder, names) = (folder_of(path), names(folder_of(path)));
+            let asked = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let Some(near) = nearest(&asked, names.iter().map(String::as_str)) else { return Err(error) };
+            let near = if folder == Path::new(".") { near.into() } else { shown(&folder.join(near)) };
+            Err(io::Error::new(error.kind(), format!("{error}; did you mean {near}?")))
+        }
+        other => other.map(drop),
+    }
 }
 
 /// Rejects a target that is the file `input` of the command: the user's scene would be lost.
@@ -178,7 +216,7 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
     check_name(path).map_err(FileError::at(path))?;
     // a missing folder is created in its nearest existing ancestor
     let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
-    draft().tempfile_in(there).map(drop).map_err(FileError::at(path))
+    draft_in(there).map(drop).map_err(FileError::at(path))
 }
 
 /// A kind of folder of the user's: the variable that has it on Windows; its place below `HOME` on macOS; the variable that has it on

@@ -2,7 +2,7 @@
 //!
 //! | module | what it has |
 //! |---|---|
-//! | `messages`, `files`, `parallel`, `scene_file` | standard error, the user's files, processors |
+//! | `messages`, `files`, `temporary`, `parallel`, `scene_file` | standard error, the user's files, processors |
 //! | `sources`, `prebuilt`, `package` | the library of an FMU: compiled, or filled in |
 //! | `importer`, `master` | an FMU behind its C interface, and who moves the bodies |
 //! | `export`, `check`, `predict`, `report`, and others | the commands, one module each |
@@ -38,8 +38,10 @@ mod sources;
 mod ssp;
 mod summary;
 mod tangential_curve;
+mod temporary;
 mod translate;
 mod truth;
+mod unpack;
 
 use arguments::{Arguments, Command, PlatformArguments, TableArguments};
 use brinell_exporter::layout::json_line;
@@ -169,6 +171,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             let table = measurement::read(&bytes, &choices).and_then(|table| table.json());
             print!("{}", json_line(&table.unwrap_or_else(|wrong| serde_json::json!({ "wrong": wrong }))));
         }
+        Some(Command::Unpack { fmu, to }) => unpack::run(fmu, to)?,
         Some(Command::Kind { scene }) => {
             let library = Library::of(&scene_file::read(scene)?);
             print!("{}", library.source_with("unpacked"));

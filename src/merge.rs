@@ -1,18 +1,18 @@
 //! `brinell merge`: joins FMUs of one scene for different platforms.
 
 use crate::files::{FileError, check_goal, write_whole};
-use crate::importer::{self, Bound, Description, ImportError};
+use crate::importer::{self, BoundedArchive, DESCRIPTION, Description, ImportError};
 use brinell_exporter::layout::{json_line, shown};
 use brinell_exporter::package::{ZipError, archive};
 use brinell_exporter::platform::Platform;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::fs;
-use std::io::{self, Cursor};
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
-const DESCRIPTION: &str = "modelDescription.xml";
 const BINARIES: &str = "binaries/";
 
 /// The reason why FMUs cannot be joined.
@@ -40,8 +40,8 @@ pub enum MergeError {
 pub struct Fmu {
     path: PathBuf,
     guid: String,
-    /// Contents of its files, by name.
-    files: BTreeMap<String, Vec<u8>>,
+    /// Contents of its files, by name. Equal files of several FMUs are in memory once.
+    files: BTreeMap<String, Rc<[u8]>>,
 }
 
 /// The command: joins the FMUs at `paths` into `output`.
@@ -50,9 +50,12 @@ pub struct Fmu {
 /// [`MergeError`]; nothing is written then.
 pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeError> {
     check_goal(output)?;
-    let fmus = paths.iter().map(|path| Fmu::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let mut fmus = Vec::new();
+    for path in paths {
+        fmus.push(Fmu::read(path, &fmus)?);
+    }
     let files = join(fmus)?;
-    let files: Vec<(String, &[u8])> = files.iter().map(|(name, bytes)| (name.clone(), bytes.as_slice())).collect();
+    let files: Vec<(String, &[u8])> = files.iter().map(|(name, bytes)| (name.clone(), &**bytes)).collect();
     let archive = archive(&files)?;
     write_whole(output, &archive)?;
     let mut platforms: Vec<_> = files.iter().filter_map(|(name, _)| platform(name)).collect();
@@ -67,30 +70,28 @@ pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeE
 }
 
 impl Fmu {
-    fn read(path: &Path) -> Result<Fmu, MergeError> {
-        let refused = |reason: ImportError| MergeError::NoFmu { path: path.into(), reason };
-        let bytes = fs::read(path).map_err(FileError::at(path))?;
-        let mut archive = importer::open(Cursor::new(bytes)).map_err(refused)?;
+    /// Reads the FMU at `path`, after `others`.
+    fn read(path: &Path, others: &[Fmu]) -> Result<Fmu, MergeError> {
+        Fmu::unpacked(path, others).map_err(|reason| MergeError::NoFmu { path: path.into(), reason })
+    }
+
+    fn unpacked(path: &Path, others: &[Fmu]) -> Result<Fmu, ImportError> {
+        let mut archive: BoundedArchive<File> = BoundedArchive::open(importer::file(path)?)?;
         let mut files = BTreeMap::new();
-        let mut bound = Bound::of(&archive).map_err(refused)?;
-        for index in 0..archive.len() {
-            let mut file = archive.by_index(index).map_err(|error| refused(error.into()))?;
-            if file.is_dir() {
-                continue;
-            }
-            let name = file.name().map_err(|error| refused(error.into()))?.into_owned();
+        for (index, name) in archive.files()? {
             let mut bytes = Vec::new();
-            bound.copy(&mut file, &mut bytes).map_err(refused)?;
-            files.insert(name, bytes);
+            archive.copy(index, &mut bytes)?;
+            let known = others.iter().filter_map(|other| other.files.get(&name)).find(|known| ***known == *bytes);
+            files.insert(name, known.cloned().unwrap_or_else(|| bytes.into()));
         }
         let missing = || ImportError::Part { name: DESCRIPTION, source: io::ErrorKind::NotFound.into() };
-        let text = files.get(DESCRIPTION).ok_or_else(missing).map_err(refused)?;
-        let Description { guid, .. } = Description::read(|| Ok(text.as_slice())).map_err(refused)?;
+        let text = files.get(DESCRIPTION).ok_or_else(missing)?;
+        let Description { guid, .. } = Description::read(|| Ok(&**text))?;
         Ok(Fmu { path: path.into(), guid, files })
     }
 
     /// The files for a platform, by name.
-    fn of_platform(&self, platform: &str) -> Vec<(&String, &Vec<u8>)> {
+    fn of_platform(&self, platform: &str) -> Vec<(&String, &Rc<[u8]>)> {
         self.files.iter().filter(|(name, _)| self::platform(name) == Some(platform)).collect()
     }
 }
@@ -102,7 +103,7 @@ fn platform(name: &str) -> Option<&str> {
 }
 
 /// The files of all FMUs, in the order of an export.
-fn join(fmus: Vec<Fmu>) -> Result<Vec<(String, Vec<u8>)>, MergeError> {
+fn join(fmus: Vec<Fmu>) -> Result<Vec<(String, Rc<[u8]>)>, MergeError> {
     for (index, other) in fmus.iter().enumerate() {
         if let Some(one) = fmus[..index].iter().find(|one| one.guid != other.guid) {
             let copy = |fmu: &Fmu| Fmu { path: fmu.path.clone(), guid: fmu.guid.clone(), files: BTreeMap::new() };
@@ -120,7 +121,7 @@ fn join(fmus: Vec<Fmu>) -> Result<Vec<(String, Vec<u8>)>, MergeError> {
             }
         }
     }
-    let mut all: BTreeMap<String, (Vec<u8>, PathBuf)> = BTreeMap::new();
+    let mut all: BTreeMap<String, (Rc<[u8]>, PathBuf)> = BTreeMap::new();
     for Fmu { path, files, .. } in fmus {
         for (name, bytes) in files {
             match all.entry(name) {

@@ -1,6 +1,7 @@
 //! Scene files: reading them, and warnings about what is in them.
 
-use crate::files::{CONFIGURATION, user_folder};
+use crate::files::{self, CONFIGURATION, user_folder};
+use crate::importer::{self, ImportError};
 use crate::messages::warn;
 use brinell_exporter::layout::shown;
 use brinell_exporter::mistake::{self, SceneError};
@@ -18,7 +19,11 @@ const OF_USER: &str = "materials.toml in the user's configuration folder";
 const WORKBOOKS: &str = "BRINELL_WORKBOOKS";
 
 /// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
-const LARGEST: u64 = 256 << 20;
+pub const LARGEST: u64 = 256_000_000;
+
+/// The largest table of materials or tensile test [bytes]. A machine that writes three numbers a thousand times a second for ten minutes
+/// makes half of it.
+const LARGEST_BESIDE: u64 = 40_000_000;
 
 const DEFAULT_SCENE: &str = include_str!("../scenes/steel_ball.toml");
 
@@ -49,9 +54,45 @@ pub fn read_aloud(path: &Path) -> Result<Scene, SceneError> {
 }
 
 fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<SceneError>), SceneError> {
-    let text = mistake::text(bytes(path)?, path)?;
-    Scene::parse_beside(&text, path, &beside(&text, path)?)
+    let source = Source::read(path)?;
+    Scene::parse_beside(&source.text, &source.path, &source.beside()?)
 }
+
+/// A scene's text, and where it is from.
+struct Source {
+    text: String,
+    /// In messages: that of the file, or one in an FMU.
+    path: PathBuf,
+    /// An FMU's scene has taken in all that it uses.
+    is_alone: bool,
+}
+
+impl Source {
+    /// The scene at `path`, or that of the FMU there.
+    fn read(path: &Path) -> Result<Source, SceneError> {
+        let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
+        files::check_readable(path, &files::SCENE).map_err(unreadable)?;
+        let bytes = bytes(path, LARGEST, "scene")?;
+        if !bytes.starts_with(ARCHIVE) {
+            return Ok(Source { text: mistake::text(bytes, path)?, path: path.into(), is_alone: false });
+        }
+        let none =
+            || io::Error::other("this is an archive without a scene: no FMU of brinell, nor the text of a scene");
+        let found = importer::scene_in(path, None).map_err(|error| match error {
+            ImportError::Unreadable(error) => error,
+            other => io::Error::other(other.to_string()),
+        });
+        let text = found.and_then(|text| text.ok_or_else(none)).map_err(unreadable)?;
+        Ok(Source { text, path: path.join(importer::SCENE), is_alone: true })
+    }
+
+    fn beside(&self) -> Result<Beside, SceneError> {
+        if self.is_alone { Ok(Beside::default()) } else { beside(&self.text, &self.path) }
+    }
+}
+
+/// How an archive begins (APPNOTE.TXT, section 4.3.7).
+const ARCHIVE: &[u8] = b"PK\x03\x04";
 
 /// What lies beside the scene with this `text` at `path`.
 fn beside(text: &str, path: &Path) -> Result<Beside, SceneError> {
@@ -60,7 +101,7 @@ fn beside(text: &str, path: &Path) -> Result<Beside, SceneError> {
         std::env::var(WORKBOOKS).map_or(BTreeMap::new(), |texts| serde_json::from_str(&texts).unwrap_or_default());
     let read = |name: String| {
         let path = workbooks.get(&name).cloned().unwrap_or_else(|| folder.join(&name));
-        let found = bytes(&path).map_err(|error| match error {
+        let found = bytes(&path, LARGEST_BESIDE, "tensile test").map_err(|error| match error {
             SceneError::Unreadable { source, .. } => format!("{} can't be read: {source}", shown(&path)),
             other => other.to_string(),
         });
@@ -79,7 +120,7 @@ pub fn materials(folder: &Path) -> Result<Vec<MaterialTable>, SceneError> {
     let tables = [(Some(folder.join(TABLE)), BESIDE), (of_user.map(|folder| folder.join(TABLE)), OF_USER)];
     let tables = tables.into_iter().filter_map(|(path, place)| Some((path?, place)));
     let read = |(path, place): (std::path::PathBuf, &'static str)| {
-        let text = mistake::text(bytes(&path)?, &path)?;
+        let text = mistake::text(bytes(&path, LARGEST_BESIDE, "table of materials")?, &path)?;
         MaterialTable::parse(&text, &path, place)
     };
     tables.filter(|(path, _)| path.is_file()).map(read).collect()
@@ -90,32 +131,47 @@ pub fn materials(folder: &Path) -> Result<Vec<MaterialTable>, SceneError> {
 /// # Errors
 /// As for [`read`].
 pub fn in_si(path: &Path) -> Result<String, SceneError> {
-    let text = mistake::text(bytes(path)?, path)?;
-    scene::in_si(&text, path, &beside(&text, path)?)
+    let source = Source::read(path)?;
+    scene::in_si(&source.text, &source.path, &source.beside()?)
 }
 
-/// The contents of the file at `path`, or of standard input.
+/// The contents of the table at `path`, or of standard input.
 ///
 /// # Errors
 /// A file that can't be read, or is too large.
 pub fn bytes_or_standard_input(path: Option<&Path>) -> Result<Vec<u8>, SceneError> {
-    path.map_or_else(|| limited(io::stdin(), Path::new("standard input")), bytes)
+    match path {
+        Some(path) => bytes(path, LARGEST_BESIDE, "table"),
+        None => limited(io::stdin(), Path::new("standard input"), LARGEST_BESIDE, "table"),
+    }
 }
 
-/// The contents of the file at `path`.
-fn bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
-    let file = std::fs::File::open(path);
-    limited(file.map_err(|source| SceneError::Unreadable { path: path.into(), source })?, path)
-}
-
-/// All that comes from a `source`, which may be a device that never ends.
-fn limited(source: impl Read, path: &Path) -> Result<Vec<u8>, SceneError> {
+/// The contents of the file at `path`, which may be a device that never ends: at most `most` bytes, which are enough for `what` it is.
+fn bytes(path: &Path, most: u64, what: &str) -> Result<Vec<u8>, SceneError> {
     let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    // what a file says is told before it is read
+    let size = file.metadata().map_err(unreadable)?.len();
+    if size > most {
+        return Err(too_large(path, importer::size(size), most, what));
+    }
+    limited(file, path, most, what)
+}
+
+fn too_large(path: &Path, size: String, most: u64, what: &str) -> SceneError {
+    let allowed = importer::size(most);
+    let source = io::Error::other(format!("it has {size}; allowed for a {what} is {allowed}"));
+    SceneError::Unreadable { path: path.into(), source }
+}
+
+/// All that comes from a `source`.
+fn limited(source: impl Read, path: &Path, most: u64, what: &str) -> Result<Vec<u8>, SceneError> {
     let mut bytes = Vec::new();
-    source.take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST {
-        let message = format!("it is larger than {} MB, which no scene needs", LARGEST >> 20);
-        return Err(unreadable(io::Error::other(message)));
+    let read = source.take(most + 1).read_to_end(&mut bytes);
+    read.map_err(|source| SceneError::Unreadable { path: path.into(), source })?;
+    if bytes.len() as u64 > most {
+        let size = format!("more than {}", importer::size(most));
+        return Err(too_large(path, size, most, what));
     }
     Ok(bytes)
 }

@@ -2,7 +2,8 @@
 
 use super::CheckError;
 use super::bounded_output::output_within;
-use crate::files::{private_folder, write_whole};
+use crate::files::write_whole;
+use crate::temporary::PrivateFolder;
 use brinell_exporter::layout::without_middle;
 use serde::{Deserialize, Serialize};
 use std::io;
@@ -29,7 +30,7 @@ const FOUND: &str = "found.json";
 /// [`CheckError`]
 pub fn check(path: &Path, as_json: bool, limit: Duration) -> Result<Found, CheckError> {
     // keeps the temporary files of a process that crashes
-    let folder = private_folder("brinell-check-", &env::temp_dir())?;
+    let folder = PrivateFolder::new("brinell-check-", &env::temp_dir())?;
     let file = folder.path().join(FOUND);
     let mut command = Command::new(env::current_exe().map_err(CheckError::NoProcess)?);
     command.arg("check").arg(path).arg("--found").arg(&file);

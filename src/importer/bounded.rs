@@ -1,66 +1,156 @@
-//! Unpacks untrusted archives with a bound on their size.
+//! Reads untrusted archives by rules that are checked before anything is unpacked, and while it is.
 
 use super::ImportError;
 use brinell_exporter::layout::shortened;
 use std::fs::{self, File};
-use std::io::{self, Read, Seek, Write};
+use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 use zip::ZipArchive;
 
-/// The largest size of an unpacked archive [bytes]. An FMU of 100,000 contacts with all outputs takes a third of it.
-pub const LARGEST: u64 = 2 << 30;
+/// What any archive may take when it is unpacked [bytes].
+const FREE: u64 = 64_000_000;
+
+/// How many times its size in the archive a file may take beyond that. XML of 100,000 contacts takes 41 times its size; a file of zeros
+/// would take 1032 times, the most that deflate has (zlib, technical details).
+const RATIO: u64 = 200;
+
+/// The largest size of an archive, and of an unpacked one [bytes]. An FMU of 100,000 contacts with ten outputs takes a quarter of it.
+pub const LARGEST: u64 = 2_000_000_000;
 
 /// The largest number of files. Each takes a place in the file system, whatever its size.
 pub const MOST_FILES: usize = 100_000;
 
-/// The remaining number of bytes.
-pub struct Bound {
-    left: u64,
+/// What so many bytes of an archive may take when they are unpacked [bytes].
+fn allowed(packed: u64) -> u64 {
+    RATIO.saturating_mul(packed).saturating_add(FREE).min(LARGEST)
 }
 
-impl Bound {
-    /// The full bound, for an archive that does not declare more.
+/// The rule of [`allowed`], in words.
+pub fn rule() -> String {
+    format!("{} and {RATIO} times what it takes in the archive, up to {}", size(FREE), size(LARGEST))
+}
+
+/// A number of bytes for people.
+pub fn size(bytes: u64) -> String {
+    match bytes {
+        ..10_000 => format!("{bytes} bytes"),
+        ..10_000_000 => format!("{} kB", bytes / 1000),
+        _ => format!("{} MB", bytes / 1_000_000),
+    }
+}
+
+/// An archive that keeps the rules: each file has a plain path as its name, each path is there once, no file is a link, and none, nor all
+/// together, is too large. Other names, and links, mean another file to each tool that unpacks them.
+pub struct BoundedArchive<R>(ZipArchive<R>);
+
+impl<R: Read + Seek> BoundedArchive<R> {
+    /// Opens an archive.
     ///
     /// # Errors
-    /// [`ImportError::TooLarge`]
-    pub fn of<R: Read + Seek>(archive: &ZipArchive<R>) -> Result<Bound, ImportError> {
-        match archive.decompressed_size() {
-            Some(size) if size > u128::from(LARGEST) => Err(ImportError::TooLarge),
-            _ => Ok(Bound { left: LARGEST }),
+    /// [`ImportError`] of the first rule that it breaks.
+    pub fn open(mut reader: R) -> Result<BoundedArchive<R>, ImportError> {
+        let packed = reader.seek(SeekFrom::End(0)).map_err(|_| ImportError::NoArchive)?;
+        // some commands hold all of it in memory
+        if packed > LARGEST {
+            return Err(ImportError::LargeFile(packed));
+        }
+        let archive = ZipArchive::new(reader).map_err(|_| ImportError::NoArchive)?;
+        if archive.len() > MOST_FILES {
+            return Err(ImportError::TooMany);
+        }
+        if archive.has_duplicate_names() {
+            return Err(ImportError::Twice);
+        }
+        let mut total: u64 = 0;
+        for index in 0..archive.len() {
+            let file = archive.by_index_data(index)?;
+            let name = file.name()?;
+            let shown = || shortened(&name);
+            if !is_plain(&name) {
+                return Err(ImportError::Path(shown()));
+            }
+            if file.is_symlink() {
+                return Err(ImportError::Link(shown()));
+            }
+            let most = allowed(file.compressed_size());
+            if file.size() > most {
+                return Err(ImportError::LargePart { name: shown(), size: file.size(), allowed: most });
+            }
+            total = total.saturating_add(file.size());
+        }
+        // the parts of an archive may overlap
+        let most = allowed(packed);
+        if total > most {
+            return Err(ImportError::TooLarge { size: total, allowed: most });
+        }
+        Ok(BoundedArchive(archive))
+    }
+
+    /// The places of the files, without folders, by their names.
+    pub fn files(&self) -> Result<Vec<(usize, String)>, ImportError> {
+        let mut files = Vec::new();
+        for index in 0..self.0.len() {
+            let file = self.0.by_index_data(index)?;
+            if !file.is_dir() {
+                files.push((index, file.name()?.into_owned()));
+            }
+        }
+        Ok(files)
+    }
+
+    /// Unpacks a file. It ends with an error if more comes out than the archive declares.
+    ///
+    /// # Errors
+    /// [`ImportError::Entry`], [`ImportError::Undeclared`], [`ImportError::Zip`]
+    pub fn copy(&mut self, index: usize, to: &mut impl Write) -> Result<(), ImportError> {
+        let mut file = self.0.by_index(index)?;
+        let (declared, name) = (file.size(), shortened(&file.name()?));
+        match io::copy(&mut file.by_ref().take(declared.saturating_add(1)), to) {
+            Ok(copied) if copied > declared => Err(ImportError::Undeclared { name, declared }),
+            Ok(_) => Ok(()),
+            Err(source) => Err(ImportError::Entry { name, source }),
         }
     }
 
-    /// Copies all of `from`, whatever size it declares.
+    /// The bytes of the file with this name, of at most `most` bytes; `None` if there is none.
     ///
     /// # Errors
-    /// [`ImportError::TooLarge`], [`ImportError::Unpack`]
-    pub fn copy(&mut self, from: &mut impl Read, to: &mut impl Write) -> Result<(), ImportError> {
-        let copied = io::copy(&mut from.take(self.left.saturating_add(1)), to).map_err(ImportError::Unpack)?;
-        self.left = self.left.checked_sub(copied).ok_or(ImportError::TooLarge)?;
+    /// As for [`BoundedArchive::copy`], and [`ImportError::LargePart`].
+    pub fn read(&mut self, name: &str, most: u64) -> Result<Option<Vec<u8>>, ImportError> {
+        let Some(index) = self.0.index_for_name(name) else { return Ok(None) };
+        let size = self.0.by_index_data(index)?.size();
+        if size > most {
+            return Err(ImportError::LargePart { name: shortened(name), size, allowed: most });
+        }
+        let mut bytes = Vec::new();
+        self.copy(index, &mut bytes)?;
+        Ok(Some(bytes))
+    }
+
+    /// Unpacks all files into `folder`.
+    ///
+    /// # Errors
+    /// As for [`BoundedArchive::copy`].
+    pub fn unpack(&mut self, folder: &Path) -> Result<(), ImportError> {
+        for (index, name) in self.files()? {
+            let goal = folder.join(name.replace('\\', "/"));
+            // where names of letters of another case are one file, it isn't written twice
+            let made = fs::create_dir_all(goal.parent().unwrap_or(folder)).and_then(|()| File::create_new(&goal));
+            let mut file = made.map_err(|source| ImportError::Entry { name: shortened(&name), source })?;
+            self.copy(index, &mut file)?;
+        }
         Ok(())
     }
 }
 
-/// Opens an archive whose files have plain paths inside it as names, each once. Other names mean another file to each tool that
-/// unpacks them.
-///
-/// # Errors
-/// [`ImportError::NoArchive`], [`ImportError::TooMany`], [`ImportError::Path`], [`ImportError::Twice`]
-pub fn open<R: Read + Seek>(reader: R) -> Result<ZipArchive<R>, ImportError> {
-    let archive = ZipArchive::new(reader).map_err(|_| ImportError::NoArchive)?;
-    if archive.len() > MOST_FILES {
-        return Err(ImportError::TooMany);
+impl BoundedArchive<Cursor<Vec<u8>>> {
+    /// Opens an archive in an archive.
+    ///
+    /// # Errors
+    /// As for [`BoundedArchive::open`].
+    pub fn inside(bytes: Vec<u8>) -> Result<Self, ImportError> {
+        BoundedArchive::open(Cursor::new(bytes))
     }
-    for name in archive.file_names() {
-        let name = name?;
-        if !is_plain(&name) {
-            return Err(ImportError::Path(shortened(&name)));
-        }
-    }
-    if archive.has_duplicate_names() {
-        return Err(ImportError::Twice);
-    }
-    Ok(archive)
 }
 
 /// Whether this name of a file or a folder is a path inside the archive on every operating system, without detours.
@@ -68,47 +158,4 @@ fn is_plain(name: &str) -> bool {
     let separators = ['/', '\\'];
     let path = name.strip_suffix(separators).unwrap_or(name);
     path.split(separators).all(|part| !matches!(part, "" | "." | "..") && !part.contains([':', '\0']))
-}
-
-/// Unpacks `archive` into `folder`: only files, and only those with paths inside the folder.
-///
-/// # Errors
-/// [`ImportError::TooLarge`], [`ImportError::Unpack`], [`ImportError::Path`]
-pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Result<(), ImportError> {
-    let mut bound = Bound::of(archive)?;
-    for index in 0..archive.len() {
-        let mut file = archive.by_index(index)?;
-        if file.is_dir() {
-            continue;
-        }
-        let Some(inside) = file.enclosed_name() else {
-            let name = shortened(&String::from_utf8_lossy(file.name_raw()));
-            return Err(ImportError::Path(name));
-        };
-        let goal = folder.join(inside);
-        let name = shortened(&String::from_utf8_lossy(file.name_raw()));
-        let named = |source| ImportError::Entry { name: format!("{name:?}"), source };
-        let made = fs::create_dir_all(goal.parent().unwrap_or(folder)).and_then(|()| File::create(&goal));
-        bound.copy(&mut file, &mut made.map_err(&named)?).map_err(|error| match error {
-            ImportError::Unpack(source) => named(source),
-            other => other,
-        })?;
-    }
-    Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Bound, ImportError};
-
-    /// The size that an archive declares may be a lie: what counts is what comes out.
-    #[test]
-    fn more_than_the_bound_is_never_copied() {
-        let mut bound = Bound { left: 10 };
-        let mut to = Vec::new();
-        bound.copy(&mut &[1; 4][..], &mut to).expect("four of ten");
-        bound.copy(&mut &[2; 6][..], &mut to).expect("all ten");
-        assert!(matches!(bound.copy(&mut std::io::repeat(3), &mut to), Err(ImportError::TooLarge)));
-        assert_eq!(to.len(), 11, "one byte more shows that there are more");
-    }
 }

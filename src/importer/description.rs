@@ -142,6 +142,10 @@ impl Description {
                         _ => {}
                     }
                 }
+                // an entity of it could be a file of this machine, or grow without end
+                Event::DocType(_) => {
+                    return Err(invalid("it has a document type, which no model description has"));
+                }
                 Event::GeneralRef(reference) => {
                     let character = reference.resolve_char_ref().map_err(|error| wrong(&error))?;
                     check_characters(&character.map(String::from).unwrap_or_default())?;

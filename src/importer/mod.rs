@@ -8,18 +8,20 @@ mod description;
 mod hostile_tests;
 mod unit;
 
-use crate::files::private_folder;
+use crate::files::{self, FMU};
+use crate::scene_file;
+use crate::temporary::PrivateFolder;
 use brinell_exporter::layout::{shortened, without_middle};
 use brinell_exporter::numbers::in_message;
 use brinell_exporter::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
-use std::io::{BufReader, Cursor, Read, Seek};
-use std::path::Path;
-use std::{env, fs, io};
-use tempfile::TempDir;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::{env, io};
 
-pub use bounded::{Bound, open};
+pub use bounded::{BoundedArchive, size};
 pub use description::{Base, Causality, Description, VariableUnit};
 pub use unit::{Instance, Unit};
 
@@ -28,10 +30,22 @@ pub use unit::{Instance, Unit};
 pub enum ImportError {
     #[error("{0}")]
     Unreadable(io::Error),
-    #[error("{name} in it can't be unpacked: {source}")]
+    #[error("it is no file: an archive is read from its end, which a pipe or a device doesn't show")]
+    NoFile,
+    #[error("{name:?} in it can't be unpacked: {source}")]
     Entry { name: String, source: io::Error },
+    #[error("it has {}; allowed for an FMU is {}", bounded::size(*.0), bounded::size(bounded::LARGEST))]
+    LargeFile(u64),
     #[error("it has more than {} files, which no FMU needs", bounded::MOST_FILES)]
     TooMany,
+    #[error("{name:?} in it has {} when unpacked; allowed is {}: {}", bounded::size(*size), bounded::size(*allowed), bounded::rule())]
+    LargePart { name: String, size: u64, allowed: u64 },
+    #[error("it has {} when unpacked; allowed is {}: {}", bounded::size(*size), bounded::size(*allowed), bounded::rule())]
+    TooLarge { size: u64, allowed: u64 },
+    #[error("{name:?} in it has more than the {} that the archive declares", bounded::size(*declared))]
+    Undeclared { name: String, declared: u64 },
+    #[error("{0:?} in it is a symbolic link, which tools unpack differently; put the file itself there")]
+    Link(String),
     #[error("modelDescription.xml is not of FMI 2.0 (fmiVersion is {0:?})")]
     Version(String),
     #[error("modelDescription.xml has no element CoSimulation with a modelIdentifier: it is no FMU for co-simulation")]
@@ -44,8 +58,6 @@ pub enum ImportError {
     Part { name: &'static str, source: io::Error },
     #[error("it can't be unpacked: {0}")]
     Unpack(io::Error),
-    #[error("it is larger than {} MB when unpacked, which no FMU needs", bounded::LARGEST / 1_000_000)]
-    TooLarge,
     #[error("it is no zip archive, as every FMU is, or an incomplete one; `brinell export` makes the FMU of a scene")]
     NoArchive,
     #[error("its zip archive is damaged: {0}")]
@@ -78,25 +90,51 @@ pub enum ImportError {
 }
 
 /// The scene of an FMU that this program has made.
-const SCENE: &str = "resources/scene.toml";
+pub const SCENE: &str = "resources/scene.toml";
 
-/// The scene of the FMU at `path`, or of the FMU `unit` in the system there, if this program has made it.
-pub fn scene_in(path: &Path, unit: Option<&str>) -> Option<String> {
-    let file = fs::File::open(path).ok()?;
-    let text = match unit {
-        None => part(file, SCENE)?,
-        Some(unit) => part(Cursor::new(part(file, unit)?), SCENE)?,
-    };
-    String::from_utf8(text).ok()
+/// The model description of an FMU.
+pub const DESCRIPTION: &str = "modelDescription.xml";
+
+/// The file at `path`, if it is one: a pipe would have to be waited for.
+///
+/// # Errors
+/// [`ImportError::Unreadable`]
+pub fn file(path: &Path) -> Result<File, ImportError> {
+    files::check_readable(path, &FMU).map_err(ImportError::Unreadable)?;
+    if !path.is_file() {
+        return Err(ImportError::NoFile);
+    }
+    File::open(path).map_err(ImportError::Unreadable)
 }
 
-/// The contents of the file `name` in an archive.
-fn part(archive: impl Read + Seek, name: &str) -> Option<Vec<u8>> {
-    let mut archive = bounded::open(archive).ok()?;
-    let mut bound = Bound::of(&archive).ok()?;
-    let mut bytes = Vec::new();
-    bound.copy(&mut archive.by_name(name).ok()?, &mut bytes).ok()?;
-    Some(bytes)
+/// The scene of the FMU at `path`, or of the FMU `unit` in the system there; `None` if this program has not made it.
+///
+/// # Errors
+/// [`ImportError`] of an archive that can't be read.
+pub fn scene_in(path: &Path, unit: Option<&str>) -> Result<Option<String>, ImportError> {
+    let mut archive = BoundedArchive::open(file(path)?)?;
+    let Some(unit) = unit else { return scene_of(&mut archive) };
+    match archive.read(unit, u64::MAX)? {
+        Some(bytes) => scene_of(&mut BoundedArchive::inside(bytes)?),
+        None => Ok(None),
+    }
+}
+
+/// The model description of the FMU at `path`.
+///
+/// # Errors
+/// [`ImportError`]
+pub fn description_in(path: &Path) -> Result<Description, ImportError> {
+    let missing = || ImportError::Part { name: DESCRIPTION, source: io::ErrorKind::NotFound.into() };
+    let bytes = BoundedArchive::open(file(path)?)?.read(DESCRIPTION, u64::MAX)?.ok_or_else(missing)?;
+    Description::read(|| Ok(bytes.as_slice()))
+}
+
+/// The scene in an archive.
+fn scene_of(archive: &mut BoundedArchive<impl io::Read + io::Seek>) -> Result<Option<String>, ImportError> {
+    let Some(bytes) = archive.read(SCENE, scene_file::LARGEST)? else { return Ok(None) };
+    let wrong = |error| ImportError::Part { name: SCENE, source: io::Error::other(error) };
+    String::from_utf8(bytes).map(Some).map_err(wrong)
 }
 
 /// An error with its causes.
@@ -109,7 +147,9 @@ fn chain(error: &dyn std::error::Error) -> String {
 
 /// An unpacked archive.
 pub struct Archive {
-    folder: TempDir,
+    // held until it is dropped
+    _folder: Option<PrivateFolder>,
+    path: PathBuf,
     pub description: Description,
     /// Platforms with a binary.
     pub platforms: BTreeSet<String>,
@@ -120,25 +160,33 @@ pub struct Archive {
 impl Archive {
     /// Unpacks the FMU at `path`.
     pub fn open(path: &Path) -> Result<Archive, ImportError> {
-        let mut archive = bounded::open(fs::File::open(path).map_err(ImportError::Unreadable)?)?;
+        let archive = BoundedArchive::open(file(path)?)?;
         // the library in this folder will be loaded: nobody else may write to the folder
-        let folder =
-            private_folder("brinell-check-", &env::temp_dir()).map_err(|error| ImportError::Unpack(error.source))?;
-        bounded::unpack(&mut archive, folder.path())?;
-        let names = archive.file_names().map(|name| Ok(name?.into_owned())).collect::<Result<Vec<_>, ImportError>>()?;
-        let platform = |name: &String| Some(name.strip_prefix("binaries/")?.split('/').next()?.to_string());
-        let description_path = folder.path().join("modelDescription.xml");
-        let description = Description::read(|| fs::File::open(&description_path).map(BufReader::new))?;
-        let scene = match fs::read_to_string(folder.path().join(SCENE)) {
-            Ok(scene) => Some(scene),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            Err(source) => return Err(ImportError::Part { name: SCENE, source }),
-        };
-        Ok(Archive { description, platforms: names.iter().filter_map(platform).collect(), scene, folder })
+        let folder = PrivateFolder::new("brinell-check-", &env::temp_dir());
+        let folder = folder.map_err(|error| ImportError::Unpack(error.source))?;
+        let path = folder.path().to_path_buf();
+        Ok(Archive { _folder: Some(folder), ..Archive::unpack(archive, path)? })
     }
 
-    /// Loads the binary for this machine.
-    pub fn load(&self) -> Result<Unit, ImportError> {
+    /// Unpacks the FMU at `path` into the folder `to`, which stays.
+    pub fn open_in(path: &Path, to: &Path) -> Result<Archive, ImportError> {
+        Archive::unpack(BoundedArchive::open(file(path)?)?, to.into())
+    }
+
+    fn unpack(mut archive: BoundedArchive<File>, path: PathBuf) -> Result<Archive, ImportError> {
+        archive.unpack(&path)?;
+        let names = archive.files()?;
+        let platform =
+            |(_, name): &(usize, String)| Some(name.strip_prefix("binaries/")?.split('/').next()?.to_string());
+        let platforms = names.iter().filter_map(platform).collect();
+        let scene = scene_of(&mut archive)?;
+        let description = path.join(DESCRIPTION);
+        let description = Description::read(|| File::open(&description).map(BufReader::new))?;
+        Ok(Archive { _folder: None, path, description, platforms, scene })
+    }
+
+    /// The path of the library for this machine.
+    pub fn library(&self) -> Result<PathBuf, ImportError> {
         let Description { identifier, fmi_version, .. } = &self.description;
         if fmi_version != "2.0" {
             return Err(ImportError::Version(shortened(fmi_version)));
@@ -153,19 +201,23 @@ impl Archive {
         let loadable = platform::loadable()?;
         let path = |platform: &Platform| {
             let name = format!("{identifier}.{}", platform.extension);
-            self.folder.path().join("binaries").join(platform.folder).join(name)
+            self.path.join("binaries").join(platform.folder).join(name)
         };
-        let Some(path) = loadable.iter().map(path).find(|path| path.exists()) else {
+        loadable.iter().map(path).find(|path| path.is_file()).ok_or_else(|| {
             if let Some(platform) = loadable.iter().find(|platform| self.platforms.contains(platform.folder)) {
                 let library = format!("{}.{}", shortened(identifier), platform.extension);
-                return Err(ImportError::OtherLibrary { platform: platform.folder, library });
+                return ImportError::OtherLibrary { platform: platform.folder, library };
             }
             let present = match self.platforms.iter().cloned().collect::<Vec<_>>().join(", ") {
                 none if none.is_empty() => "nor for any other".into(),
                 some => format!("only for {}", without_middle(&some)),
             };
-            return Err(ImportError::Binary { wanted: loadable[0].folder.into(), present });
-        };
-        Unit::load(&path, self.folder.path(), &self.description.guid)
+            ImportError::Binary { wanted: loadable[0].folder.into(), present }
+        })
+    }
+
+    /// Loads the library for this machine.
+    pub fn load(&self) -> Result<Unit, ImportError> {
+        Unit::load(&self.library()?, &self.path, &self.description.guid)
     }
 }

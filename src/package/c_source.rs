@@ -4,6 +4,7 @@ use super::compiler::Toolchain;
 use super::error::ExportError;
 use super::rustc::command;
 use crate::files::FileError;
+use crate::temporary::PrivateFolder;
 use brinell_exporter::c_source::{WASM2C, c_text};
 use std::fs;
 
@@ -20,7 +21,7 @@ pub fn made(module: &[u8], kind: &str) -> Result<Vec<u8>, ExportError> {
     if version != WASM2C {
         return Err(missing(format!("its version is {version}")));
     }
-    let folder = tempfile::tempdir().map_err(FileError::at(&std::env::temp_dir()))?;
+    let folder = PrivateFolder::new("brinell-source-", &std::env::temp_dir())?;
     let [input, output] = ["unit.wasm", "unit.c"].map(|name| folder.path().join(name));
     fs::write(&input, module).map_err(FileError::at(&input))?;
     let ran = command(&program).args(["-n", "unit"]).arg(&input).arg("-o").arg(&output).output();

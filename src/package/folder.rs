@@ -2,14 +2,14 @@
 //! below a folder that only the user can write to.
 
 use super::error::{ExportError, FolderError};
+use crate::files::FileError;
 use crate::files::{CACHE, user_folder};
-use crate::files::{FileError, private_folder};
+use crate::temporary::PrivateFolder;
 use brinell_exporter::package::Hash;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use std::{env, fs, io};
-use tempfile::TempDir;
 
 /// The user's cache folder.
 pub struct Cache {
@@ -19,7 +19,7 @@ pub struct Cache {
 /// Prefix of the name of a build folder.
 const BUILD: &str = "build-";
 
-/// A build folder older than this belongs to an interrupted export.
+/// A build folder older than this belongs to an interrupted export of an older program.
 const ABANDONED: Duration = Duration::from_secs(24 * 3600);
 
 /// Prefix of the name of the library of an FMU.
@@ -49,9 +49,9 @@ impl Cache {
     ///
     /// # Errors
     /// [`FileError`]
-    pub fn build_folder(&self) -> Result<TempDir, FileError> {
+    pub fn build_folder(&self) -> Result<PrivateFolder, FileError> {
         self.sweep();
-        private_folder(BUILD, &self.folder)
+        PrivateFolder::new(BUILD, &self.folder)
     }
 
     /// The compiled part with this `name` and `ending`, if it is there as it was made. It is then kept for another while. A part that

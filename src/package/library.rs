@@ -9,6 +9,7 @@ use super::rustc::Rustc;
 use crate::files::FileError;
 use crate::parallel;
 use crate::sources;
+use crate::temporary::PrivateFolder;
 use brinell_exporter::package::{Hash, join, resource};
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform::{self, Platform, System, Target};
@@ -16,7 +17,6 @@ use brinell_exporter::scene::Scene;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use tempfile::TempDir;
 
 /// Options of the crate of an FMU, which is optimized as one unit with the crates that it uses.
 const UNIT: [&str; 5] =
@@ -83,7 +83,7 @@ impl Source<'_> {
 pub struct Builder {
     cache: Cache,
     compilers: Compilers,
-    folder: TempDir,
+    folder: PrivateFolder,
     /// Number of libraries started so far.
     count: AtomicUsize,
 }

@@ -1,8 +1,8 @@
 //! The FMUs of a report: the scene's first contact, once for each kind of coupling, with only the features that its ways need.
 
 use super::{Progress, ReportError};
-use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};
+use crate::temporary::PrivateFolder;
 use crate::{package, parallel};
 use brinell_contact::rate::Factors;
 use brinell_exporter::master::Needs;
@@ -35,7 +35,7 @@ fn kinds(scene: &Scene) -> Vec<Needs> {
 /// # Errors
 /// [`ReportError`] if an FMU can't be built or loaded.
 pub fn build(scene: &Scene, progress: &Progress) -> Result<BTreeMap<Needs, (Unit, Archive)>, ReportError> {
-    let folder = private_folder("brinell-report-", &std::env::temp_dir())?;
+    let folder = PrivateFolder::new("brinell-report-", &std::env::temp_dir())?;
     let here = [platform::here().map_err(ImportError::from)?];
     let kinds = kinds(scene);
     let path = |needs: Needs| folder.path().join(format!("{needs:?}.fmu"));

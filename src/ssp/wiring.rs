@@ -2,7 +2,7 @@
 
 use super::values::{base_of, units_of};
 use super::{COMPONENT, of_kind};
-use crate::importer::{self, Archive, Base, ImportError, VariableUnit};
+use crate::importer::{self, Base, ImportError, VariableUnit};
 use brinell_exporter::layout::{shortened, shown};
 use brinell_exporter::nearest::nearest_first;
 use brinell_exporter::numbers::in_message;
@@ -198,8 +198,8 @@ fn compared(text: &str, ends: [&End; 2], units: [Option<&VariableUnit>; 2]) -> R
 
 /// The FMU at `path`, named after its file.
 fn unit(path: &Path, plan: &Plan, others: &[Component]) -> Result<Component, WiringError> {
-    let archive = Archive::open(path).map_err(|source| WiringError::Component { path: path.into(), source })?;
-    let description = archive.description;
+    let description =
+        importer::description_in(path).map_err(|source| WiringError::Component { path: path.into(), source })?;
     if description.fmi_version != "2.0" || description.identifier.is_empty() {
         return Err(WiringError::Version { path: path.into(), version: description.fmi_version });
     }

@@ -1,7 +1,8 @@
 //! `brinell check` on files that are not FMUs and on modified FMUs: it ends with status 1 and an error message.
 
 use crate::archive::{self, replaced};
-use crate::command::{Run, empty_folder, missing, run};
+use crate::command::{Run, contents, empty_folder, missing, run};
+use crate::hostile::{Seen, write_all};
 use crate::unit;
 use std::env::consts::DLL_SUFFIX;
 use std::fs;
@@ -173,6 +174,52 @@ fn a_wrong_number_in_the_model_description_is_told_with_its_variable() {
 #[test]
 fn a_scene_that_is_not_utf_8_is_not_a_missing_one() {
     contains(&message(&with(SCENE, "name", b"\xe4")), &["scene.toml", "UTF-8"]);
+}
+
+/// Nothing is written outside, nothing grows beyond what is allowed, and each command that sees what is wrong says it.
+#[test]
+fn a_hostile_fmu_is_refused_by_every_command_that_reads_it() {
+    let folder = empty_folder();
+    let good = unit::export(&unit::scene("steel_ball"));
+    let scene = unit::scene("steel_ball").display().to_string();
+    fs::copy(&good, folder.path().join("good.fmu")).unwrap();
+    let all = write_all(&good, folder.path());
+    let before = contents(folder.path());
+    for (path, hostile) in &all {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let calls = [
+            (vec!["check", name], true),
+            (vec!["merge", "good.fmu", name, "-o", "out.fmu"], hostile.seen != Seen::InLibrary),
+            (
+                vec!["ssp", &scene, "--with", name, "-o", "out.ssp"],
+                matches!(hostile.seen, Seen::InArchive | Seen::InDescription),
+            ),
+            (vec!["predict", name], hostile.seen == Seen::InArchive && hostile.bytes.starts_with(b"PK\x03\x04")),
+            (vec!["si", name], hostile.seen == Seen::InArchive && hostile.bytes.starts_with(b"PK\x03\x04")),
+        ];
+        for (call, _) in calls.iter().filter(|(_, sees)| *sees) {
+            let said = run(folder.path(), call).with_status(1).err;
+            assert!(said.contains(name) && said.contains(hostile.said), "{}: {call:?}: {said}", hostile.name);
+        }
+    }
+    assert_eq!(contents(folder.path()), before, "something was written");
+    assert!(all.len() > 25, "{}", all.len());
+}
+
+/// It would be read into memory by some commands, and takes no place on the disk.
+#[test]
+fn a_file_that_is_larger_than_any_fmu_is_not_read() {
+    let folder = empty_folder();
+    fs::File::create(folder.path().join("unit.fmu")).unwrap().set_len(10_000_000_000_000).unwrap();
+    let scene = unit::scene("steel_ball").display().to_string();
+    for call in [
+        &["check", "unit.fmu"][..],
+        &["merge", "unit.fmu", "unit.fmu", "-o", "out.fmu"],
+        &["ssp", &scene, "--with", "unit.fmu", "-o", "out.ssp"],
+    ] {
+        let said = run(folder.path(), call).with_status(1).err;
+        assert!(said.contains("unit.fmu: it has 10000000 MB; allowed for an FMU is 2000 MB"), "{call:?}: {said}");
+    }
 }
 
 /// Each empty file takes a place in the file system.

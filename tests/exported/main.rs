@@ -3,7 +3,8 @@
 //! `cargo test --release --test exported every_law` runs one of them.
 
 use brinell_testing::{
-    archive, both_ways, command, courses, hosts, kinds, loaded, physics, prebuilt, pytest, refusal, skips, unit,
+    archive, both_ways, command, courses, hostile, hosts, kinds, loaded, physics, prebuilt, pytest, refusal, skips,
+    unit,
 };
 
 /// Cargo builds the program before these tests; without its feature they do not compile.

@@ -278,6 +278,39 @@ fn files_that_no_export_uses_any_more_are_removed() {
     }
 }
 
+/// Whatever a command was writing when it was killed, the next command that writes there removes.
+#[test]
+fn what_a_killed_command_left_is_swept_by_the_next() {
+    let folder = empty_folder();
+    let [out, temporary] = ["out", "temporary"].map(|name| folder.path().join(name));
+    [&out, &temporary].map(|path| fs::create_dir(path).unwrap());
+    let left = |place: &Path, prefix: &str, is_folder: bool| {
+        let path = place.join(format!("{prefix}a1b2C3d4E5f6.tmp"));
+        if is_folder { fs::create_dir(&path) } else { fs::write(&path, "half") }.unwrap();
+        let minute = Duration::from_secs(60);
+        fs::File::open(&path).unwrap().set_modified(SystemTime::now() - minute).unwrap();
+        path
+    };
+    let own = with_parts();
+    let all =
+        [left(&out, ".brinell-", false), left(&temporary, "brinell-check-", true), left(own.path(), "build-", true)];
+    let in_use = left(&out, ".brinell-", false).with_file_name(".brinell-000000000000.tmp");
+    fs::copy(&all[0], &in_use).unwrap();
+    fs::File::open(&in_use).unwrap().set_modified(SystemTime::now() - Duration::from_secs(60)).unwrap();
+    let lock = fs::File::open(&in_use).unwrap();
+    lock.lock().unwrap();
+    let scene = scene("steel_ball").display().to_string();
+    for call in [&["export", &scene, "-o", "out/ball.fmu"][..], &["check", "out/ball.fmu"]] {
+        let mut command = brinell(folder.path());
+        output(command.args(call).env("BRINELL_CACHE", own.path()).env("TMPDIR", &temporary)).with_status(0);
+    }
+    for path in all {
+        assert!(!path.exists(), "{}", path.display());
+    }
+    assert_eq!(contents(&out), [".brinell-000000000000.tmp", "ball.fmu"], "another program writes the first");
+    assert_eq!(contents(&temporary), [""; 0]);
+}
+
 #[test]
 fn only_the_owner_can_access_the_build_folder() {
     let home = empty_folder();

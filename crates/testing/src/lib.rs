@@ -13,6 +13,7 @@ pub mod face;
 pub mod fmi_crate;
 pub mod friction;
 pub mod functions;
+pub mod hostile;
 pub mod hosts;
 pub mod importer;
 pub mod importer_table;

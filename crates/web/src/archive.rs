@@ -90,7 +90,15 @@ pub fn scene_of(bytes: &[u8]) -> Result<Value, Refused> {
     const PLACE: &str = "resources/scene.toml";
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| format!("this is no FMU: {error}"))?;
     let file = archive.by_name(PLACE).map_err(|_| format!("this FMU is not of Brinell: it has no {PLACE}"))?;
-    let mut text = String::new();
-    file.take(LARGEST).read_to_string(&mut text)?;
+    let too_large = || format!("{PLACE} in it has more than {LARGEST} bytes, which no scene of this page needs");
+    if file.size() > LARGEST {
+        return Err(too_large().into());
+    }
+    let mut bytes = Vec::new();
+    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(too_large().into());
+    }
+    let text = String::from_utf8(bytes).map_err(|_| format!("{PLACE} in it is no text in UTF-8"))?;
     Ok(json!({ "text": text }))
 }
