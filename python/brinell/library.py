@@ -5,11 +5,9 @@ from __future__ import annotations
 import hashlib
 import itertools
 import os
-import shutil
-import tempfile
 import threading
 import weakref
-import zipfile
+from contextlib import ExitStack
 from ctypes import byref, c_void_p
 from pathlib import Path
 from typing import Any
@@ -17,8 +15,9 @@ from typing import Any
 import fmpy
 from fmpy import fmi2, freeLibrary
 
+from . import temporary
 from .errors import ContactError, missing
-from .program import export
+from .program import export, unpack
 
 WARNING = 1
 
@@ -32,37 +31,30 @@ class Library:
     there is one."""
 
     def __init__(self, path: Path) -> None:
-        if not zipfile.is_zipfile(path):
-            raise ContactError(
-                f"{path} is not an FMU, which is a zip archive; brinell.export makes the FMU of a scene"
-            )
-        try:
-            description = fmpy.read_model_description(str(path), validate=False)
-        except Exception as error:
-            raise ContactError(f"{path} is not an FMU: {error}") from error
-        if description.fmiVersion != "2.0" or description.coSimulation is None:
-            raise ContactError(f"{path} is not an FMU for FMI 2.0 co-simulation")
         self.path = path
+        with ExitStack() as stack:
+            folder = stack.enter_context(temporary.folder())
+            # by the rules of the program: what it refuses isn't loaded here either
+            found = unpack(path, folder)
+            try:
+                description = fmpy.read_model_description(str(folder), validate=False)
+                slave = fmi2.FMU2Slave(
+                    guid=description.guid,
+                    unzipDirectory=str(folder),
+                    modelIdentifier=found["identifier"],
+                    libraryPath=str(folder / found["library"]),
+                )
+            except Exception as error:
+                raise ContactError(
+                    f"{path} cannot be loaded on {fmpy.platform}: {error}"
+                ) from error
+            # a loaded library needs no file but on Windows
+            kept = ExitStack() if os.name == "posix" else stack.pop_all()
         self.description = description
         self.variables = {variable.name: variable for variable in description.modelVariables}
-        folder = str(fmpy.extract(str(path)))
-        try:
-            identifier = description.coSimulation.modelIdentifier
-            slave = fmi2.FMU2Slave(
-                guid=description.guid,
-                unzipDirectory=folder,
-                modelIdentifier=identifier,
-                libraryPath=_named_by_processor(Path(folder), identifier),
-            )
-        except Exception as error:
-            shutil.rmtree(folder, ignore_errors=True)
-            raise ContactError(f"{path} cannot be loaded on {fmpy.platform}: {error}") from error
         # not through fmpy's own methods: their exceptions lack the text of the FMU
         self.functions = slave._functions
-        if os.name == "posix":
-            # a loaded library needs no file; processes that are killed would leave theirs behind
-            shutil.rmtree(folder, ignore_errors=True)
-        weakref.finalize(self, _close, slave.dll._handle, folder)
+        weakref.finalize(self, _close, slave.dll._handle, kept)
 
     @staticmethod
     def of(path: str | Path | Library) -> Library:
@@ -93,24 +85,17 @@ def _opened(key: tuple[Any, ...], path: Path) -> Library:
 def _of_scene(scene: Path) -> Library:
     """The library of the FMU of a scene, under the name of the scene. FMUs of equal bytes are loaded
     once."""
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        path = export(scene, Path(folder) / f"{scene.stem}.fmu")
+    with temporary.folder() as folder:
+        path = export(scene, folder / f"{scene.stem}.fmu")
         library = _opened((hashlib.sha256(path.read_bytes()).digest(),), path)
     # the FMU is gone; what it was made from tells people more
     library.path = scene.resolve()
     return library
 
 
-def _named_by_processor(folder: Path, identifier: str) -> str | None:
-    """The library in the folder that is named by the processor, if there is one. fmpy looks only in `linux64`, where an FMU has
-    the library for x86-64, on arm64, too."""
-    library = folder / "binaries" / fmpy.platform_tuple / (identifier + fmpy.sharedLibraryExtension)
-    return str(library) if library.is_file() else None
-
-
-def _close(handle: int, folder: str) -> None:
+def _close(handle: int, kept: ExitStack) -> None:
     freeLibrary(handle)
-    shutil.rmtree(folder, ignore_errors=True)
+    kept.close()
 
 
 # The log. One function serves all instances and tells them apart by a number, since fmpy's own

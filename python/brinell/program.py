@@ -13,7 +13,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
-from .errors import ProgramError, ProgramWarning, missing, tell
+from .errors import ContactError, ProgramError, ProgramWarning, missing, tell
 from .prediction import Prediction
 from .version import MODULE, installed
 from .workbooks import environment
@@ -91,6 +91,20 @@ def of_scene(command: str, scene: str | Path, *options: str | Path) -> tuple[str
     if not Path(scene).exists():
         raise missing("scene", scene)
     return run(command, scene, *options)
+
+
+def unpack(fmu: str | Path, folder: Path) -> dict[str, str]:
+    """Unpack an FMU into a folder; return the `identifier` of its library, and the path of the
+    `library` of this machine in the folder.
+
+    Raises `ContactError` with the reason why the program doesn't load it."""
+    # that there is no program isn't the fault of the FMU
+    program()
+    try:
+        found: dict[str, str] = json.loads(run("unpack", fmu, folder)[0])
+    except ProgramError as error:
+        raise ContactError(str(error)) from error
+    return found
 
 
 def in_si(name: str, value: float | str) -> float:

@@ -6,7 +6,6 @@ each draw is an impact of the FMU, in some 40 us.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from . import temporary
 from .errors import ContactError
 from .fits.quantities import number_of
 from .library import Library
@@ -78,7 +78,7 @@ def bands(
     Raises `UnknownName` for an input that the FMU has not, `ValueError` for a spread out of range,
     and `ContactError` if a draw is outside the range of the law.
     """
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+    with temporary.folder() as folder:
         unit, usual = scene.unit(Path(path), Path(folder), mass)
         with scene.naming(path, unit.name):
             return _drawn(Library.of(unit), usual, uncertainty, speed, draws, seed)

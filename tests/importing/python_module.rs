@@ -2,6 +2,7 @@
 
 use crate::python;
 use crate::unit::{export, scene, write_scene};
+use brinell_testing::hostile;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -54,6 +55,9 @@ fn scenes() -> Vec<PathBuf> {
     ]
 }
 
+/// The test of hostile FMUs.
+const HOSTILE: &str = "test_hostile.py";
+
 /// Runs tests/python/`file` with the FMUs of [`scenes`].
 fn pytest(file: &str) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -63,6 +67,13 @@ fn pytest(file: &str) {
         .iter()
         .map(|scene| (scene.file_stem().unwrap().to_string_lossy().into_owned(), export(scene)))
         .collect();
+    // only the test of hostile FMUs reads them
+    let hostile = tempfile::tempdir().expect("a folder for temporary files");
+    if file == HOSTILE {
+        let all = hostile::write_all(&export(&scene("steel_ball")), hostile.path());
+        let said: HashMap<_, _> = all.iter().map(|(path, hostile)| (path, hostile.said)).collect();
+        std::fs::write(hostile.path().join("said.json"), serde_json::to_string(&said).unwrap()).unwrap();
+    }
     let output = python::keeping_modules(&mut Command::new(python::python()))
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
         .current_dir(folder)
@@ -70,6 +81,7 @@ fn pytest(file: &str) {
         .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_SCENES", root.join("scenes"))
+        .env("BRINELL_TEST_HOSTILE", hostile.path())
         .env("BRINELL_TEST_TRUTH", root.join("data/truth"))
         .output()
         .expect("the virtual environment has an interpreter");
@@ -81,6 +93,11 @@ fn pytest(file: &str) {
 #[test]
 fn a_contact_steps_tells_and_ends() {
     pytest("test_contact.py");
+}
+
+#[test]
+fn a_hostile_fmu_is_refused_with_the_programs_reason() {
+    pytest(HOSTILE);
 }
 
 #[test]

@@ -6,11 +6,9 @@ import os
 import pickle
 import shutil
 import warnings
-import zipfile
 from pathlib import Path
 
 import brinell
-import fmpy
 import numpy as np
 import pytest
 from brinell import Contact, ContactError, ContactWarning, ProgramError, UnknownName
@@ -315,26 +313,13 @@ def test_a_gap_is_a_number(gap):
         made.step(1e-6, 1.0, gap=1.0)
 
 
-def test_the_library_of_the_processor_comes_first(tmp_path):
-    # on arm64 Linux, an FMU has the library for x86-64 in the folder that fmpy knows
-    unit = tmp_path / "arm64.fmu"
-    with zipfile.ZipFile(UNITS["mass_known"]) as original, zipfile.ZipFile(unit, "w") as changed:
-        for name in original.namelist():
-            folder, _, file = name.rpartition("/")
-            if folder == f"binaries/{fmpy.platform}":
-                changed.writestr(f"binaries/{fmpy.platform_tuple}/{file}", original.read(name))
-            changed.writestr(name, b"of another processor" if folder.startswith("binaries") else original.read(name))
-    with Contact(unit) as made:
-        assert made.step(1e-6, 1.0) > 0.0
-
-
 def test_files_that_are_no_units(tmp_path):
     with pytest.raises(FileNotFoundError, match="no FMU.*nowhere.fmu"):
         Contact(tmp_path / "nowhere.fmu")
     with pytest.raises(FileNotFoundError):
         Contact(tmp_path)
     (tmp_path / "text.fmu").write_text("not a zip")
-    with pytest.raises(ContactError, match="text.fmu is not an FMU"):
+    with pytest.raises(ContactError, match="text.fmu: it is no zip archive"):
         Contact(tmp_path / "text.fmu")
     with pytest.raises(TypeError):
         Contact(3)

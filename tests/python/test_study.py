@@ -9,10 +9,9 @@ import threading
 from pathlib import Path
 
 import brinell
-import fmpy
 import numpy as np
 import pytest
-from brinell import ContactError, ProgramError, ProgramWarning, Range
+from brinell import ContactError, ProgramError, ProgramWarning, Range, library
 from brinell.studies import impacts, plan, scene, store, study
 
 SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
@@ -185,14 +184,14 @@ def test_warnings_belong_to_their_run(unit, chunk):
 
 @pytest.mark.skipif(multiprocessing.get_start_method() != "fork", reason="no process is forked")
 def test_the_processes_of_a_study_do_not_unpack_the_unit_again(unit, tmp_path, monkeypatch):
-    extract, log = fmpy.extract, tmp_path / "log"
+    unpack, log = library.unpack, tmp_path / "log"
 
     def logged(*arguments, **more):
         with open(log, "a") as file:
             file.write(f"{os.getpid()}\n")
-        return extract(*arguments, **more)
+        return unpack(*arguments, **more)
 
-    monkeypatch.setattr(fmpy, "extract", logged)
+    monkeypatch.setattr(library, "unpack", logged)
     # one that this process hasn't unpacked yet
     fresh = Path(shutil.copy(unit, tmp_path / "fresh.fmu"))
     quick(fresh, {"speed": "1:2:40"}, workers=2, chunk=5)

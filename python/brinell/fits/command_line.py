@@ -8,6 +8,7 @@ from typing import Any
 
 from .fit import fit
 from .parameters import PARAMETERS
+from .quantities import QUANTITIES
 
 PICTURES = (".svg", ".png", ".pdf")
 
@@ -25,6 +26,20 @@ def _ends(text: str) -> tuple[str, tuple[str, str]]:
     if not (colon and first and second):
         raise argparse.ArgumentTypeError(f"{text!r} is not of the form NAME=A:B")
     return name, (first, second)
+
+
+NAMES = ", ".join(one.names[0] for one in QUANTITIES.values())
+"""The quantities of columns."""
+
+
+def _column(text: str) -> tuple[str, str]:
+    # a heading may have `=` in it
+    heading, equals, name = text.rpartition("=")
+    if not (heading and equals and name):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not of the form HEADING=NAME [UNIT], such as 'E2=depth [mm]'; names are {NAMES}"
+        )
+    return heading, name
 
 
 def add_arguments(commands: Any) -> None:
@@ -48,8 +63,8 @@ def add_arguments(commands: Any) -> None:
         help="what is known of a free parameter beforehand")  # fmt: skip
     add("--accuracy", type=_pair, action="append", default=[], metavar="NAME=DEVIATION",
         help="standard deviation of a result, such as restitution=0.01")  # fmt: skip
-    add("--column", type=_pair, action="append", default=[], metavar="HEADING=NAME [UNIT]",
-        help="another heading for a column of the file")  # fmt: skip
+    add("--column", type=_column, action="append", default=[], metavar="HEADING=NAME [UNIT]",
+        help=f"what a column of the file is, such as 'E2=depth [mm]'; names are {NAMES}")  # fmt: skip
     add("--decimal", choices=[".", ","], help="the decimal sign, where the file leaves it open")
     add("--laws", help="laws to try beside each other, separated by commas")
     add("--mass", type=float, help="effective mass [kg], instead of the scene's")

@@ -8,7 +8,6 @@ has not (the constants of a strain rate, contact times, oblique impacts) the pro
 from __future__ import annotations
 
 import json
-import tempfile
 import warnings
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -19,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import temporary
 from ..contact import Contact
 from ..errors import ContactError, ProgramError
 from ..library import Library
@@ -116,7 +116,7 @@ class Law:
         """Export the FMU, and make its instance."""
         # with a loss, the FMU would have the strength of the scene's impact
         data = _without_rates(self._data) if self._is_lossy else self._data
-        with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        with temporary.folder() as folder:
             path = Path(folder) / "scene.toml"
             path.write_text(toml(data), encoding="utf-8")
             with naming(self._path, path):
@@ -359,7 +359,7 @@ class Law:
         width: int,
     ) -> Numbers:
         """A row of numbers for each impact of a scene, by the program; NaN beyond the law."""
-        with tempfile.TemporaryDirectory(prefix="brinell-") as folder, warnings.catch_warnings():
+        with temporary.folder() as folder, warnings.catch_warnings():
             warnings.simplefilter("ignore")
             path = Path(folder) / "scene.toml"
             path.write_text(toml(data), encoding="utf-8")
@@ -469,7 +469,7 @@ def strengths_of(readings: tuple[str, ...], path: str | Path, law: Law) -> Numbe
         for key, it in without_readings(scene[law.body]).items()
         if key not in ("yield_strength", "power_law", "hardening_modulus", "tangent_modulus")
     }
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder, warnings.catch_warnings():
+    with temporary.folder() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         for reading in found:
             one = Path(folder) / "scene.toml"

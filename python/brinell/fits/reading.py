@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal as Exact
@@ -70,6 +71,7 @@ def rows_of(
     if not path.exists():
         raise missing("file", path)
     ending = path.suffix.lower()
+    _check_size(path, ending)
     if ending in EXCEL:
         return _of_excel(path, options)
     if ending in PARQUET:
@@ -77,6 +79,33 @@ def rows_of(
 
         return _of_table(pandas.read_parquet(path), options, str(path))
     return _read((str(path), ":", 0), [path.absolute(), *options])
+
+
+LARGEST = 40_000_000
+"""Largest size of a file, and of one that is unpacked, in bytes: that of the program."""
+
+
+def _check_size(path: Path, ending: str) -> None:
+    """Refuse a file that is too large before it is read, and one that isn't when it is packed."""
+
+    def check(size: int, what: str) -> None:
+        if size > LARGEST:
+            raise ValueError(
+                f"{path}: {what} {size / 1e6:.0f} MB; allowed for a measurement is {LARGEST / 1e6:.0f} MB"
+            )
+
+    check(path.stat().st_size, "the file has")
+    if ending in (".xlsx", ".xlsm", ".ods") and zipfile.is_zipfile(path):
+        with zipfile.ZipFile(path) as archive:
+            for part in archive.infolist():
+                check(part.file_size, f"{shortened(part.filename)} in it has")
+            check(sum(part.file_size for part in archive.infolist()), "its parts together have")
+    if ending in PARQUET:
+        from pyarrow import parquet
+
+        rows = parquet.read_metadata(path).num_rows
+        if rows > MOST:
+            raise ValueError(f"{path}: it has {rows} rows; allowed is 1 to {MOST}")
 
 
 def _read(

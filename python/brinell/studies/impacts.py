@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import tempfile
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import temporary
 from ..contact import Contact
 from ..errors import ContactError, ContactWarning
 from ..library import Library
@@ -81,7 +81,7 @@ def _library(unit: Path | bytes) -> Library:
     """Loaded once per process, not once per chunk."""
     if isinstance(unit, Path):
         return Library.of(unit)
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+    with temporary.folder() as folder:
         path = Path(folder) / "unit.fmu"
         path.write_bytes(unit)
         return Library.of(path)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import shutil
 import uuid
 from collections.abc import Callable, Sequence
@@ -14,6 +15,7 @@ import numpy as np
 import pyarrow
 from pyarrow import csv, parquet
 
+from .. import temporary
 from .impacts import Table
 
 _NOTE = "plan.json"
@@ -108,8 +110,12 @@ def _replace(path: Path, write: Callable[[Path], object]) -> None:
     # a link keeps leading to the file
     path = path.resolve()
     draft = path.with_name(f"{path.name}.{uuid.uuid4().hex}.draft")
+    left = re.compile(re.escape(path.name) + r"\.[0-9a-f]{32}\.draft")
     try:
-        write(draft)
+        draft.touch()
+        with temporary.held(draft):
+            temporary.sweep(path.parent, left.fullmatch, draft)
+            write(draft)
         draft.replace(path)
     except BaseException:
         draft.unlink(missing_ok=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import tempfile
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -16,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import temporary
 from ..errors import ContactError, missing
 from ..library import Library
 from ..program import in_si
@@ -84,7 +84,7 @@ def study(
         for name, number in (("mass", mass), ("speed", speed))
     )
     fixed = {name: in_si(name, number) for name, number in (parameters or {}).items()}
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+    with temporary.folder() as folder:
         known = mass if mass is not None or "mass" not in values else float(values["mass"][0])
         unit, usual = _unit(Path(scene_file), Path(folder), known)
         usual |= {"speed": speed} if speed is not None else {}
