@@ -30,6 +30,66 @@ fn motion_of_the_middle(roots: &[f64], radius: f64) -> f64 {
     roots.iter().map(mode).sum::<f64>() / (0.125 * 2.0 / PI)
 }
 
+/// The force at one point from which a plate with a supported edge bends for good, whatever its size, by the lines in which it yields: the
+/// work of a force in the middle of a polygon with many edges, against that of the moment `M` along its spokes and edge.
+fn collapse(strength: f64, thickness: f64) -> f64 {
+    let moment = strength * thickness * thickness / 4.0;
+    let edges = 1000.0;
+    // each of the triangles turns by 1/r about its edge; the spokes yield by what their neighbours turn against each other
+    let half = PI / edges;
+    moment * edges * 2.0 * libm::tan(half)
+}
+
+#[test]
+fn a_thin_sheet_that_bends_for_good_is_told_from_the_force_at_which_it_does() {
+    let (density, radius): (f64, f64) = (917.0, 12.5e-3);
+    for thickness in [0.8e-3, 2e-3, 5e-3, 20e-3] {
+        let mut seen = [false; 2];
+        for speed in [1e-4, 1e-3, 0.01, 0.1, 1.0, 10.0, 30.0] {
+            let folder = empty_folder();
+            // hail, which is stiffer here than ice would be if it broke
+            let text = format!(
+                "name = \"unit\"\nimpactor = {{ radius = {radius:?}, youngs_modulus = 9e9, poissons_ratio = 0.33, density = {density:?} }}\n\
+                 target = {{ material = \"aluminium 1100-O\", yield_strength = 35e6, plate_thickness = {thickness:?} }}\n\
+                 impact = {{ speed = {speed:?} }}\n"
+            );
+            fs::write(folder.path().join("scene.toml"), text).unwrap();
+            let answer = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
+            let force = answer["laws"][0]["largest_force"].as_f64().unwrap();
+            let warned = answer["laws"][0]["warnings"].to_string().contains("itself bends for good from");
+            let collapse = collapse(35e6, thickness);
+            assert_eq!(warned, force > collapse, "{thickness} m, {speed} m/s: {force} N of {collapse} N");
+            seen[usize::from(warned)] = true;
+        }
+        assert!(seen[0], "{thickness}: a slow one only dents");
+        assert!(seen[1] || thickness > 10e-3, "{thickness}: a fast one bends it");
+    }
+}
+
+/// A thin sheet stops a heavy ball so gently that the two move on together.
+#[test]
+fn a_sheet_that_is_too_thin_for_the_loss_is_told_to_bend() {
+    let folder = empty_folder();
+    let text = |thickness: &str| {
+        format!(
+            "name = \"unit\"\nimpactor = {{ radius = 12.5e-3, density = 917.0 }}\n\
+             target = {{ material = \"aluminium 1100-O\"{thickness} }}\nimpact = {{ mass = 7.5e-3, speed = 10.0 }}\n"
+        )
+    };
+    fs::write(folder.path().join("thick.toml"), text("")).unwrap();
+    run(folder.path(), ["predict", "thick.toml"]).with_status(0);
+    fs::write(folder.path().join("thin.toml"), text(", plate_thickness = \"0.2 mm\"")).unwrap();
+    let said = run(folder.path(), ["predict", "thin.toml"]).with_status(1).err;
+    for part in [
+        "mass = 0.0075 kg",
+        "speed = 10 m/s",
+        "plate_thickness = 0.0002 m",
+        "the sheet bends and moves on with the body",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}
+
 #[test]
 fn a_plate_whose_edge_is_where_predict_says_moves_almost_like_an_infinite_one() {
     let roots = roots();

@@ -23,13 +23,15 @@ pub enum Beyond {
     Speed { ratio: f64, waves: f64 },
     /// The waves in rods, and the ratio of the predicted force to their largest.
     Waves { waves: Waves, excess: f64 },
+    /// The plate of a loss bends for good: its thickness \[m\], the force \[N\] from which it does, and that of the impact over it.
+    Bends { thickness: f64, collapse: f64, excess: f64 },
     /// Ratio of the contact time to the time \[s\] in which a wave runs through a rod and back.
     Short { travels: f64, last_return: f64 },
 }
 
 impl Beyond {
     /// Number of kinds.
-    pub const KINDS: usize = 5;
+    pub const KINDS: usize = 6;
 
     /// The number of its kind, and a measure of how far it is exceeded.
     pub fn rank(&self) -> (usize, f64) {
@@ -39,6 +41,7 @@ impl Beyond {
             Beyond::Speed { ratio, .. } => (2, ratio),
             Beyond::Waves { excess, .. } => (3, excess),
             Beyond::Short { travels, .. } => (4, -travels),
+            Beyond::Bends { excess, .. } => (5, excess),
         }
     }
 
@@ -58,6 +61,20 @@ pub fn beyond((pair, size): (&Pair, f64), density: Option<f64>, radius: f64, spe
     let ratio = speed / waves;
     let speed = (ratio > LARGEST_SPEED_RATIO).then_some(Beyond::Speed { ratio, waves });
     width.into_iter().chain(speed).collect()
+}
+
+/// The force \[N\] at one point from which a plate with this `thickness` \[m\] and `strength` \[Pa\] bends for good: `2 pi M` with the
+/// yield moment `M = sigma_y h^2/4` per length, whatever the size of the plate, if its edge is supported; twice that if it is clamped.
+///
+/// Reference: H. G. Hopkins, W. Prager, *J. Mech. Phys. Solids* 2 (1953) 1-13, in the limit of a load on a small area.
+fn collapse(thickness: f64, strength: f64) -> f64 {
+    0.5 * std::f64::consts::PI * strength * thickness * thickness
+}
+
+/// Whether a `force` \[N\] bends a plate for good.
+pub fn bends(thickness: f64, strength: f64, force: f64) -> Option<Beyond> {
+    let collapse = collapse(thickness, strength);
+    (force > collapse).then_some(Beyond::Bends { thickness, collapse, excess: force / collapse })
 }
 
 /// The limits that each impact of a sweep exceeds, with the values of the varied quantities.
@@ -142,6 +159,13 @@ pub fn words(beyond: Beyond) -> String {
             }
         ),
         Beyond::Waves { waves, .. } => rods::too_strong(&waves),
+        Beyond::Bends { thickness, collapse, excess } => format!(
+            "the plate of {} itself bends for good from {}, and the force reaches {} times that: the dent is then mainly one of \
+             the bent sheet, which isn't predicted, and it takes energy",
+            quantity(thickness, "m"),
+            quantity(collapse, "N"),
+            significant(excess, 3)
+        ),
         Beyond::Short { travels, last_return } => rods::too_short(travels, last_return),
     }
 }

@@ -17,6 +17,7 @@ from typing import Any, Literal
 from ..errors import missing
 from ..program import run
 from ..workbooks import EXCEL, sheets_of
+from .quantities import shortened
 
 MOST = 100_000
 """Largest number of rows of a fit."""

@@ -16,13 +16,14 @@ use crate::model::{NoEnergy, check_energy};
 use crate::numbers::{in_message, out_of_range, quantity, significant};
 use crate::pairing;
 use crate::rods::Waves;
-use crate::scene::Scene;
+use crate::scene::{Body, Scene};
 use crate::table;
 use crate::validity::{self, Beyond};
 use brinell_contact::Loading;
 use brinell_contact::Pair;
 use brinell_contact::Regime;
 use brinell_contact::impact::{Impact, Prediction};
+use brinell_contact::losses::{AnyLoss, Plate};
 use std::error::Error;
 
 /// An impact without a prediction.
@@ -138,7 +139,16 @@ pub fn beyond(scene: &Scene, pair: &Pair, speed: f64, prediction: &Prediction, v
     let bodies = (pair, scene.size_with(0, values));
     let limits = validity::beyond(bodies, scene.contacts[0].density, prediction.max_contact_radius, speed);
     let waves = Waves::of(scene, speed, values).and_then(|waves| waves.beyond(prediction));
-    limits.into_iter().chain(waves).collect()
+    let plate = match scene.loss_with(0, values) {
+        Some(AnyLoss::Plate(Plate { thickness, .. })) => {
+            let name = Body::Target.yield_strength();
+            let given = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
+            let strength = given.or_else(|| scene.group_value(0, name)).unwrap_or(pair.yield_strength);
+            validity::bends(thickness, strength, prediction.max_force)
+        }
+        _ => None,
+    };
+    limits.into_iter().chain(waves).chain(plate).collect()
 }
 
 /// A quantity of an impact: name, value, unit.
