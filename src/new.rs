@@ -28,12 +28,17 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let path = output.clone().unwrap_or_else(|| format!("{name}.toml").into());
     let text = format!("#:schema ./{}\n{}", schema::FILE, new_scene(name));
     write_new(&path, &text)?;
-    schema::write(Some(&files::folder_of(&path).join(schema::FILE)))?;
+    let schema = files::folder_of(&path).join(schema::FILE);
+    schema::write(Some(&schema))?;
     if as_json {
-        print!("{}", json_line(&json!({ "scene": path.to_string_lossy() })));
+        print!("{}", json_line(&json!({ "scene": path.to_string_lossy(), "schema": schema.to_string_lossy() })));
     } else {
-        let file = shown(&path);
-        println!("{file}\nnext:  brinell predict {file}\n       brinell export {file}");
+        let [file, schema] = [shown(&path), shown(&schema)];
+        print!(
+            "wrote {file}, a scene to change in any editor\n      {schema}, by which editors complete and check it\n\
+             next:  brinell predict {file}    what the impact does\n\
+             \x20      brinell export {file}     the FMU, {name}.fmu\n"
+        );
     }
     Ok(())
 }

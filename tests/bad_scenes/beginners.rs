@@ -8,9 +8,20 @@ use std::fs;
 fn a_new_scene_is_a_good_one_and_is_not_overwritten() {
     let folder = empty_folder();
     let made = run(folder.path(), ["new", "hammer"]).with_status(0);
-    assert!(made.out.contains("hammer.toml") && made.out.contains("brinell predict"), "{made:#?}");
+    for said in [
+        "wrote hammer.toml",
+        ".brinell.schema.json",
+        "next:",
+        "brinell predict hammer.toml",
+        "brinell export hammer.toml",
+    ] {
+        assert!(made.out.contains(said), "{said}: {made:#?}");
+    }
     let text = fs::read_to_string(folder.path().join("hammer.toml")).unwrap();
     assert!(text.contains("name = \"hammer\"") && text.contains("surface = \"fresh\"") && text.contains("for ever"));
+    for shown in ["\"5 mm\"", "\"1 m/s\"", "hardness = \"180 HBW", "drop_height = \"5 cm\""] {
+        assert!(text.contains(shown), "{shown}: {text}");
+    }
     assert!(!text.contains("NAME\"") && text.lines().all(|line| line.chars().count() <= 130), "{text}");
     let predicted = run(folder.path(), ["predict", "hammer.toml"]).with_status(0);
     assert_eq!(predicted.err, "", "a template without doubts");
@@ -105,10 +116,24 @@ fn an_invalid_name_is_refused_and_nothing_is_written() {
 fn a_scene_in_another_encoding_than_utf_8_is_refused_with_its_place() {
     let folder = empty_folder();
     let utf16: Vec<u8> = format!("\u{feff}{SCENE}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let without_mark: Vec<u8> = SCENE.encode_utf16().flat_map(u16::to_be_bytes).collect();
+    let utf32: Vec<u8> = format!("\u{feff}{SCENE}").chars().flat_map(|c| u32::from(c).to_le_bytes()).collect();
     let latin1 = [SCENE.as_bytes(), b"# gr\xf6\xdfer\n"].concat();
-    for (bytes, parts) in
-        [(utf16, ["scene.toml:1:1: byte 0xFF", "UTF-16"]), (latin1, ["scene.toml:8:5: byte 0xF6", "UTF-8"])]
-    {
+    for (bytes, parts) in [
+        (utf16, ["scene.toml:1:1: byte 0xFF", "UTF-16"]),
+        (without_mark, ["scene.toml:1:1: byte 0x00", "UTF-16"]),
+        (utf32, ["scene.toml:1:1: byte 0xFF", "UTF-32"]),
+        (latin1, ["scene.toml:8:5: byte 0xF6", "UTF-8"]),
+        (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec(), ["scene.toml:1:1: this is a picture (PNG)", "plain text (TOML)"]),
+        (b"\xff\xd8\xff\xe0\0".to_vec(), ["this is a picture (JPEG)", "plain text"]),
+        (b"%PDF-1.7\n".to_vec(), ["this is a document (PDF)", "plain text"]),
+        (b"{\\rtf1\\ansi name = }".to_vec(), ["this is a document (RTF)", "plain text"]),
+        (b"\x1f\x8b\x08\0".to_vec(), ["compressed (gzip)", "plain text"]),
+        (b"\x7fELF\x02".to_vec(), ["a program or a library", "plain text"]),
+        (b"<!DOCTYPE html><html>".to_vec(), ["a page of the web", "plain text"]),
+        (b"name = \"b\"\0\0\x01".to_vec(), ["this is no text", "plain text"]),
+        (b"PK\x05\x06\0\0".to_vec(), ["an empty zip archive", "plain text"]),
+    ] {
         fs::write(folder.path().join("scene.toml"), bytes).unwrap();
         let message = run(folder.path(), ["predict", "scene.toml"]).with_status(1).err;
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
@@ -119,7 +144,103 @@ fn a_scene_in_another_encoding_than_utf_8_is_refused_with_its_place() {
 #[cfg(target_os = "linux")]
 fn a_file_that_never_ends_is_no_scene() {
     let message = run(empty_folder().path(), ["predict", "/dev/zero"]).with_status(1).err;
-    assert!(message.contains("/dev/zero: it is larger than 256 MB"), "{message}");
+    assert!(message.contains("/dev/zero: it has more than 256 MB; allowed for a scene is 256 MB"), "{message}");
+}
+
+/// Every command that takes a scene takes that of an FMU, and says of a folder and of a missing file which one may be meant.
+#[test]
+fn a_scene_may_be_that_of_an_fmu_and_of_a_folder_the_scene_in_it_is_named() {
+    let folder = empty_folder();
+    fs::write(folder.path().join("ball.toml"), with_impact()).unwrap();
+    fs::write(folder.path().join("materials.toml"), "").unwrap();
+    run(folder.path(), ["export", "ball.toml"]).with_status(0);
+    let calls = [
+        &["predict"][..],
+        &["curve"],
+        &["si"],
+        &["constants"],
+        &["translate", "--for", "mujoco"],
+        &["hardness", "--load", "3000kgf"],
+        &["export", "-o", "again.fmu"],
+    ];
+    for call in calls {
+        let call = |what: &str| run(folder.path(), [call, &[what]].concat());
+        assert_eq!(
+            call("ball.fmu").with_status(0).out.replace("ball.fmu", "ball.toml"),
+            call("ball.toml").out,
+            "{:?}",
+            call("x").err
+        );
+        let said = call(".").with_status(1).err;
+        assert!(said.starts_with("brinell: .: this is a folder; the scene in it is ./ball.toml"), "{said}");
+        let said = call("bal.toml").with_status(1).err;
+        assert!(said.contains("did you mean ball.toml?"), "{said}");
+    }
+    assert!(fs::read(folder.path().join("again.fmu")).unwrap() == fs::read(folder.path().join("ball.fmu")).unwrap());
+    let said = run(folder.path(), ["check", "."]).with_status(1).err;
+    assert!(said.contains("name one of the files (.fmu) in it: ./again.fmu, ./ball.fmu"), "{said}");
+    let said = run(folder.path(), ["export", "ball.fmu"]).with_status(1).err;
+    assert!(said.contains("this is the scene itself, which isn't overwritten"), "{said}");
+    let empty = empty_folder();
+    let said = run(empty.path(), ["predict", "."]).with_status(1).err;
+    assert!(said.contains("no scene (.toml) is in it; `brinell new NAME` writes one"), "{said}");
+    // of another program
+    fs::write(empty.path().join("other.fmu"), b"PK\x03\x04 and so on").unwrap();
+    let said = run(empty.path(), ["predict", "other.fmu"]).with_status(1).err;
+    assert!(said.contains("other.fmu: it is no zip archive"), "{said}");
+}
+
+/// Read from a web page or a word processor, each stands for a character that TOML knows.
+#[test]
+fn a_character_of_a_word_processor_is_named_with_what_to_type() {
+    for (from, to, hint) in [
+        (
+            "\"ball\"",
+            "\u{201c}ball\u{201d}",
+            "scene.toml:1:8: `\u{201c}` (U+201C) is a quotation mark of a word processor; type \" in",
+        ),
+        (
+            "5e-3",
+            "\u{2018}5 mm\u{2019}",
+            "scene.toml:3:10: `\u{2018}` (U+2018) is a quotation mark of a word processor; type \"",
+        ),
+        ("5e-3", "\u{ab}5 mm\u{bb}", "(U+00AB) is a quotation mark"),
+        ("5e-3", "\u{201e}5 mm\u{201c}", "(U+201E) is a quotation mark"),
+        ("5e-3", "\"5 mm\u{201d}", "scene.toml:3:15: `\u{201d}` (U+201D) is a quotation mark of a word processor"),
+        ("0.3", "\u{2212}0.3", "(U+2212) is a minus sign of a word processor; type - in"),
+        ("5e-3", "5e\u{2013}3", "(U+2013) is a dash of a word processor; type - in"),
+        ("radius = ", "radius\u{a0}= ", "scene.toml:3:7: (U+00A0) is a space of a page of the web; type a space in"),
+        ("radius", "\u{201c}radius\u{201d}", "(U+201C) is a quotation mark"),
+    ] {
+        let said = said(&SCENE.replacen(from, to, 1)).replace("\n  ", " ");
+        assert!(said.contains(hint), "nothing of {hint} in {said}");
+    }
+    // where it is a character of a text or a remark, another mistake is told
+    let said = said(&SCENE.replacen("name", "# \u{201c}x\u{201d}\ncolour = \"\u{201c}\"\nname", 1));
+    assert!(said.contains("`colour`"), "{said}");
+}
+
+#[test]
+fn a_thousand_materials_of_which_two_are_used_are_told_in_few_lines() {
+    let folder = empty_folder();
+    let materials = |count: usize| {
+        let one = |index: usize| {
+            format!(
+                "[[material]]\nname = \"m{index}\"\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\ndensity = 7850\nyield_strength = 3e8\n"
+            )
+        };
+        (0..count).map(one).collect::<String>()
+    };
+    let used = with_impact().replacen(
+        "youngs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 300e6",
+        "material = \"m7\"",
+        1,
+    );
+    fs::write(folder.path().join("scene.toml"), format!("{used}{}", materials(1000))).unwrap();
+    let out = run(folder.path(), ["predict", "scene.toml"]).with_status(0).out;
+    assert!(out.contains("Material `m7` is that of the scene."), "{out}");
+    assert!(out.contains("999 materials of the scene are used by no body: `m0` to `m999`."), "{out}");
+    assert_eq!(out.matches("aterial").count() - out.matches("materials").count(), 1, "{out}");
 }
 
 /// The message of `brinell predict` about a wrong scene.
@@ -438,6 +559,17 @@ fn a_typing_mistake_finds_the_word_that_is_meant() {
         ("[impact]", "[fmu]\noutputs = [\"forse\"]\n[impact]", "did you mean `force`?"),
         ("[impact]", "[fmu]\nparameters = [\"yield_strength\"]\n[impact]", "did you mean `target.yield_strength`?"),
         ("[impact]", "[impcat]\nx = 1\n[impact]", "did you mean `impact`?"),
+        ("[impactor]", "[impacter]", "did you mean `impactor`?"),
+        (
+            "yield_strength = 300e6",
+            "material = \"bearing steel\"",
+            "may be several materials: say which, one of `bearing steel 52100, hardened`, `bearing",
+        ),
+        (
+            "yield_strength = 300e6",
+            "material = \"Stainless Steel\"",
+            "say which, `stainless steel 304` or `stainless steel 316L, annealed`",
+        ),
         ("[target]", "[target]\nsurface = \"Fresh\"", "did you mean `fresh`?"),
     ] {
         let said = said(&with_impact().replacen(from, to, 1));

@@ -22,6 +22,7 @@ const OF_NO_SCHEMA: &[(&str, &str)] = &[
     ("impact.speed = inf", "JSON has no such number"),
     ("normal = [0, inf, 1]", "JSON has no such number"),
     ("has several conditions", "a material of one's own may have any name"),
+    ("may be several materials", "a material of one's own may have any name"),
     ("unknown material `", "a material of one's own may have any name"),
     ("must be the same in law.loading_parameters", "it compares two numbers"),
     ("is before the end of the first step", "it compares two numbers"),

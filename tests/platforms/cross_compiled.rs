@@ -77,8 +77,9 @@ fn an_unknown_platform_is_reported_with_the_known_ones() {
         let said = run(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "--platforms", platforms]);
         let said = said.with_status(1);
         let name = platforms.rsplit(',').next().unwrap();
+        let meant = if name.is_empty() { ", only" } else { "; did you mean win64? There are" };
         let message = format!(
-            "there is no platform `{name}`, only linux64, aarch64-linux, win64, darwin64, aarch64-darwin, `all` for all of these, and c-code for C source"
+            "there is no platform `{name}`{meant} linux64, aarch64-linux, win64, darwin64, aarch64-darwin, `all` for all of these, and c-code for C source"
         );
         assert!(said.err.contains(&message), "{said:#?}");
         assert!(contents(folder.path()).is_empty(), "files were left");

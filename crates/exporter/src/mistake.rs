@@ -27,17 +27,71 @@ pub enum SceneError {
 /// The text of a file with these `bytes`, which must be UTF-8.
 ///
 /// # Errors
-/// [`SceneError::Wrong`] with the place of the first byte that isn't.
+/// [`SceneError::Wrong`] with the place of the first byte that isn't, and what the file is if it is no text.
 pub fn text(bytes: Vec<u8>, path: &Path) -> Result<String, SceneError> {
-    let is_utf16 = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]);
+    let at_begin = |message: String| Err(Mistake(0..0, message).in_file("", path));
+    let first = bytes.first().copied().unwrap_or_default();
+    if let Some(encoding) = wide_encoding(&bytes) {
+        return at_begin(format!("byte 0x{first:02X}: the file is in {encoding}; save the scene in UTF-8"));
+    }
+    if let Some((_, what)) = NO_SCENES.iter().find(|(begin, _)| bytes.starts_with(begin)) {
+        return at_begin(format!("this is {what}; a scene is plain text (TOML): `brinell new NAME` writes one"));
+    }
+    if bytes.contains(&0) {
+        let message =
+            "this is no text, since it has bytes 0x00; a scene is plain text (TOML): `brinell new NAME` writes one";
+        return at_begin(message.into());
+    }
     String::from_utf8(bytes).map_err(|error| {
         let end = error.utf8_error().valid_up_to();
         let (before, wrong) = error.as_bytes().split_at(end);
         let before = String::from_utf8_lossy(before);
-        let encoding = if is_utf16 { "the file is in UTF-16" } else { "this isn't UTF-8" };
-        let message = format!("byte 0x{:02X}: {encoding}; save the scene in UTF-8", wrong[0]);
+        let message = format!("byte 0x{:02X}: this isn't UTF-8; save the scene in UTF-8", wrong[0]);
         Mistake(end..end, message).in_file(&before, path)
     })
+}
+
+/// How files begin that are opened instead of a scene, and what they are. No scene begins so.
+const NO_SCENES: [(&[u8], &str); 21] = [
+    (b"\x89PNG", "a picture (PNG)"),
+    (b"\xff\xd8\xff", "a picture (JPEG)"),
+    (b"GIF8", "a picture (GIF)"),
+    (b"II*\0", "a picture (TIFF)"),
+    (b"%PDF", "a document (PDF)"),
+    (b"{\\rtf", "a document (RTF): save it as plain text"),
+    (b"\xd0\xcf\x11\xe0", "a document of an office program"),
+    (b"PK\x03\x04", "a zip archive"),
+    (b"PK\x05\x06", "an empty zip archive"),
+    (b"\x1f\x8b", "compressed (gzip)"),
+    (b"BZh", "compressed (bzip2)"),
+    (b"\xfd7zXZ", "compressed (xz)"),
+    (b"7z\xbc\xaf", "compressed (7z)"),
+    (b"\x28\xb5\x2f\xfd", "compressed (zstd)"),
+    (b"\x7fELF", "a program or a library"),
+    (b"MZ\x90\0", "a program or a library"),
+    (b"\xcf\xfa\xed\xfe", "a program or a library"),
+    (b"\0asm", "a program or a library"),
+    (b"\x89HDF", "data (HDF5)"),
+    (b"PAR1", "a table (Parquet)"),
+    (b"<", "a page of the web or other XML"),
+];
+
+/// The encoding of a text whose characters have more than one byte each, with a mark at its begin or without.
+fn wide_encoding(bytes: &[u8]) -> Option<&'static str> {
+    const LOOKED_AT: usize = 1000;
+    let begin = || bytes.chunks_exact(4).take(LOOKED_AT);
+    // of texts in Latin letters nearly all
+    let is_zero = |place: usize| {
+        let zeros = begin().filter(|letters| letters[place] == 0).count();
+        10 * zeros > 9 * begin().count()
+    };
+    match (bytes, [0, 1, 2, 3].map(is_zero)) {
+        ([0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..], _) => Some("UTF-32"),
+        ([0xff, 0xfe, ..] | [0xfe, 0xff, ..], _) => Some("UTF-16"),
+        (_, [false, true, true, true] | [true, true, true, false]) => Some("UTF-32"),
+        (_, [false, true, false, true] | [true, false, true, false]) => Some("UTF-16"),
+        _ => None,
+    }
 }
 
 /// A value with its place in the text.

@@ -15,9 +15,43 @@ pub fn nearest<'a>(asked: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
     // a number of three digits is no mistyped letter: steel 316 isn't 304
     let numbers = asked.split(|c: char| !c.is_ascii_digit()).filter(|number| number.len() >= 3).collect::<Vec<_>>();
     let names = names.into_iter().filter(|name| numbers.iter().all(|number| name.contains(number)));
-    let rated = names.map(|name| (similarity(&asked, &normal(name)), name));
-    let best = rated.max_by(|one, other| one.0.total_cmp(&other.0))?;
-    (best.0 >= SIMILAR).then_some(best.1)
+    let mut best: Option<(Rating, &str)> = None;
+    for name in names {
+        let rating = Rating::of(&asked, &normal(name));
+        // of equally near ones the first
+        if rating.similarity >= SIMILAR && best.as_ref().is_none_or(|(other, _)| rating.is_nearer(other)) {
+            best = Some((rating, name));
+        }
+    }
+    best.map(|(_, name)| name)
+}
+
+/// Mistyped letters up to which their number tells names apart: `impacter` is one from `impactor`, and two from `impact`, whose letters all
+/// are in it.
+const MISTYPED: usize = 2;
+
+/// How near a name is to another.
+struct Rating {
+    /// Letters that were left out, added, changed or swapped; [`usize::MAX`] if more than [`MISTYPED`].
+    letters: usize,
+    similarity: f64,
+}
+
+impl Rating {
+    fn of(asked: &str, name: &str) -> Rating {
+        let letters = if asked.len().abs_diff(name.len()) > 4 * MISTYPED {
+            usize::MAX
+        } else {
+            strsim::osa_distance(asked, name)
+        };
+        // of a short name, two letters may be all
+        let is_mistyped = letters <= MISTYPED && 2 * letters < asked.chars().count();
+        Rating { letters: if is_mistyped { letters } else { usize::MAX }, similarity: similarity(asked, name) }
+    }
+
+    fn is_nearer(&self, other: &Rating) -> bool {
+        self.letters < other.letters || self.letters == other.letters && self.similarity > other.similarity
+    }
 }
 
 /// Characters of a name that are compared. Every name that exists is shorter, and the time to compare two names grows with the
@@ -132,6 +166,45 @@ mod tests {
     #[test]
     fn a_name_that_is_there_twice_is_listed_once() {
         assert_eq!(unknown("law", "foo", ["a", "b", "a"].into_iter()), "unknown law `foo`, expected `a` or `b`");
+    }
+
+    /// A wrong letter, one too many or too few, or two swapped: the suggestion is no farther away than the name that was meant.
+    #[test]
+    fn any_single_mistyped_letter_finds_a_name_that_is_as_near_as_what_was_meant() {
+        let keys =
+            ["impactor", "impact", "target", "law", "fmu", "friction", "coupling", "body", "contact", "material"];
+        let keys =
+            keys.into_iter().chain(["youngs_modulus", "yield_strength", "drop_height", "plate_thickness", "mass"]);
+        let keys: Vec<&str> = keys.chain(AnyLoading::ALL.iter().map(|(name, _)| *name)).collect();
+        let mut tried = 0;
+        for meant in &keys {
+            let letters: Vec<char> = meant.chars().collect();
+            // the first letter is seldom wrong, and short words have many neighbours
+            for place in 1..letters.len() {
+                let (before, after) = (&letters[..place], &letters[place + 1..]);
+                let spelt =
+                    |middle: &[char], after: &[char]| [before, middle, after].concat().iter().collect::<String>();
+                let mut wrong = vec![spelt(&[], after), spelt(&['e'], after), spelt(&[letters[place]; 2], after)];
+                wrong.extend(after.split_first().map(|(next, after)| spelt(&[*next, letters[place]], after)));
+                for asked in wrong.into_iter().filter(|asked| asked != meant && asked.len() > 3) {
+                    let found = nearest(&asked, keys.iter().copied()).unwrap_or_else(|| panic!("nothing near {asked}"));
+                    let distance = strsim::osa_distance(&normal(&asked), &normal(found));
+                    assert!(distance <= 1, "{asked}: {found} for {meant}");
+                    tried += 1;
+                }
+            }
+        }
+        assert!(tried > 500, "{tried}");
+        assert_eq!(nearest("impacter", keys.iter().copied()), Some("impactor"));
+        assert_eq!(nearest("impac", keys.iter().copied()), Some("impact"));
+    }
+
+    #[test]
+    fn of_equally_near_names_the_first_is_suggested() {
+        assert_eq!(
+            nearest("bearing steel", ["bearing steel, aaaa", "bearing steel, bbbb"]),
+            Some("bearing steel, aaaa")
+        );
     }
 
     #[test]

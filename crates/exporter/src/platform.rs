@@ -1,5 +1,7 @@
 //! The platforms for which an FMU can have a library.
 
+use crate::layout::shortened;
+use crate::nearest::nearest;
 use std::env;
 
 /// A platform of FMI 2.0: a folder of an FMU.
@@ -177,10 +179,42 @@ pub fn targets(platforms: &[Platform]) -> Vec<&'static Target> {
 pub fn named(folder: &str) -> Result<Platform, String> {
     let known = Platform::ALL.into_iter().chain([Platform::C_CODE]);
     known.into_iter().find(|platform| platform.folder == folder).ok_or_else(|| {
-        let folders = Platform::ALL.map(|platform| platform.folder).join(", ");
-        format!("there is no platform `{folder}`, only {folders}, `all` for all of these, and c-code for C source")
+        let folders = Platform::ALL.map(|platform| platform.folder);
+        let plain = folder.trim().to_lowercase().replace([' ', '_'], "-");
+        let meant = OTHER_NAMES.iter().find(|(others, _)| others.contains(&plain.as_str())).map(|(_, meant)| *meant);
+        let names = || folders.into_iter().chain([Platform::C_CODE.folder, "all"]);
+        let meant = meant.or_else(|| nearest(&plain, names()));
+        let question = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+        let all = "`all` for all of these, and c-code for C source";
+        let there = if question.is_empty() { ", only" } else { " There are" };
+        format!("there is no platform `{}`{question}{there} {}, {all}", shortened(folder), folders.join(", "))
     })
 }
+
+/// What users, other tools, Rust and FMI 3.0 call the platforms.
+const OTHER_NAMES: [(&[&str], &str); 6] = [
+    (&["linux", "linux-64", "x86-64-linux", "linux-x86-64", "x86-64-unknown-linux-gnu", "ubuntu", "gnu"], "linux64"),
+    (
+        &[
+            "arm",
+            "arm64",
+            "aarch64",
+            "linux-arm64",
+            "linuxarm64",
+            "arm64-linux",
+            "aarch64-unknown-linux-gnu",
+            "raspberry",
+        ],
+        "aarch64-linux",
+    ),
+    (
+        &["windows", "windows64", "win", "win32", "win-64", "x64", "x86-64-windows", "x86-64-pc-windows-msvc", "msvc"],
+        "win64",
+    ),
+    (&["mac", "macos", "osx", "darwin", "apple", "x86-64-darwin", "x86-64-apple-darwin"], "darwin64"),
+    (&["apple-silicon", "m1", "macos-arm64", "arm64-darwin", "darwin-arm64", "aarch64-apple-darwin"], "aarch64-darwin"),
+    (&["c", "source", "sources", "c-source", "wasm", "wasm32"], "c-code"),
+];
 
 #[cfg(test)]
 mod tests {
@@ -193,6 +227,25 @@ mod tests {
         }
         let refusal = named("linux32").unwrap_err();
         assert!(refusal.contains("`linux32`") && refusal.contains("aarch64-linux, win64"), "{refusal}");
+        for (asked, meant) in [
+            ("windows", Some("win64")),
+            ("Win 64", Some("win64")),
+            ("Linux", Some("linux64")),
+            ("linux32", Some("linux64")),
+            ("macos", Some("darwin64")),
+            ("x86_64-linux", Some("linux64")),
+            ("x86_64-pc-windows-msvc", Some("win64")),
+            ("arm64", Some("aarch64-linux")),
+            ("aarch64-drawin", Some("aarch64-darwin")),
+            ("c code", Some("c-code")),
+            ("commodore64", None),
+        ] {
+            let said = named(asked).unwrap_err();
+            let question = meant.map(|meant| format!("did you mean {meant}?"));
+            assert_eq!(said.contains("did you mean"), question.is_some(), "{said}");
+            assert!(question.is_none_or(|question| said.contains(&question)), "{said}");
+            assert!(said.contains("linux64, aarch64-linux, win64, darwin64, aarch64-darwin"), "{said}");
+        }
     }
 
     #[test]

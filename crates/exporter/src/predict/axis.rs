@@ -127,9 +127,10 @@ fn find(name: &str) -> Result<(&'static str, &'static str), String> {
         Some(found) => Ok(*found),
         None => {
             let all = names.iter().copied().chain(constants.iter().map(|(name, _)| *name));
-            let guess = nearest(name, all).map_or(String::new(), |guess| format!("; did you mean `{guess}`?"));
+            let guess = nearest(name, all).map(|guess| format!("; did you mean `{guess}`? Expected"));
+            let guess = guess.unwrap_or_else(|| ", expected".into());
             Err(format!(
-                "no quantity is called `{name}`{guess} Expected {}, or a constant that `brinell laws NAME` shows, as in {}NAME",
+                "no quantity is called `{name}`{guess} {}, or a constant that `brinell laws NAME` shows, as in {}NAME",
                 one_of(&names),
                 constants::LOADING
             ))

@@ -52,6 +52,35 @@ impl OwnMaterial {
     }
 }
 
+/// Most materials of one's own that are told one by one.
+const TOLD: usize = 8;
+
+/// Where the materials come from that aren't built in, in sentences: of each one that the `file` uses, and of the others together.
+pub fn words(file: &SceneFile) -> Vec<String> {
+    // each name once: there may be a hundred thousand contacts, and as many materials
+    let asked: BTreeMap<&str, &Spanned<String>> =
+        file.materials_used().map(|name| (name.get_ref().as_str(), name)).collect();
+    let found = asked.into_values().filter_map(|name| find(name, &file.own).ok());
+    let found: HashSet<*const Material> = found.map(std::ptr::from_ref).collect();
+    let (used, unused): (Vec<_>, Vec<_>) =
+        file.own.iter().partition(|own| found.contains(&std::ptr::from_ref(&own.material)));
+    let mut words: Vec<String> = used.iter().take(TOLD).map(|own| own.words()).collect();
+    let more = |all: &[&OwnMaterial], count: usize| format!("{count} more materials are of {}.", all[0].place);
+    words.extend((used.len() > TOLD).then(|| more(&used[TOLD..], used.len() - TOLD)));
+    let name = |own: &OwnMaterial| format!("`{}`", shortened(&own.material.name));
+    words.extend(match unused.as_slice() {
+        [] => None,
+        [only] => Some(format!("Material {} of the scene is used by no body.", name(only))),
+        [first, .., last] => Some(format!(
+            "{} materials of the scene are used by no body: {} to {}.",
+            unused.len(),
+            name(first),
+            name(last)
+        )),
+    });
+    words
+}
+
 impl MaterialTable {
     /// The table with this `text`. `path` is used in messages, `place` in what is printed of its materials.
     ///

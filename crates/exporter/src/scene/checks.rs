@@ -1,7 +1,7 @@
 //! Checks a scene: from the contents of the file to a scene that can be built.
 
 use super::Scene;
-use super::beside::OwnMaterial;
+use super::beside;
 use super::bodies::{self, Body, Both};
 use super::contacts::{Contacts, Group, Parameter};
 use super::file::{ImpactTable, NamesName, SceneFile};
@@ -126,7 +126,7 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         stop_time,
         standalone: file.fmu.standalone == Some(true),
         impact_is_assumed: file.impact.is_none(),
-        materials: file.own.iter().map(OwnMaterial::words).collect(),
+        materials: beside::words(&file),
         text: String::new(),
     };
     choose_settable(&mut scene, file.fmu.parameters.as_deref())?;
@@ -268,6 +268,19 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
 /// The message about an impact for which the law cannot be evaluated.
 fn too_hard(scene: &Scene, group: usize) -> String {
     let impact = scene.impact_of(group);
+    // on a thick target of this material it ends
+    let thick = || Scene { loss: None, ..scene.clone() }.any_model_of(group).predict(&impact);
+    let plate = scene.loss.and_then(|loss| if let Loss::Plate(thickness) = loss { Some(thickness) } else { None });
+    if let Some(thickness) = plate.filter(|_| thick().is_some()) {
+        return format!(
+            "the impact of mass = {} kg and speed = {} m/s never ends: target.plate_thickness = {} m is so thin that the sheet bends \
+             and moves on with the body, until waves come back from its edge, which the loss leaves out; {}",
+            in_message(impact.mass),
+            in_message(impact.speed),
+            in_message(thickness),
+            "a thicker plate, a lighter body or a target without plate_thickness can be computed"
+        );
+    }
     let [mass, speed] = [impact.mass, impact.speed].map(in_message);
     let what = match scene.is_rate_dependent() {
         false => "drives the bodies deeper than the law can be evaluated",

@@ -262,7 +262,12 @@ pub fn find_material(name: &Spanned<String>, own: &[OwnMaterial]) -> Result<&'st
             let names = MATERIALS.iter().filter(|material| material.aliases.iter().any(has));
             let names: Vec<_> = names.map(|material| material.name.as_str()).collect();
             match names.as_slice() {
-                [] => beside::no_material(asked, own),
+                [] => match with_words(asked).as_slice() {
+                    [] | [_] => beside::no_material(asked, own),
+                    several => {
+                        format!("`{}` may be several materials: say which, {}", shortened(asked), one_of(several))
+                    }
+                },
                 names => format!("unknown material `{}`; its name here is {}", shortened(asked), one_of(names)),
             }
         }
@@ -276,6 +281,17 @@ pub fn find_material(name: &Spanned<String>, own: &[OwnMaterial]) -> Result<&'st
         }
     };
     Err(Mistake(name.span(), message))
+}
+
+/// The materials with these words in their names, such as `bearing steel`, one behind the other.
+fn with_words(asked: &str) -> Vec<&'static str> {
+    let words = |name: &str| {
+        let words = name.split([' ', ',', '-', '_']).filter(|word| !word.is_empty());
+        words.map(str::to_lowercase).collect::<Vec<_>>()
+    };
+    let asked = words(asked);
+    let has = |name: &&str| !asked.is_empty() && words(name).windows(asked.len()).any(|part| part == asked);
+    MATERIALS.iter().map(|material| material.name.as_str()).filter(has).collect()
 }
 
 /// One `[[contact]]`, or the one contact of a scene without any.

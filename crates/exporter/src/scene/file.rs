@@ -561,8 +561,12 @@ pub fn files_named(text: &str) -> Vec<String> {
 
 /// The mistake of this `message` of the parser about a place in the `text`.
 fn in_words(text: &str, span: Range<usize>, message: &str) -> Mistake {
-    let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
-    let line = text[line..].lines().next().unwrap_or_default().trim();
+    let start = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
+    let line = text[start..].lines().next().unwrap_or_default();
+    if let Some((place, message)) = parser_words::typographic(line) {
+        return Mistake(start + place..start + place, message);
+    }
+    let line = line.trim();
     Mistake(span.clone(), parser_words::words(message, line, &text[span]))
 }
 

@@ -82,6 +82,52 @@ const PROOF_STRESS: &str = "it is called yield_strength, or with the tensile str
 /// Where friction is given.
 const FRICTION: &str = "a table [friction] with a `coefficient` gives it for all contacts";
 
+/// What word processors and pages of the web put in place of a character of TOML: the character, its name, and what to type.
+const TYPOGRAPHIC: [(char, &str, &str); 20] = [
+    ('\u{201c}', "a quotation mark of a word processor", "\""),
+    ('\u{201d}', "a quotation mark of a word processor", "\""),
+    ('\u{201e}', "a quotation mark of a word processor", "\""),
+    ('\u{201f}', "a quotation mark of a word processor", "\""),
+    ('\u{2033}', "a quotation mark of a word processor", "\""),
+    ('\u{00ab}', "a quotation mark of a word processor", "\""),
+    ('\u{00bb}', "a quotation mark of a word processor", "\""),
+    ('\u{ff02}', "a quotation mark of a word processor", "\""),
+    ('\u{2018}', "a quotation mark of a word processor", "\""),
+    ('\u{2019}', "a quotation mark of a word processor", "\""),
+    ('\u{201a}', "a quotation mark of a word processor", "\""),
+    ('\u{2032}', "a quotation mark of a word processor", "\""),
+    ('\u{00b4}', "an accent", "\""),
+    ('`', "an accent", "\""),
+    ('\u{2212}', "a minus sign of a word processor", "-"),
+    ('\u{2013}', "a dash of a word processor", "-"),
+    ('\u{2014}', "a dash of a word processor", "-"),
+    ('\u{00a0}', "a space of a page of the web", "a space"),
+    ('\u{202f}', "a space of a page of the web", "a space"),
+    ('\u{ff1d}', "an equals sign of another script", "="),
+];
+
+/// The place of the first character of a wrong `line` that stands for one of TOML, and a message. It isn't in a remark, nor in a text in
+/// quotes that ends.
+pub fn typographic(line: &str) -> Option<(usize, String)> {
+    let (mut quote, mut first) = (None, None);
+    for (place, c) in line.char_indices() {
+        match quote {
+            None if c == '#' => break,
+            None if c == '"' || c == '\'' => quote = Some(c),
+            // a text that ends may have any in it
+            Some(open) if c == open => (quote, first) = (None, None),
+            _ => first = first.or_else(|| Some((place, TYPOGRAPHIC.iter().find(|(other, ..)| *other == c)?))),
+        }
+        if quote.is_none() && first.is_some() {
+            break;
+        }
+    }
+    let (place, (c, what, typed)) = first?;
+    let shown = if c.is_whitespace() { String::new() } else { format!("`{c}` ") };
+    let (code, line) = (u32::from(*c), shortened(line.trim()));
+    Some((place, format!("{shown}(U+{code:04X}) is {what}; type {typed} in `{line}`")))
+}
+
 /// The `message` of the parser about the part `meant` of a `line`.
 pub fn words(message: &str, line: &str, meant: &str) -> String {
     if let Some(field) = message.strip_prefix("missing field ") {
