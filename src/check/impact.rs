@@ -48,8 +48,8 @@ pub fn simulate(
     approach(contact, way, impact.speed, gap, step)?;
     let (mut body, begin) = (Body::flying(impact.mass, impact.speed), contact.elapsed());
     let (mut indentation, mut max_indentation, mut max_force) = (0.0, 0.0, 0.0);
-    // indentation and force at the end of the last two steps
-    let mut before = [(0.0, 0.0); 2];
+    // time, indentation and force at the end of the last two steps
+    let mut before = [(0.0, 0.0, 0.0); 2];
     for _ in 0..MOST_STEPS {
         let start = body.settled_speed(step);
         way.advance(contact, &mut body, step)?;
@@ -62,16 +62,16 @@ pub fn simulate(
         max_indentation = f64::max(max_indentation, indentation);
         max_force = f64::max(max_force, force);
         if force <= 0.0 && speed < 0.0 {
-            let residual_indentation = end_of_contact(before);
+            let (contact_time, residual_indentation) = end_of_force(before);
             return Ok(Simulated {
                 max_indentation,
                 max_force,
                 residual_indentation,
                 restitution: -speed / impact.speed,
-                contact_time: time - (residual_indentation - indentation) / -speed,
+                contact_time,
             });
         }
-        before = [before[1], (indentation, force)];
+        before = [before[1], (time, indentation, force)];
     }
     Err(ImportError::Endless { steps: MOST_STEPS })
 }
@@ -92,8 +92,10 @@ fn approach(contact: &mut Contact, way: &Way, speed: f64, gap: f64, step: f64) -
     Ok(())
 }
 
-/// The indentation at which the force ends [m], from the last two points in contact: it vanishes as `(d - d_f)^1.5`.
-fn end_of_contact([(first, first_force), (last, last_force)]: [(f64, f64); 2]) -> f64 {
-    let (first_root, last_root) = (f64::powf(first_force, 2.0 / 3.0), f64::powf(last_force, 2.0 / 3.0));
-    last - last_root * (first - last) / (first_root - last_root)
+/// Time \[s\] and indentation \[m\] at which the force ends, from the last two points in contact: it vanishes as `(t - t_f)^1.5`. A
+/// force with a loss vanishes in another way, within the same step.
+fn end_of_force([first, last]: [(f64, f64, f64); 2]) -> (f64, f64) {
+    let root = |force: f64| f64::powf(force, 2.0 / 3.0);
+    let steps = root(last.2) / (root(first.2) - root(last.2));
+    (last.0 + steps * (last.0 - first.0), last.1 + steps * (last.1 - first.1))
 }

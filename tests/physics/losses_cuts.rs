@@ -2,7 +2,7 @@
 
 use crate::physics::{AnyModel, Random, all_models, pair_of};
 use brinell_contact::impact::{Impact, predict};
-use brinell_contact::losses::{AnyLoss, Fitted, History, Model, Plate, Solid, Waves, follow};
+use brinell_contact::losses::{AnyLoss, Fitted, History, Model, Plate, Solid, Waves, follow, impact};
 use brinell_contact::motion::Drive;
 use brinell_contact::{Contact, Loading, Surface};
 
@@ -131,6 +131,31 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies_and_wherever_the_for
     }
     println!("{cases} cases, worst {worst:?}");
     assert!(cases > 100);
+}
+
+#[test]
+fn the_contact_time_of_a_prediction_is_that_of_the_force() {
+    const STEPS: u32 = 400;
+    let (mut random, mut cases) = (Random(4407), 0);
+    for model in all_models(crate::physics::mild()) {
+        for kind in 0..3 {
+            let Some(case) = draw(&mut random, &model, kind) else { continue };
+            let found = impact::predict(&case.model, &Impact { mass: case.drive.mass, speed: case.speed });
+            let Some(expected) = found.map(|found| found.contact_time()) else { continue };
+            let mut history = History::start(&case.model, 0.0).expect("a touch");
+            let (drive, mut speed) = (Drive { acceleration: 0.0, ..case.drive }, case.speed);
+            // to a quarter beyond, so that a force that lasts longer is seen
+            let step = expected / f64::from(STEPS);
+            let mut last = 0;
+            for number in 1..=STEPS + STEPS / 4 {
+                speed = follow(&mut history, &case.model, &drive, speed, step).expect("within range").speed;
+                last = if history.force(speed) > 0.0 { number } else { last };
+            }
+            assert!(STEPS.abs_diff(last) <= 1, "{case:?}: the force ends after {last} of {STEPS} steps");
+            cases += 1;
+        }
+    }
+    assert!(cases > 50, "only {cases} cases");
 }
 
 #[test]

@@ -45,12 +45,13 @@ pub struct Prediction {
     pub restitution: f64,
     /// Time from first contact to the largest indentation \[s\].
     pub loading_time: f64,
-    /// Time from the largest indentation to separation \[s\].
+    /// Time from the largest indentation to the end of the force \[s\]. With losses and rate-dependent laws this may be before the
+    /// bodies leave the surface, which lags behind them.
     pub unloading_time: f64,
 }
 
 impl Prediction {
-    /// Duration of the contact \[s\].
+    /// Duration of the contact \[s\]: from first touch to the end of the force.
     pub fn contact_time(&self) -> f64 {
         self.loading_time + self.unloading_time
     }

@@ -55,6 +55,8 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
     bodies.guess = scale;
     bodies.contact.swiftest = speed;
     let (mut time, mut largest, mut turning) = (0.0, 0.0, 0.0);
+    // the time up to which the force lasted, and whether it lasts; a surface that lags behind the bodies has none
+    let (mut force_end, mut pushes) = (0.0, true);
     watch(&State { time, indentation: 0.0, speed }, bodies.contact.force(speed));
     for _ in 0..MOST_STRETCHES {
         let start = bodies.contact.plastic().indentation();
@@ -65,6 +67,8 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
                 largest = if force > largest { force } else { largest };
                 deepest = if indentation > deepest.1 { (state.time, indentation) } else { deepest };
                 last = state.time;
+                force_end = if pushes { time + last } else { force_end };
+                pushes = force > 0.0;
                 watch(&State { time: time + state.time, indentation, speed: state.speed }, force);
             })
             .ok()?;
@@ -73,19 +77,19 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
         }
         time += last;
         if bodies.is_apart() {
-            return Some(prediction(model, impact, &bodies, (largest, turning, time)));
+            return Some(prediction(model, impact, &bodies, (largest, turning, force_end)));
         }
     }
     None
 }
 
 /// The prediction from the bodies after their separation, with the largest force \[N\], and the times of the turning point
-/// and of the end \[s\].
+/// and of the end of the force \[s\].
 fn prediction<L: Loading, U: Unloading, K: Loss>(
     model: &Model<L, U, K>,
     impact: &Impact,
     bodies: &Bodies<L, U, K>,
-    (max_force, turning, time): (f64, f64, f64),
+    (max_force, turning, force_end): (f64, f64, f64),
 ) -> Prediction {
     // the contact of a fresh surface has forgotten the impact
     let (plastic, max_indentation) = (&model.plastic, bodies.deepest());
@@ -100,6 +104,6 @@ fn prediction<L: Loading, U: Unloading, K: Loss>(
         rebound_energy: 0.5 * impact.mass * end * end,
         restitution: -end / impact.speed,
         loading_time: turning,
-        unloading_time: time - turning,
+        unloading_time: force_end - turning,
     }
 }

@@ -24,7 +24,7 @@ pub struct Moment {
     pub speed: f64,
 }
 
-/// The time history of `impact` from first contact to separation; `None` beyond the range of the law.
+/// The time history of `impact` from first contact to the end of the force; `None` beyond the range of the law.
 pub fn moments(model: &AnyModel, impact: &Impact) -> Option<Vec<Moment>> {
     let prediction = model.predict(impact)?;
     match model {
@@ -41,8 +41,11 @@ pub fn moments(model: &AnyModel, impact: &Impact) -> Option<Vec<Moment>> {
             let mut all = Vec::new();
             losses::impact::follow(model, impact, |state, force| {
                 let losses::impact::State { time, indentation, speed } = *state;
-                all.push(Moment { time, indentation, force, speed });
+                // the event that ends it is found to rounding, on either side
+                all.push(Moment { time, indentation, force: force.max(0.0), speed });
             })?;
+            // after its end a surface may lag behind the bodies
+            all.retain(|moment| moment.time <= prediction.contact_time());
             Some(thinned(&all))
         }
     }
