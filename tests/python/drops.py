@@ -4,6 +4,7 @@ import json
 import os
 import re
 import subprocess
+from collections import namedtuple
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,44 @@ from scipy.optimize import brentq
 
 SCENE = Path(os.environ["BRINELL_TEST_SCENES"]) / "mass_known.toml"
 PHASES = (np.arange(20) + 0.5) / 20
+
+Ball = namedtuple("Ball", "scene radius mass speed")
+STEEL = "bearing steel 52100, hardened"
+# the usual ball, one that loses little, a small one, and one that loses hardly anything: materials, radius, mass, speed
+BALLS = {
+    "mild": None,
+    "aluminium": (STEEL, "aluminium 6061-T6", 8e-3, 16.8e-3, 1.5),
+    "bronze": ("bearing bronze C932", "mild steel", 1e-3, 37e-6, 0.5),
+    "hard": (STEEL, "steel AISI 4340, tempered at 205 C", 5e-3, 4.1e-3, 2.0),
+}
+# a ball, with a step of the tool
+BALLS_AND_STEPS = [*((name, None) for name in BALLS), ("mild", "1e-4")]
+
+
+def ball_of(folder, name):
+    """A ball on a flat, with its scene."""
+    if BALLS[name] is None:
+        return Ball(SCENE, 5e-3, 4e-3, 1.0)
+    impactor, target, radius, mass, speed = BALLS[name]
+    scene = folder / f"{name}.toml"
+    scene.write_text(
+        f'name = "{name}"\nimpactor = {{ radius = {radius}, material = "{impactor}" }}\n'
+        f'target = {{ material = "{target}" }}\nimpact = {{ mass = {mass}, speed = {speed} }}\n',
+        encoding="utf-8",
+    )
+    return Ball(scene, radius, mass, speed)
+
+
+def two_spheres(folder):
+    """Two equal free spheres that meet, with their scene; the mass is that of each."""
+    scene = folder / "spheres.toml"
+    scene.write_text(
+        f'name = "spheres"\nimpactor = {{ radius = 1.5e-3, material = "{STEEL}" }}\n'
+        'target = { material = "stainless steel 304", radius = 1.5e-3 }\n'
+        "impact = { mass = 55.35e-6, speed = 1.0 }\n",
+        encoding="utf-8",
+    )
+    return Ball(scene, 1.5e-3, 110.7e-6, 1.0)
 
 
 def promised_at(way, speed):
@@ -133,7 +172,7 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
             stiffness = 4 / 3 * reduced(get("youngs_modulus")) * np.sqrt(radius)
             return hertz(stiffness, get("pulling_restitution"), mass), True
         case ("yade", _):
-            stiffness = 4 / 3 * reduced(get("wall_youngs_modulus")) * np.sqrt(radius / 2)
+            stiffness = 4 / 3 * reduced(get("sphere_youngs_modulus")) * np.sqrt(radius / 2)
 
             def force(x, w):
                 return (
@@ -350,7 +389,7 @@ def mover(tool, name, numbers, radius, mass, speed, step):
 def late_mover(numbers, radius, mass, step):
     """One step of Luding's law between equal spheres in Yade, where the slope k2 is that of the step before."""
     k1, kp = numbers["loading_stiffness"], numbers["unloading_stiffness"]
-    plastic = numbers["equal_penetration_depth"] * radius
+    plastic = numbers["sphere_penetration_depth"] * radius
     limit = kp / (kp - k1) * plastic
     largest, zero = [0.0], [0.0]
 

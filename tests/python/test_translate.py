@@ -1,13 +1,23 @@
 """Numbers for other tools: MuJoCo runs its block; the laws of the others are integrated anew, from the numbers as typed."""
 
 import functools
+import re
 
 import brinell
 import mujoco
 import numpy as np
 import pytest
 from brinell import ProgramError
-from drops import PHASES, SCENE, law_of_tool, outcome_of, promised_at, stepped, touched
+from drops import (
+    PHASES,
+    SCENE,
+    law_of_tool,
+    outcome_of,
+    promised_at,
+    stepped,
+    touched,
+    two_spheres,
+)
 from scipy.integrate import solve_ivp
 
 RADIUS, MASS = 5e-3, 4e-3
@@ -27,12 +37,11 @@ def test_a_ball_in_mujoco_rebounds_as_promised(step):
             block = block[:at] + f'solref="{positive}"' + block[block.index('"', at + 8) + 1 :]
             assert direct.split()[0][:6] in way.block
         model = mujoco.MjModel.from_xml_string(
-            f'<mujoco><worldbody><geom name="flat" type="plane" size="1 1 .1" contype="0" conaffinity="0"/>'
-            f'<body><freejoint/><geom name="ball" size="{RADIUS}" mass="{MASS}" contype="0" conaffinity="0"/>'
+            f'<mujoco><worldbody><geom name="flat" type="plane" size="1 1 .1"/>'
+            f'<body><freejoint/><geom name="ball" size="{RADIUS}" mass="{MASS}"/>'
             f"</body></worldbody>{block}</mujoco>"
         )
         model.opt.gravity[:] = 0.0
-        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
         data = mujoco.MjData(model)
         assert model.opt.timestep == way.step
         for speed in (0.1, 1.0, 3.0):
@@ -120,6 +129,52 @@ def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
             for quantity in ("restitution", "contact_time", "depth", "largest_force"):
                 mean = np.mean([outcome[quantity] for outcome in outcomes])
                 assert mean == pytest.approx(promise[quantity], rel=2e-5), (step, speed, quantity)
+
+
+@pytest.mark.parametrize(("tool", "name"), [one for one in STEPPED if one != ("lammps", "mdr")])
+def test_between_two_spheres_the_published_recursion_gives_what_is_promised(tool, name, tmp_path):
+    balls = two_spheres(tmp_path)
+    translation = brinell.translate(balls.scene, tool)
+    way = translation[name]
+    # a recursion between equal spheres has the radius of one, the others the effective one
+    radius = balls.radius if tool == "yade" else balls.radius / 2
+    outcomes = [
+        stepped(tool, name, way.numbers, radius, balls.mass / 2, 1.0, way.step, phase)
+        for phase in PHASES
+    ]
+    promise = promised_at(way, 1.0)
+    for quantity in ("restitution", "contact_time", "depth", "largest_force"):
+        mean = np.mean([outcome[quantity] for outcome in outcomes])
+        assert mean == pytest.approx(promise[quantity], rel=2e-5), quantity
+    if tool == "yade":
+        density = float(re.search(r"density=([\d.]+)\)", way.block)[1])
+        assert density * 4 / 3 * np.pi * balls.radius**3 == pytest.approx(balls.mass, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("tool", "name"), [("lammps", "hooke"), ("mercurydpm", "linear"), ("newton", "semi-implicit")]
+)
+def test_what_numbers_for_one_mass_do_with_another_is_said(tool, name):
+    way = translated(SCENE, tool)[name]
+    said = next(note for note in way.notes if "one effective mass" in note)
+    for part, words in ((0.5, "half of it"), (2.0, "twice of it")):
+        rebounds = [
+            stepped(tool, name, way.numbers, RADIUS, part * MASS, 1.0, way.step, phase)["restitution"]
+            for phase in PHASES
+        ]
+        law = brinell.predict(SCENE, mass=part * MASS).restitution
+        told = re.search(rf"{words}.*?restitution is ([\d.]+), by the scene's law ([\d.]*\d)", said)
+        assert [float(told[1]), float(told[2])] == pytest.approx([np.mean(rebounds), law], abs=6e-4)
+    if tool == "lammps":
+        # the line for pairs has numbers of its own, with which two such balls rebound alike
+        line = next(line for line in way.block.splitlines() if line.startswith("pair_coeff"))
+        numbers = dict(zip(("stiffness", "damping"), map(float, line.split()[4:6]), strict=True))
+        rebounds = [
+            stepped(tool, name, numbers, RADIUS / 2, MASS / 2, 1.0, way.step / 2**0.5, phase)
+            for phase in PHASES
+        ]
+        promise = promised_at(way, 1.0)["restitution"]
+        assert np.mean([one["restitution"] for one in rebounds]) == pytest.approx(promise, abs=1e-6)
 
 
 def test_at_the_speed_of_the_fit_restitution_and_contact_time_are_the_scenes():

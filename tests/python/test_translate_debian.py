@@ -115,7 +115,6 @@ atom_style granular
 boundary f f f
 newton off
 communicate single vel yes
-{particles}_particles yes
 region box block -0.1 0.1 -0.1 0.1 -0.1 0.1 units box
 create_box 1 box
 neighbor 0.001 bin
@@ -137,8 +136,6 @@ run 400
 @pytest.mark.parametrize("step", [None, "1e-4"])
 def test_liggghts(name, step, tmp_path):
     way = brinell.translate(SCENE, "liggghts", step=step)[name]
-    # the coefficients of pairs follow the style
-    block = re.sub(r"(pair_style .*\n)", r"\1pair_coeff * *\n", way.block)
     density = MASS / (4 / 3 * np.pi * RADIUS**3)
     more = {
         "LD_LIBRARY_PATH": ":".join(map(str, LIBRARIES)),
@@ -149,17 +146,11 @@ def test_liggghts(name, step, tmp_path):
         "OMPI_ALLOW_RUN_AS_ROOT": "1",
         "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     }
-    particles = (
-        "hard"
-        if max(way.numbers.get(key, 0.0) for key in ("youngs_modulus", "hooke_modulus")) > 1e9
-        else "soft"
-    )
     rebounds = []
     for phase in PHASES:
         height = RADIUS + phase * way.step * SPEED
         script = SCRIPT.format(
-            block=block,
-            particles=particles,
+            block=way.block,
             height=height,
             diameter=2 * RADIUS,
             density=density,

@@ -24,7 +24,7 @@ const USUAL: f64 = 100.0;
 /// Steps in a contact beyond which those of the tool are not followed, but the exact motion.
 const MOST: f64 = 20_000.0;
 /// How near to a restitution a solver that damps by itself must come.
-const NEAR: f64 = 5e-3;
+pub const NEAR: f64 = 5e-3;
 /// The exponents from which one is chosen, and the ramps in scales of the overlap.
 const EXPONENTS: (f64, f64) = (1.0, 2.5);
 const RAMPS: (f64, f64) = (0.02, 10.0);

@@ -29,11 +29,11 @@ use crate::predict::{PredictError, beyond, check_width, spread};
 use crate::scene::Scene;
 use crate::units;
 use crate::validity;
-use brinell_contact::Pair;
 use brinell_contact::impact::Impact;
 use fit::{Fitted, Question, largest_passive_step};
 use law::Scales;
 use motion::{Outcome, Promise, Stepping};
+use numbers::Radii;
 use serde::Serialize;
 use tools::{Tool, Way};
 
@@ -178,8 +178,8 @@ pub fn translate(scene: &Scene, request: &Request) -> Result<Translation, Transl
     if ways.is_empty() {
         return Err(TranslateError::NoNumbers { tool: tool.title.clone(), why: left_out.join("; ") });
     }
-    let Case { mass, speed, speeds, wanted, pair: _, law } = case;
-    let mut notes = sentences::of_scene(scene, (mass, &speeds, &wanted), request, tool);
+    let Case { mass, speed, speeds, wanted, radii, law, .. } = case;
+    let mut notes = sentences::of_scene(scene, (mass, &radii), (&speeds, &wanted), request, tool);
     notes.extend(spread::sentence(scene, &Impact { mass, speed }));
     let Tool { name, title, versions, reference, .. } = tool;
     let units = if request.millimetres { "mm-t-s" } else { "si" };
@@ -207,9 +207,14 @@ struct Case {
     speed: f64,
     speeds: Vec<f64>,
     wanted: Vec<Outcome>,
-    pair: Pair,
+    radii: Radii,
     law: String,
+    /// Parts of the effective mass, with the law's restitution at the speed of the fit.
+    at_other_masses: Vec<(f64, f64)>,
 }
+
+/// Other effective masses: of two such balls that meet, if one is on a flat, and of one on a flat, if two meet.
+const OTHER_MASSES: [f64; 2] = [0.5, 2.0];
 
 impl Case {
     fn of(scene: &Scene, request: &Request) -> Result<Case, TranslateError> {
@@ -232,7 +237,11 @@ impl Case {
         let wanted = speeds.iter().map(of).collect::<Result<_, _>>();
         let choices = crate::laws::choose(scene, &[]).expect("a scene has laws");
         let law = choices[0].laws.clone();
-        Ok(Case { mass, speed, speeds, wanted: wanted?, pair: scene.any_model().pair(), law })
+        let radius = |name: &str| scene.group_value(0, name);
+        let radii = Radii::new(radius("impactor.radius").unwrap_or(f64::NAN), radius("target.radius"));
+        let with_part = |part: &f64| Some((*part, of_law(scene, Impact { mass: part * mass, speed }, false).ok()?.restitution));
+        let at_other_masses = OTHER_MASSES.iter().filter_map(with_part).collect();
+        Ok(Case { mass, speed, speeds, wanted: wanted?, radii, law, at_other_masses })
     }
 
     /// The place of the speed of the fit in the range.
@@ -248,13 +257,16 @@ impl Case {
 
     /// The numbers of one way.
     fn by(&self, way: &'static Way, request: &Request) -> Result<Translated, String> {
+        if way.flat_only && self.radii.other.is_some() {
+            return Err("its numbers are for a ball on a flat, and here two spheres meet".into());
+        }
         let goal = self.goal();
         let fastest = *self.speeds.last().expect("a range has speeds");
         let question = way.form.map(|form| Question {
             form,
             stepping: way.stepping,
             at_touch: way.at_touch,
-            scales: Scales { mass: self.mass, speed: self.speed, fastest, radius: self.pair.radius },
+            scales: Scales { mass: self.mass, speed: self.speed, fastest, radius: self.radii.effective },
             goal,
             speeds: &self.speeds,
             wanted: &self.wanted,
@@ -313,15 +325,16 @@ impl Case {
         let goal = self.goal();
         let context = numbers::Context {
             law: fitted.map(|fitted| &fitted.law),
-            pair: &self.pair,
+            radii: &self.radii,
             mass: self.mass,
             restitution: goal.restitution,
+            contact_time: goal.contact_time,
             depth: promised[self.at()].mean.depth,
             speed: self.speed,
             step: fitted.and_then(|fitted| fitted.step),
         };
         let exponent = context.value("exponent").unwrap_or(1.0);
-        let mut block = way.block.trim_matches('\n').to_string();
+        let mut block = way.block_for(self.radii.other.is_some());
         let mut typed = Vec::new();
         for number in &way.numbers {
             let none = || format!("no {} leads to a restitution of {:.3}", number.means, goal.restitution);
@@ -335,11 +348,13 @@ impl Case {
             let value = text.parse().unwrap_or(f64::INFINITY);
             typed.push(Typed { key: &number.key, value, unit, means: &number.means });
         }
-        for key in ["step", "radius"] {
+        for key in ["step", "own_step", "radius", "ball_radius", "other_radius", "density", "pair_damping"] {
             if let Some(value) = context.value(key) {
                 block = block.replace(&format!("{{{key}}}"), &printed(value));
             }
         }
+        let modulus = ["youngs_modulus", "hooke_modulus"].iter().find_map(|key| context.value(key));
+        block = block.replace("{particles}", if modulus > Some(HARD) { "hard" } else { "soft" });
         Ok((typed, block + "\n"))
     }
 }
@@ -347,9 +362,13 @@ impl Case {
 /// Significant digits of a typed number.
 const DIGITS: usize = 7;
 
-/// A number in a block.
+/// The modulus \[Pa\] above which LIGGGHTS wants to be told that particles are hard; below a smaller one, that they are soft.
+const HARD: f64 = 1e9;
+
+/// A number in a block: never an integer, which Drake and C++ take for another type.
 fn printed(value: f64) -> String {
-    if value.is_finite() { significant(value, DIGITS) } else { "none".into() }
+    let text = if value.is_finite() { significant(value, DIGITS) } else { "none".into() };
+    if text.contains(['.', 'e', 'n']) { text } else { text + ".0" }
 }
 
 /// The outcome of an impact by the scene's law. `is_asked` rejects one that makes the contact as wide as the smaller body.

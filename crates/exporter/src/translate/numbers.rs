@@ -2,35 +2,71 @@
 
 use super::law::Law;
 use super::plastic::{Plastic, Thornton};
-use brinell_contact::Pair;
 use libm::{exp, pow, sqrt};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// What a number may depend on.
 pub struct Context<'a> {
     /// `None` where a restitution is all.
     pub law: Option<&'a Law>,
-    pub pair: &'a Pair,
+    pub radii: &'a Radii,
     /// Effective mass \[kg\].
     pub mass: f64,
-    /// Restitution, largest overlap \[m\] and speed \[m/s\] where the numbers are found.
+    /// Restitution, contact time \[s\], largest overlap \[m\] and speed \[m/s\] where the numbers are found.
     pub restitution: f64,
+    pub contact_time: f64,
     pub depth: f64,
     pub speed: f64,
     /// \[s\]
     pub step: Option<f64>,
 }
 
+/// The radii of the bodies as a tool has them \[m\].
+#[derive(Clone, Copy, Debug)]
+pub struct Radii {
+    pub ball: f64,
+    /// That of a target which is a sphere.
+    pub other: Option<f64>,
+    /// The effective one: a wall has no curvature. No tool has hollows.
+    pub effective: f64,
+}
+
+impl Radii {
+    pub fn new(ball: f64, target: Option<f64>) -> Radii {
+        let other = target.filter(|radius| *radius > 0.0 && radius.is_finite());
+        Radii { ball, other, effective: other.map_or(ball, |other| ball * other / (ball + other)) }
+    }
+
+    /// The effective one \[m\] where a flat or a wall counts as a sphere as large as the ball.
+    fn between_spheres(&self) -> f64 {
+        if self.other.is_some() { self.effective } else { 0.5 * self.ball }
+    }
+
+    /// The density \[kg/m^3\] with which the ball has the effective `mass` \[kg\], or two free spheres have it.
+    fn density(&self, mass: f64) -> f64 {
+        let volume = |radius: f64| 4.0 / 3.0 * PI * radius * radius * radius;
+        mass / volume(self.ball) + self.other.map_or(0.0, |other| mass / volume(other))
+    }
+}
+
 /// Poisson's ratio of the materials that are no material's.
 pub const POISSON: f64 = 0.3;
+
+/// Steps in a contact of a tool that chooses its steps.
+const OWN_STEPS: f64 = 3000.0;
 
 impl Context<'_> {
     /// The number `key` of tools.toml \[SI\]; `None` if there is none of this name for such a law.
     pub fn value(&self, key: &str) -> Option<f64> {
         match key {
             "restitution" => return Some(self.restitution),
-            "radius" => return Some(self.pair.radius),
+            "radius" => return Some(self.radii.effective),
+            "ball_radius" => return Some(self.radii.ball),
+            "other_radius" => return Some(self.radii.other.unwrap_or(self.radii.ball)),
+            "density" => return Some(self.radii.density(self.mass)),
             "step" => return self.step,
+            // of a tool that chooses its steps from the largest one
+            "own_step" => return Some(self.contact_time / OWN_STEPS),
             _ => {}
         }
         let law = self.law?;
@@ -79,7 +115,7 @@ impl Context<'_> {
                 _ => None,
             },
             Law::Thornton(Thornton { stiffness, limit, .. }) => match key {
-                "yield_ratio" => limit.is_finite().then(|| sqrt(limit / self.pair.radius)),
+                "yield_ratio" => limit.is_finite().then(|| sqrt(limit / self.radii.effective)),
                 _ => self.of_hertz(key, stiffness, 0.0),
             },
             Law::Luding { loading, unloading, limit, .. } => match key {
@@ -87,9 +123,11 @@ impl Context<'_> {
                 "unloading_stiffness" => Some(unloading),
                 "stiffness_ratio" => Some(unloading / loading),
                 // K/(K - k1) phi 2R is the limit
-                "penetration_depth" => Some(0.5 * limit * (1.0 - loading / unloading) / self.pair.radius),
-                // K/(K - k1) phi R, between equal spheres
-                "equal_penetration_depth" => Some(limit * (1.0 - loading / unloading) / self.pair.radius),
+                "penetration_depth" => Some(0.5 * limit * (1.0 - loading / unloading) / self.radii.effective),
+                // K/(K - k1) phi 2R of two spheres; the flat is one as large as the ball
+                "sphere_penetration_depth" => {
+                    Some(0.5 * limit * (1.0 - loading / unloading) / self.radii.between_spheres())
+                }
                 _ => None,
             },
         }
@@ -103,6 +141,8 @@ impl Context<'_> {
             "damping" => Some(damping),
             "twice_stiffness" => Some(2.0 * stiffness),
             "half_damping" => Some(0.5 * damping),
+            // of two balls with half of the mass, which then rebound alike
+            "pair_damping" => Some(damping * FRAC_1_SQRT_2),
             "stiffness_per_mass" => Some(stiffness / self.mass),
             "damping_per_mass" => Some(damping / self.mass),
             "damping_ratio" => Some(ratio),
@@ -114,7 +154,7 @@ impl Context<'_> {
             // from 16/15 E* sqrt(R) (15 m V^2/(16 E* sqrt(R)))^0.2 with V = 1 m/s
             "hooke_modulus" => {
                 let product = pow(stiffness / (pow(16.0 / 15.0, 0.8) * pow(self.mass, 0.2)), 1.25);
-                Some(2.0 * (1.0 - POISSON * POISSON) * product / sqrt(self.pair.radius))
+                Some(2.0 * (1.0 - POISSON * POISSON) * product / sqrt(self.radii.effective))
             }
             "pulling_restitution" => (ratio < 1.0).then(|| exp(-PI * ratio / sqrt(1.0 - ratio * ratio))),
             _ => None,
@@ -127,8 +167,8 @@ impl Context<'_> {
         // of two equal materials
         let youngs = |modulus: f64| 2.0 * (1.0 - POISSON * POISSON) * modulus;
         match key {
-            "youngs_modulus" => Some(youngs(modulus(self.pair.radius))),
-            "wall_youngs_modulus" => Some(youngs(modulus(0.5 * self.pair.radius))),
+            "youngs_modulus" => Some(youngs(modulus(self.radii.effective))),
+            "sphere_youngs_modulus" => Some(youngs(modulus(self.radii.between_spheres()))),
             "damping_fraction" => Some(0.5 * factor / sqrt(1.5)),
             "typed_restitution" | "pulling_restitution" => {
                 let ratio = factor / sqrt(5.0);

@@ -1,8 +1,9 @@
 //! What must be said beside the numbers, in a sentence each.
 
-use super::fit::Fitted;
+use super::fit::{Fitted, NEAR};
 use super::law::Law;
-use super::motion::{Outcome, PHASES, Stepping, exact};
+use super::motion::{Outcome, PHASES, Promise, Stepping, exact};
+use super::numbers::Radii;
 use super::text::change;
 use super::tools::{Tool, Way};
 use super::{Case, Request, Translated, doubts};
@@ -13,6 +14,8 @@ use brinell_contact::impact::Impact;
 
 /// A relative difference that is not worth a word.
 const SMALL: f64 = 2e-3;
+/// A difference of restitutions that is worth a sentence of its own.
+const NOTICED: f64 = 1e-2;
 
 fn three(value: f64) -> String {
     significant(value, 3)
@@ -26,10 +29,12 @@ pub fn of_way(case: &Case, way: &Way, fitted: Option<&Fitted>, translated: &Tran
     if let Some(fitted) = fitted {
         notes.extend(softened(case, fitted, translated));
         notes.extend(steps(case, way, translated));
+        notes.extend(other_masses(case, way, fitted));
     }
-    let remarks = way.remarks.iter().map(|remark| match (remark.contains("{smooth_restitutions}"), fitted) {
+    let remarks = way.remarks_for(case.radii.other.is_some());
+    let remarks = remarks.map(|remark| match (remark.contains("{smooth_restitutions}"), fitted) {
         (true, Some(fitted)) => remark.replace("{smooth_restitutions}", &smoothed(case, fitted)),
-        _ => remark.clone(),
+        _ => remark.to_string(),
     });
     notes.extend(remarks);
     notes
@@ -45,31 +50,76 @@ fn met(case: &Case, fitted: Option<&Fitted>, translated: &Translated) -> String 
              one step."
         );
     };
-    let restitution = match (promised.restitution - goal.restitution).abs() < SMALL {
-        true => "the restitution is the scene's".to_string(),
-        false => format!(
-            "the restitution is {} instead of {}, the nearest that this solver reaches",
-            three(promised.restitution),
-            three(goal.restitution)
-        ),
+    let off = (promised.restitution - goal.restitution).abs();
+    let within = if off < SMALL { String::new() } else { format!(" within {}", significant(off, 1)) };
+    let (same, apart) = match off < NEAR {
+        true => (vec![format!("the restitution{within}")], Vec::new()),
+        false => {
+            let [theirs, own] = [promised.restitution, goal.restitution].map(three);
+            (Vec::new(), vec![format!("the restitution is {theirs}, not {own}: these numbers come no nearer")])
+        }
     };
-    if fitted.softening > 1.0 {
-        return format!("At {speed} {restitution}.");
-    }
-    let others = [
+    let changes = [
         ("contact time", promised.contact_time, goal.contact_time, "s"),
         ("largest force", promised.largest_force, goal.largest_force, "N"),
         ("depth", promised.depth, goal.depth, "m"),
     ];
-    let said = others.map(|(name, value, wanted, unit)| {
-        let change = change(value / wanted);
-        if change == "+0 %" {
-            format!("so is the {name}")
-        } else {
-            format!("the {name} is {} ({change})", quantity(value, unit))
-        }
+    // a softened contact has its own sentence
+    let changes = changes.iter().filter(|_| fitted.softening <= 1.0);
+    let changes = changes.map(|(name, value, wanted, unit)| (name, quantity(*value, unit), change(value / wanted)));
+    let (met, other): (Vec<_>, Vec<_>) = changes.partition(|(_, _, change)| change == "+0 %");
+    let same = same.into_iter().chain(met.iter().map(|(name, ..)| format!("the {name}"))).collect::<Vec<_>>();
+    let other = other.iter().map(|(name, value, change)| format!("the {name} is {value} ({change})"));
+    let verb = if same.len() == 1 { "is" } else { "are" };
+    let same = same.split_last().map(|(last, before)| match before {
+        [] => format!("{last} {verb} the scene's"),
+        before => format!("{} and {last} {verb} the scene's", before.join(", ")),
     });
-    format!("At {speed} {restitution}; {}.", said.join(", "))
+    let all = same.into_iter().chain(apart).chain(other).collect::<Vec<_>>();
+    format!("At {speed} {}.", all.join("; "))
+}
+
+/// The law as it is for a mass that is `part` of that of the fit; `None` where the tool makes the damping from mass and restitution.
+fn with_part_of_mass(law: &Law, way: &Way, part: f64) -> Option<Law> {
+    let is_typed = |key: &str| way.block.contains(&format!("{{{key}}}"));
+    let scaled = |key: &str| if is_typed(key) { part } else { 1.0 };
+    match *law {
+        Law::Spring { .. } if is_typed("pulling_restitution") => None,
+        Law::Spring { stiffness, damping, pulls } => Some(Law::Spring {
+            stiffness: stiffness * scaled("stiffness_per_mass"),
+            damping: damping * scaled("damping_per_mass"),
+            pulls,
+        }),
+        Law::Proportional { stiffness, exponent, factor, mass, pulls } => {
+            Some(Law::Proportional { stiffness, exponent, factor, mass: mass * part, pulls })
+        }
+        law => Some(law),
+    }
+}
+
+/// That the numbers hold for one mass only, where another one has another restitution than by the scene's law.
+fn other_masses(case: &Case, way: &Way, fitted: &Fitted) -> Option<String> {
+    let stepping = if fitted.is_fine { Stepping::Own } else { way.stepping };
+    let theirs = |part: f64| {
+        let law = with_part_of_mass(&fitted.law, way, part)?;
+        let promise = Promise::at(&law, stepping, part * case.mass, case.speed, fitted.step.unwrap_or(f64::NAN))?;
+        Some(promise.mean.restitution)
+    };
+    let same = theirs(1.0)?;
+    let said = case.at_other_masses.iter().filter_map(|(part, own)| {
+        let theirs = theirs(*part)?;
+        let differs = (theirs - same).abs() > NOTICED && (theirs - own).abs() > NOTICED;
+        let which = match (*part < 1.0, case.radii.other.is_some()) {
+            (true, false) => "half of it, as between two such balls,",
+            (true, true) => "half of it",
+            (false, true) => "twice of it, as of equal spheres on a wall,",
+            (false, false) => "twice of it",
+        };
+        differs.then(|| format!("with {which} the restitution is {}, by the scene's law {}", three(theirs), three(*own)))
+    });
+    let said = said.collect::<Vec<_>>();
+    let speed = quantity(case.speed, "m/s");
+    (!said.is_empty()).then(|| format!("The numbers hold for one effective mass: at {speed}, {}.", said.join("; ")))
 }
 
 /// What else was chosen.
@@ -130,10 +180,10 @@ fn softened(case: &Case, fitted: &Fitted, translated: &Translated) -> Option<Str
     let depth = translated.promised[case.at()].mean.depth;
     let count = fitted.softening * goal.contact_time / step;
     let why = if count > 30.5 { ", and an implicit solver damps less the more steps there are" } else { "" };
-    let deep = if depth > case.pair.radius {
+    let deep = if depth > case.radii.effective {
         format!(
             " That is more than the radius: the ball sinks in whole. With steps of at most {} the depth stays below a tenth of the radius.",
-            quantity(0.1 * step * case.pair.radius / depth, "s")
+            quantity(0.1 * step * case.radii.effective / depth, "s")
         )
     } else {
         String::new()
@@ -155,7 +205,7 @@ fn steps(case: &Case, way: &Way, translated: &Translated) -> Vec<String> {
     let mut notes = Vec::new();
     let Some(step) = translated.step else { return notes };
     let widest = translated.promised.iter().max_by(|one, other| {
-        let width = |one: &super::Promise| one.most_restitution - one.least_restitution;
+        let width = |one: &Promise| one.most_restitution - one.least_restitution;
         width(one).total_cmp(&width(other))
     });
     if let Some(widest) = widest.filter(|one| one.most_restitution - one.least_restitution > SMALL) {
@@ -203,7 +253,8 @@ fn smoothed(case: &Case, fitted: &Fitted) -> String {
 /// What is to know of the scene, whatever the tool.
 pub fn of_scene(
     scene: &Scene,
-    (mass, speeds, wanted): (f64, &[f64], &[Outcome]),
+    (mass, radii): (f64, &Radii),
+    (speeds, wanted): (&[f64], &[Outcome]),
     request: &Request,
     tool: &Tool,
 ) -> Vec<String> {
@@ -226,12 +277,13 @@ pub fn of_scene(
             scene.contact_count()
         ));
     }
-    if scene.group_value(0, "target.radius").is_some() {
-        notes.push(
-            "The target is curved. Radii of Hertz contacts are the effective one here; a tool that takes it from two bodies needs moduli for \
-             its own."
-                .into(),
-        );
+    if radii.other.is_some() {
+        notes.push(format!(
+            "The target is a sphere, too. Moduli of Hertz contacts are for the effective radius {} of both, as tools take it from two spheres.",
+            quantity(radii.effective, "m")
+        ));
+    } else if scene.group_value(0, "target.radius").is_some() {
+        notes.push("The target is hollow. Tools take a ball on a flat: the moduli of Hertz contacts are for that.".into());
     }
     if scene.directions > 0 {
         let coefficient = scene.group_value(0, "friction.coefficient").map_or(String::new(), |mu| format!(" ({mu})"));

@@ -204,6 +204,82 @@ fn no_line_is_too_wide_for_a_terminal_but_those_to_be_pasted() {
     }
 }
 
+const SPHERES: &str = "target = { material = \"stainless steel 304\", radius = 5e-3 }\nimpact = { mass = 2e-3, speed = 1.0 }\n";
+
+#[test]
+fn between_two_spheres_no_block_has_a_wall_and_on_a_flat_every_block_with_walls_has_one() {
+    for (text, walls) in [(STEEL, true), (SPHERES, false)] {
+        for tool in ["lammps", "liggghts"] {
+            for way in translate(&scene(text), &asked(tool)).unwrap().ways {
+                assert_eq!(way.block.contains("wall/gran"), walls, "{}", way.block);
+                assert!(way.block.contains("pair_style") && way.block.contains("pair_coeff"), "{}", way.block);
+            }
+        }
+    }
+    let left_out = translate(&scene(SPHERES), &asked("lammps")).unwrap().left_out;
+    assert!(left_out[0].starts_with("mdr") && left_out[0].contains("two spheres"), "{left_out:?}");
+}
+
+#[test]
+fn a_hollow_target_is_a_flat_for_tools_which_have_no_hollows() {
+    let socket = STEEL.replace("\"mild steel\"", "\"mild steel\", radius = -0.05");
+    let [hollow, flat] = [socket.as_str(), STEEL].map(|text| translate(&scene(text), &asked("lammps")).unwrap());
+    assert!(hollow.notes.iter().any(|note| note.contains("hollow")), "{:?}", hollow.notes);
+    // Hertz's stiffness of the ball on the wall, which has no other radius
+    let stiffness = |translation: &Translation| {
+        let way = &translation.ways[1];
+        way.numbers[0].value * way.promised[2].mean.contact_time.powf(2.5)
+    };
+    assert!((stiffness(&hollow) / stiffness(&flat) - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn every_number_that_is_printed_into_a_block_is_a_float() {
+    for value in [0.0, 1.0, -3.0, 2e6, 1e15, 1e30, 0.44, 1.0 / 3.0, 5e-324, f64::MAX] {
+        let text = super::printed(value);
+        assert!(text.contains(['.', 'e']), "{text}");
+        assert!((text.parse::<f64>().unwrap() - value).abs() <= 1e-6 * value.abs(), "{text}");
+    }
+}
+
+#[test]
+fn a_number_for_one_mass_says_so_and_one_for_every_mass_does_not() {
+    let says = |tool: &str, way: &str| {
+        let all = translate(&scene(STEEL), &asked(tool)).unwrap().ways;
+        let way = all.into_iter().find(|one| one.name == way).expect("a way of this name");
+        way.notes.iter().any(|note| note.starts_with("The numbers hold for one effective mass"))
+    };
+    for (tool, way) in [
+        ("lammps", "hooke"),
+        ("mercurydpm", "linear"),
+        ("bullet", "stiffness"),
+        ("drake", "sap"),
+        ("newton", "semi-implicit"),
+        ("chrono", "hooke"),
+        ("adams", "impact"),
+        ("modelica", "elastogap"),
+        ("simscape", "smooth-spring-damper"),
+        ("ode", "spring"),
+        ("exudyn", "damping"),
+    ] {
+        assert!(says(tool, way), "{tool} {way}");
+    }
+    for (tool, way) in [
+        ("mujoco", "pair"),
+        ("newton", "mujoco-solver"),
+        ("lammps", "hertz"),
+        ("liggghts", "hertz"),
+        ("liggghts", "hooke"),
+        ("yade", "mindlin"),
+        ("chrono", "hertz"),
+        ("exudyn", "sphere"),
+        ("recurdyn", "contact"),
+        ("jolt", "restitution"),
+    ] {
+        assert!(!says(tool, way), "{tool} {way}");
+    }
+}
+
 #[test]
 fn a_range_of_speeds_has_units_and_limits() {
     assert_eq!(speeds("10 cm/s:3 m/s").unwrap(), (0.1, 3.0));

@@ -36,12 +36,37 @@ pub struct Way {
     /// Whether the tool scales the damping by the speed at touch, so that the restitution is the same at every speed.
     #[serde(default)]
     pub at_touch: bool,
+    /// Whether the numbers are for targets that aren't spheres only.
+    #[serde(default)]
+    pub flat_only: bool,
     #[serde(default)]
     pub remarks: Vec<String>,
     #[serde(rename = "number")]
     pub numbers: Vec<Number>,
     /// What is pasted, with `{key}` for each number.
     pub block: String,
+}
+
+impl Way {
+    /// The lines of the block for a ball on a flat, or for two spheres.
+    pub fn block_for(&self, two_spheres: bool) -> String {
+        let lines = self.block.trim_matches('\n').lines().filter_map(|line| for_target(line, two_spheres));
+        lines.collect::<Vec<_>>().join("\n")
+    }
+
+    /// The remarks that hold for a ball on a flat, or for two spheres.
+    pub fn remarks_for(&self, two_spheres: bool) -> impl Iterator<Item = &str> {
+        self.remarks.iter().filter_map(move |remark| for_target(remark, two_spheres))
+    }
+}
+
+/// The text without its mark; `None` if it is for other targets.
+fn for_target(text: &str, two_spheres: bool) -> Option<&str> {
+    match (text.strip_prefix("@flat "), text.strip_prefix("@two ")) {
+        (Some(flat), _) => (!two_spheres).then_some(flat),
+        (_, Some(two)) => two_spheres.then_some(two),
+        _ => Some(text),
+    }
 }
 
 #[derive(Debug, Deserialize)]
