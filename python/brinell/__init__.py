@@ -11,7 +11,7 @@ from .contact import Contact, State
 from .errors import ContactError, ContactWarning, ProgramError, ProgramWarning, UnknownName
 from .fits.fit import fit
 from .fits.result import Estimate, Fit
-from .prediction import Prediction
+from .prediction import ObliquePrediction, Prediction
 from .program import export, predict, program
 from .studies.picture import draw
 from .studies.plan import Range
@@ -30,6 +30,7 @@ __all__ = [
     "ContactWarning",
     "Estimate",
     "Fit",
+    "ObliquePrediction",
     "Prediction",
     "ProgramError",
     "ProgramWarning",

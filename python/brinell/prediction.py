@@ -41,7 +41,7 @@ class Prediction:
     loading_time: float
     """Time from first contact to the largest indentation [s]."""
     unloading_time: float
-    """Time from the largest indentation to separation [s]."""
+    """Time from the largest indentation to the end of the force [s]."""
     dent: float
     """Depth of the dent [m]; rate-dependent laws leave none."""
     regime: str
@@ -60,7 +60,7 @@ class Prediction:
 
     @property
     def contact_time(self) -> float:
-        """Time from first contact to separation [s]."""
+        """Time from first contact to the end of the force [s]."""
         return self.loading_time + self.unloading_time
 
     @property
@@ -109,6 +109,56 @@ class Prediction:
         doubts = (f"<p><b>warning:</b> {html.escape(text)}</p>" for text in self.warnings)
         title = f"<caption>{html.escape(self._title())}</caption>"
         return f"<table>{title}{''.join(cells)}</table>{''.join(doubts)}"
+
+
+@dataclass(frozen=True)
+class ObliquePrediction:
+    """The outcome of an oblique impact with friction. Speeds and spin along the surface are positive in
+    the direction of the ball's motion before it."""
+
+    law: str
+    mass: float
+    """Effective mass [kg]."""
+    speed: float
+    """Speed along the path of the ball [m/s]."""
+    angle: float
+    """Angle of incidence from the normal [degrees]."""
+    spin: float
+    """Spin before the impact [rad/s]."""
+    friction: float
+    """Coefficient of friction."""
+    inertia: float
+    """Moment of inertia of the ball [kg.m^2]."""
+    normal_restitution: float
+    tangential_restitution: float
+    """Speed of the centre along the surface, after over before."""
+    contact_point_restitution: float
+    """Minus the speed of the contact point along the surface, after over before."""
+    rebound_angle: float
+    """From the normal [degrees]."""
+    rebound_speed: float
+    """[m/s]"""
+    normal_rebound_speed: float
+    """[m/s]"""
+    tangential_rebound_speed: float
+    """Of the centre [m/s]."""
+    rebound_spin: float
+    """[rad/s]"""
+    sliding_part: float
+    """The part of the contact time in which the whole contact slides."""
+    slides_throughout: bool
+    largest_tangential_force: float
+    """[N]"""
+    friction_work: float
+    """Energy lost by slip [J]."""
+    energy_lost: float
+    """Energy lost in all [J]."""
+    contact_time: float
+    """Time from first contact to the end of the force [s]."""
+    stiffness_ratio: float
+    """Tangential over normal stiffness of the contact."""
+    warnings: tuple[str, ...] = ()
+    """What is doubtful."""
 
 
 def quantity(value: float, unit: str) -> str:

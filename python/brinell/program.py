@@ -14,14 +14,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from .errors import ContactError, ProgramError, ProgramWarning, missing, tell
-from .prediction import Prediction
+from .prediction import ObliquePrediction, Prediction
 from .version import MODULE, installed
 from .workbooks import environment
 
 if TYPE_CHECKING:
     from .uncertainty import Spread
 
-__all__ = ["Prediction", "export", "predict", "program"]
+__all__ = ["ObliquePrediction", "Prediction", "export", "predict", "program"]
 
 
 def program() -> Path:
@@ -153,6 +153,38 @@ def predict(
 ) -> list[Prediction]: ...
 
 
+@overload
+def predict(
+    scene: str | Path,
+    *,
+    laws: None = None,
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    energy: float | str | None = None,
+    drop_height: float | str | None = None,
+    angle: float | str,
+    spin: float | str | None = None,
+    friction: float | None = None,
+    inertia: float | str | None = None,
+) -> ObliquePrediction: ...
+
+
+@overload
+def predict(
+    scene: str | Path,
+    *,
+    laws: Sequence[str],
+    mass: float | str | None = None,
+    speed: float | str | None = None,
+    energy: float | str | None = None,
+    drop_height: float | str | None = None,
+    angle: float | str,
+    spin: float | str | None = None,
+    friction: float | None = None,
+    inertia: float | str | None = None,
+) -> list[ObliquePrediction]: ...
+
+
 def predict(
     scene: str | Path,
     *,
@@ -161,13 +193,21 @@ def predict(
     speed: float | str | None = None,
     energy: float | str | None = None,
     drop_height: float | str | None = None,
+    angle: float | str | None = None,
+    spin: float | str | None = None,
+    friction: float | None = None,
+    inertia: float | str | None = None,
     uncertainty: Mapping[str, Spread] | None = None,
-) -> Prediction | list[Prediction]:
+) -> Prediction | list[Prediction] | ObliquePrediction | list[ObliquePrediction]:
     """Predict an impact on the first contact of a scene file.
 
     `mass` [kg] and one of `speed` [m/s], `energy` [J] and `drop_height` [m] replace those of the
     scene; texts such as "4 g" have another unit. With `laws` (names "LOADING" or
     "LOADING/UNLOADING", or "all"), the result is a list with a prediction for each law.
+
+    With `angle` [degrees from the normal] the impact is oblique, the speed is that along the path, and
+    the result is an `ObliquePrediction`. `spin` [rad/s] is that of the ball before; `friction` and
+    `inertia` [kg.m^2] replace the scene's coefficient and that of a solid sphere.
 
     `uncertainty` maps "speed", "mass" and parameters of the scene to their spreads: a standard
     deviation ("5 %", "10 MPa", a number in SI units), two ends of a range, or a distribution of
@@ -176,6 +216,14 @@ def predict(
     if uncertainty and laws is not None:
         raise ValueError("uncertainty belongs to the scene's own law: leave laws out")
     given = {"mass": mass, "speed": speed, "energy": energy, "drop-height": drop_height}
+    of_oblique = {"spin": spin, "friction": friction, "inertia": inertia}
+    if angle is not None:
+        if uncertainty:
+            raise ValueError("uncertainty is for impacts along the normal: leave angle out")
+        given |= {"angle": angle, **of_oblique}
+        return _oblique(scene, options_of(given, laws), laws is None)
+    if alone := [name for name, value in of_oblique.items() if value is not None]:
+        raise ValueError(f"{alone[0]} belongs to an oblique impact: give its angle, too")
     options = options_of(given, laws)
     text, doubts = of_scene("predict", scene, *options)
     data = json.loads(text)
@@ -195,6 +243,21 @@ def predict(
         drawn = bands(scene, uncertainty, mass=first.mass, speed=first.speed)
         return replace(first, bands=drawn)
     return predictions if laws is not None else predictions[0]
+
+
+def _oblique(
+    scene: str | Path, options: Sequence[str], alone: bool
+) -> ObliquePrediction | list[ObliquePrediction]:
+    """The oblique impact with these options, by the scene's law alone or by several."""
+    text, doubts = of_scene("predict", scene, *options)
+    data = json.loads(text)
+    names = [field.name for field in fields(ObliquePrediction) if field.name != "warnings"]
+    said = (*doubts, *data["warnings"])
+    predictions = [
+        ObliquePrediction(**{name: (data | law)[name] for name in names}, warnings=said)
+        for law in data["laws"]
+    ]
+    return predictions[0] if alone else predictions
 
 
 def tables(scene: str | Path) -> dict[str, Any]:

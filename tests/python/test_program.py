@@ -42,6 +42,36 @@ def test_the_impact_of_a_prediction():
     assert brinell.predict(SCENE, speed=100.0).warnings
 
 
+def test_an_angle_makes_an_oblique_prediction():
+    scene = SCENES / "oblique.toml"
+    found = brinell.predict(scene, angle=30, speed=2.0)
+    assert isinstance(found, brinell.ObliquePrediction)
+    swept = brinell.sweep(scene, {"angle": [30.0]}, speed=2.0).iloc[0]
+    for name in ("normal_restitution", "tangential_restitution", "rebound_angle", "friction_work"):
+        assert getattr(found, name) == swept[name], name
+    assert (found.speed, found.angle, found.spin) == (2.0, 30.0, 0.0)
+    assert brinell.predict(scene, angle="0.5 rad").angle == pytest.approx(np.degrees(0.5))
+    # a ball without friction keeps its speed along the surface
+    smooth = brinell.predict(scene, angle=30, friction=0.0)
+    assert smooth.tangential_restitution == 1.0 and smooth.rebound_spin == 0.0
+    both = brinell.predict(SCENE, angle=30, spin=-50.0, friction=0.1, laws=["hertz", "thornton"])
+    assert [one.law for one in both] == ["hertz", "thornton/thornton"]
+    # along the normal, it is the impact without an angle
+    straight = brinell.predict(scene, angle=0.0).normal_restitution
+    assert straight == pytest.approx(brinell.predict(scene).restitution, rel=1e-9)
+
+
+def test_what_belongs_to_an_oblique_impact_is_refused_without_an_angle():
+    scene = SCENES / "oblique.toml"
+    for more in ({"spin": 1.0}, {"friction": 0.3}, {"inertia": "1 g.mm^2"}):
+        with pytest.raises(ValueError, match="belongs to an oblique impact"):
+            brinell.predict(scene, **more)
+    with pytest.raises(ValueError, match="along the normal"):
+        brinell.predict(scene, angle=30, uncertainty={"speed": "5 %"})
+    with pytest.raises(ProgramError, match="angle"):
+        brinell.predict(scene, angle=90)
+
+
 def test_a_prediction_has_the_rebound_the_contact_time_and_the_regime_by_name():
     found = brinell.predict(SCENE, drop_height="5 cm")
     assert found.rebound_speed == found.restitution * found.speed
