@@ -47,9 +47,10 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         type=_pair,
         action="append",
         required=True,
-        metavar="NAME=FROM:TO:COUNT[log]",
+        metavar="NAME=FROM:TO[:COUNT]",
         help="speed, mass or a parameter of the FMU, in SI units or with a unit "
-        "('speed=10 mm/s:5 m/s:20'); or NAME=VALUE,VALUE,...",
+        "('speed=10 mm/s:5 m/s:20'); or NAME=VALUE,VALUE,... Ranges of a decade or more are spaced "
+        "logarithmically, shorter ones linearly; speed=1:20:8log and 0.1:10:8lin say which",
     )
     add("--sample", default="grid", help="grid, sobol:COUNT or lhs:COUNT [default: grid]")
     add("--seed", type=int, default=0, help="seed of the samples [default: 0]")

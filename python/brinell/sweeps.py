@@ -36,8 +36,8 @@ def sweep(
     `vary` maps the names of quantities to their values: "speed", "mass", "energy", "drop_height",
     parameters of the scene ("target.yield_strength"), constants of its laws. Values are a text
     "FROM:TO" or "FROM:TO:COUNT" in SI units or with a unit ("10 mm/s:5 m/s"), which is spaced by
-    equal ratios over a decade and more; "FROM:TO:COUNTlog"; a `Range`; or a list of at most 1000
-    numbers. `mass` [kg] and `speed` [m/s] replace those of the scene.
+    equal ratios over a decade and more, or as "FROM:TO:COUNTlog" and "FROM:TO:COUNTlin" say; a
+    `Range`; or a list of at most 1000 numbers. `mass` [kg] and `speed` [m/s] replace those of the scene.
 
     With "angle" [degrees from the normal] or "spin" [rad/s], varied or given, the impacts are
     oblique: `rebound_angle`, `tangential_restitution` ... `friction` and `inertia` [kg.m^2] replace
@@ -83,9 +83,7 @@ def pandas_of(function: str) -> Any:
 def _range(name: str, values: plan.Varied) -> str:
     """The values as the exporter takes them."""
     if isinstance(values, str):
-        if not values.rstrip().endswith("log"):
-            return values
-        values = plan.read(values, name)
+        return values
     listed = plan.axis(name, values)
     if len(listed) > LISTED:
         raise ValueError(

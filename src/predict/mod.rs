@@ -44,7 +44,8 @@ pub struct Arguments {
     /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
-    /// Vary a quantity, such as speed=0.01:10 or "impactor.radius=1 mm:5 mm:8"; again: every combination
+    /// Vary a quantity, such as speed=0.01:10 or "impactor.radius=1 mm:5 mm:8"; again: every combination. Ranges of a decade or more
+    /// are spaced logarithmically, shorter ones linearly; speed=1:20:8log and 0.1:10:8lin say which
     #[arg(long, value_name = "NAME=FROM:TO[:COUNT]")]
     pub sweep: Vec<String>,
     /// Write the sweep with all digits [default: print a short table]

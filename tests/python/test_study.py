@@ -50,13 +50,35 @@ def test_ranges():
 @pytest.mark.parametrize(
     "text",
     [
+        "0.01:0.09:5",
+        "0.01:0.1:5",
+        "0.1:0.999:3",
+        "0.1:2:6lin",
+        "1:2:4log",
+        "0.03:3:7",
+        "0.05:0.5:log",
+    ],
+)
+def test_a_study_spaces_a_range_as_a_sweep_of_the_exporter_does(text):
+    ours = plan.read(text, "speed")
+    theirs = brinell.sweep(SCENE, {"speed": text})["speed"].to_numpy()
+    assert Range(ours.first, ours.last, len(theirs), ours.logarithmic).values() == pytest.approx(
+        theirs, rel=1e-14
+    )
+    if "l" not in text:
+        assert Range(ours.first, ours.last).logarithmic == ours.logarithmic
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
         "",
         "a",
         "1:",
         "1:2:x",
         "1:2:3:4",
         "1,,2",
-        "1:2:3lin",
+        "1:2:3linear",
         "1:2:-1",
         "0:1:3log",
         "-1:1:3log",
@@ -104,6 +126,55 @@ def test_plans_that_are_refused(vary, sample, words):
 
 
 # runs
+
+
+@pytest.mark.parametrize(
+    ("impact", "speed"),
+    [
+        ("speed = 0.7", None),
+        ('drop_height = "3 cm"', None),
+        ("", 0.3),
+        ("mass = 5e-3, speed = 0.7", None),
+    ],
+)
+def test_a_study_has_the_mass_and_the_speed_that_predictions_of_the_scene_have(
+    impact, speed, tmp_path
+):
+    file = tmp_path / "ball.toml"
+    file.write_text(
+        'name = "ball"\nimpactor = { radius = "5 mm", material = "mild steel" }\n'
+        'target = { material = "mild steel", yield_strength = 200e6 }\n'
+        + (f"impact = {{ {impact} }}\n" if impact else ""),
+        encoding="utf-8",
+    )
+    expected = brinell.predict(file, speed=speed)
+    vary = {"target.yield_strength": [200e6]}
+    run = brinell.study(file, vary, speed=speed, progress=False, workers=1).iloc[0]
+    assert (run["mass"], run["speed"]) == (expected.mass, expected.speed)
+    assert run["restitution"] == pytest.approx(expected.restitution, rel=1e-9)
+    heavier = brinell.study(file, vary, speed=speed, mass="1 kg", progress=False, workers=1).iloc[0]
+    assert (heavier["mass"], heavier["speed"]) == (1.0, expected.speed)
+
+
+def test_a_mass_that_is_unknown_is_asked_for(tmp_path):
+    file = tmp_path / "ball.toml"
+    text = 'name = "ball"\nimpactor = { radius = "5 mm" }\ntarget = { material = "mild steel" }\n'
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"no density of \[impactor\]: pass mass= \(--mass\)"):
+        brinell.study(file, {"speed": "1:2:3"}, progress=False)
+    assert len(brinell.study(file, {"speed": "1:2:3"}, mass="4 g", progress=False)) == 3
+    assert len(brinell.study(file, {"speed": "1:2:3", "mass": [1e-3]}, progress=False)) == 3
+
+
+def test_a_study_that_writes_no_table_needs_neither_pyarrow_nor_tqdm(unit, tmp_path, monkeypatch):
+    expected = quick(unit, {"speed": "0.1:10:7"})
+    for name in ("pyarrow", "tqdm"):
+        monkeypatch.setitem(sys.modules, name, None)
+    monkeypatch.delitem(sys.modules, "brinell.studies.store")
+    monkeypatch.delattr("brinell.studies.store")
+    assert quick(unit, {"speed": "0.1:10:7"}, progress=True).equals(expected)
+    with pytest.raises(ModuleNotFoundError, match="pyarrow"):
+        quick(unit, {"speed": "0.1:10:7"}, output=tmp_path / "x.csv")
 
 
 @pytest.mark.parametrize(

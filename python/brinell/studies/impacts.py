@@ -94,3 +94,8 @@ def failed(names: Sequence[str], rows: NDArray[np.float64], error: str) -> Table
     table["error"] = np.full(len(rows), error, dtype=object)
     table["warning"] = np.full(len(rows), "", dtype=object)
     return table
+
+
+def joined(tables: Sequence[Table]) -> Table:
+    """The chunks, in their order, as one table."""
+    return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}

@@ -23,15 +23,21 @@ class Range:
     last: float
     count: int = 20
     """Number of values in a grid; ignored for samples."""
-    logarithmic: bool = False
+    logarithmic: bool | None = None
+    """Whether the values are spaced by equal ratios; if not given, over a decade and more. That is
+    the rule of `brinell predict --sweep`, too."""
 
     def __post_init__(self) -> None:
         if not np.isfinite([self.first, self.last]).all():
             raise ValueError(f"{self.first}:{self.last}: the ends of a range must be finite")
         if self.count < 1:
             raise ValueError(f"{self.count} values: a range needs at least one")
-        if self.logarithmic and not (self.first > 0.0 and self.last > 0.0):
+        above_zero = self.first > 0.0 and self.last > 0.0
+        if self.logarithmic and not above_zero:
             raise ValueError(f"{self.first}:{self.last}: a logarithmic range must be above zero")
+        if self.logarithmic is None:
+            small, large = sorted((self.first, self.last))
+            object.__setattr__(self, "logarithmic", above_zero and large >= 10.0 * small)
 
     def at(self, parts: Array) -> Array:
         """The values at these fractions of the range, from 0 to 1."""
@@ -51,13 +57,13 @@ Varied = Range | Sequence[float | str] | Array | str
 
 
 def read(text: str, name: str) -> Range | Array:
-    """Parse `FROM:TO`, `FROM:TO:COUNT`, `FROM:TO:COUNTlog`, `FROM:TO:log`, or comma-separated
-    values of the quantity `name`, in SI units or with a unit."""
+    """Parse `FROM:TO`, `FROM:TO:COUNT`, `FROM:TO:COUNTlog`, `FROM:TO:log`, the same with `lin`, or
+    comma-separated values of the quantity `name`, in SI units or with a unit."""
     try:
         if ":" not in text:
             return np.array([in_si(name, part) for part in text.split(",")])
         first, last, *rest = text.split(":")
-        match = re.fullmatch(r"(\d*)(log)?", rest[0] if rest else "")
+        match = re.fullmatch(r"(\d*)(log|lin)?", rest[0] if rest else "")
         if len(rest) > 1 or match is None:
             raise ValueError
         count = int(match[1]) if match[1] else Range.count
@@ -65,10 +71,10 @@ def read(text: str, name: str) -> Range | Array:
     except (ValueError, ProgramError) as error:
         why = f" ({error})" if isinstance(error, ProgramError) else ""
         raise ValueError(
-            f"{name} = {text!r} is not a range{why}: allowed are FROM:TO:COUNT, FROM:TO:COUNTlog "
-            "and comma-separated values"
+            f"{name} = {text!r} is not a range{why}: allowed are FROM:TO:COUNT, FROM:TO:COUNTlog, "
+            "FROM:TO:COUNTlin and comma-separated values"
         ) from None
-    return Range(*ends, count, match[2] is not None)
+    return Range(*ends, count, {"log": True, "lin": False}.get(match[2] or ""))
 
 
 def runs(vary: Mapping[str, Varied], sample: str = "grid", seed: int = 0) -> dict[str, Array]:

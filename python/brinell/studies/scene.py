@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import re
+import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from ..errors import ContactError, ProgramError
-from ..program import export, of_scene, tables
+from ..errors import ContactError, ProgramError, ProgramWarning
+from ..program import export, predict, tables
 
 OUTPUTS = ["indentation", "max_indentation", "residual_indentation", "dissipated_energy"]
 
@@ -19,16 +20,26 @@ def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str,
     """Export the FMU for the impacts of a scene file into `folder`; return its path, and the impact
     of the scene.
 
-    `mass` [kg] is needed if the scene has none.
+    `mass` [kg] is needed if the scene has none, nor a density of its ball.
     """
     data = tables(scene)
     impact = dict(data.get("impact", {}))
     known = mass or impact.get("mass") or data.get("coupling", {}).get("effective_mass")
-    if known is None and has_bodies(data):
-        # the effective mass of the first contact follows from its bodies
-        known = json.loads(of_scene("predict", scene)[0])["mass"]
+    # the exporter makes the mass of a density or of two bodies, and the speed of a height
+    solid = has_bodies(data) or not {"density", "material"}.isdisjoint(data.get("impactor", {}))
+    if (impact and not {"mass", "speed"} <= set(impact)) or (known is None and solid):
+        with warnings.catch_warnings():
+            # it will doubt the same again
+            warnings.simplefilter("ignore", ProgramWarning)
+            predicted = predict(scene, mass=known)
+        known = predicted.mass
+        # without an impact, it assumes a speed
+        impact |= {"speed": predicted.speed} if impact else {}
     if known is None:
-        raise ValueError(f"{scene} has no [impact] with a mass: pass mass=, or vary it")
+        raise ValueError(
+            f"{scene} has no [impact] with a mass, and no density of [impactor]: pass mass= (--mass), or "
+            "vary it"
+        )
     path = folder / "scene.toml"
     path.write_text(toml(of_impacts(data, float(known))), encoding="utf-8")
     usual = {name: impact[name] for name in ("speed",) if name in impact}

@@ -8,10 +8,9 @@ import os
 import re
 import shutil
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pyarrow
 from pyarrow import csv, parquet
 
@@ -143,8 +142,3 @@ def read(path: Path) -> Table:
 
 def _columns(table: pyarrow.Table) -> Table:
     return {name: table[name].to_numpy() for name in table.column_names}
-
-
-def joined(tables: Sequence[Table]) -> Table:
-    """The chunks, in their order, as one table."""
-    return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}

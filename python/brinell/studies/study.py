@@ -27,6 +27,8 @@ from .impacts import UNITS, Table
 if TYPE_CHECKING:
     import pandas
 
+    from .store import Parts
+
 # The instance of a chunk takes as long as five runs, and its part of the result on the disk as long as twenty: a
 # hundred runs are worth it. A chunk of a thousand loses little when its process ends.
 FEWEST, MOST, CHUNKS = 100, 1000, 200
@@ -57,9 +59,11 @@ def study(
     """Run thousands of impacts of a scene's first contact; return a table with a row for each.
 
     `vary` maps the varied quantities to their values: "speed" [m/s], "mass" [kg], and any parameter
-    of the FMU. Each value is a `Range`, a text (`"0.1:10:50log"`) or a list of values. `sample` is
-    "grid", "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and `parameters` hold for all runs; the
-    default is those of the scene. Numbers are in SI units, texts may have a unit: "1 m/s", "200
+    of the FMU. Each value is a `Range`, a text (`"0.1:10:50"`) or a list of values. Ranges of a
+    decade or more are spaced logarithmically, shorter ones linearly; `"1:20:8log"` and
+    `"0.1:10:8lin"` say which. `sample` is "grid", "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and
+    `parameters` hold for all runs; the default is those of the scene, where a solid ball has the mass
+    of its density. Numbers are in SI units, texts may have a unit: "1 m/s", "200
     MPa:900 MPa:40". The units of the columns are in `attrs["units"]`.
 
     `output` names files; their extensions select the format: .parquet and .csv for the table, .svg
@@ -126,10 +130,10 @@ def _unit_of(library: Library, name: str) -> str:
 
 
 def _write(outputs: Sequence[Path], table: Table) -> None:
-    from . import store
-
     for path in outputs:
         if path.suffix in (".parquet", ".csv"):
+            from . import store
+
             store.write(path, table)
 
 
@@ -157,7 +161,7 @@ def _columns(values: Mapping[str, Rows], usual: Mapping[str, float]) -> dict[str
     columns = {**fixed, **values}
     for name in ("speed", "mass"):
         if name not in columns:
-            raise ValueError(f"{name} is needed: the scene has none; pass it, or vary it")
+            raise ValueError(f"{name} is needed: the scene has none; pass {name}= (--{name}), or vary it")
     return columns
 
 
@@ -188,14 +192,15 @@ def _run(
     scheduler: str | None,
     progress: bool,
 ) -> Table:
-    from tqdm import tqdm
-
-    from . import store
-
     tables = [path for path in outputs if path.suffix in (".parquet", ".csv")]
-    key = repr(names).encode() + rows.tobytes()
-    key += library.description.guid.encode()
-    parts = store.Parts(tables[0], key, size) if tables else None
+    parts: Parts | None = None
+    if tables:
+        # what is on the disk takes pyarrow
+        from . import store
+
+        key = repr(names).encode() + rows.tobytes()
+        key += library.description.guid.encode()
+        parts = store.Parts(tables[0], key, size)
     size = parts.size if parts else size
     chunks = {at: rows[at : at + size] for at in range(0, len(rows), size)}
     done = {
@@ -204,19 +209,30 @@ def _run(
         if parts and (part := parts.load(at, len(chunk))) is not None
     }
     before = sum(len(chunks[at]) for at in done)
-    with tqdm(total=len(rows), initial=before, unit="run", disable=not progress) as bar:
+    with _bar(len(rows), before, progress) as done_more:
         left = {at: chunk for at, chunk in chunks.items() if at not in done}
         for at, table in _results(library.path, names, left, workers, scheduler):
             done[at] = table
             if parts:
                 parts.save(at, table)
-            bar.update(len(chunks[at]))
-    whole = store.joined([done[at] for at in chunks])
-    for path in tables:
-        store.write(path, whole)
+            done_more(len(chunks[at]))
+    whole = impacts.joined([done[at] for at in chunks])
+    _write(tables, whole)
     if parts:
         parts.remove()
     return whole
+
+
+@contextmanager
+def _bar(runs: int, before: int, progress: bool) -> Iterator[Callable[[int], object]]:
+    """A bar of so many runs, if tqdm is installed: what is called with each number of finished runs."""
+    try:
+        from tqdm import tqdm
+    except ModuleNotFoundError:
+        yield lambda count: None
+        return
+    with tqdm(total=runs, initial=before, unit="run", disable=not progress) as bar:
+        yield bar.update
 
 
 def _results(
@@ -254,8 +270,6 @@ def _end_with_parent() -> None:
 def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
     """Run a chunk in a process of its own. If the process dies, run halves of the chunk, down to
     the run that is the reason."""
-    from . import store
-
     with ProcessPoolExecutor(1, initializer=_end_with_parent) as pool:
         try:
             return pool.submit(impacts.run, unit, names, rows).result()
@@ -266,7 +280,7 @@ def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
             return impacts.failed(names, rows, f"the run has failed: {error!r}")
     middle = len(rows) // 2
     parts = (rows[:middle], rows[middle:])
-    return store.joined([_alone(unit, names, part) for part in parts])
+    return impacts.joined([_alone(unit, names, part) for part in parts])
 
 
 @contextmanager

@@ -22,6 +22,8 @@ pub struct Axis {
     pub to: f64,
     /// Number of values, if the user gives it.
     count: Option<usize>,
+    /// Whether they are spaced logarithmically, if the user says so.
+    logarithmic: Option<bool>,
     /// The values themselves, if the user lists them.
     listed: Option<Vec<f64>>,
 }
@@ -42,15 +44,16 @@ const WITHOUT_EFFECT: [&str; 1] = ["initial_gap"];
 const MOST: usize = 10_000;
 
 impl Axis {
-    /// The axis described by `words`: NAME=FROM:TO, NAME=FROM:TO:COUNT, or NAME=VALUE,VALUE,...
+    /// The axis described by `words`: NAME=FROM:TO, NAME=FROM:TO:COUNT, or NAME=VALUE,VALUE,...; behind the number of values, or in
+    /// its place, `log` or `lin`.
     ///
     /// # Errors
     /// [`PredictError::Sweep`] with the mistake and the expected form.
     pub fn parse(words: &str) -> Result<Axis, PredictError> {
         let wrong = |why: &str| {
             PredictError::Sweep(format!(
-                "{words}: {why}; expected NAME=FROM:TO, NAME=FROM:TO:COUNT or NAME=VALUE,VALUE,..., such as speed=0.01:10 or \
-                 \"target.yield_strength=200 MPa:900 MPa:8\""
+                "{words}: {why}; expected NAME=FROM:TO, NAME=FROM:TO:COUNT or NAME=VALUE,VALUE,..., such as speed=0.01:10, \
+                 speed=1:20:8log or \"target.yield_strength=200 MPa:900 MPa:8\""
             ))
         };
         let (name, range) = words.split_once('=').ok_or_else(|| wrong("no `=`"))?;
@@ -74,7 +77,7 @@ impl Axis {
             }
             let from = listed.iter().copied().fold(f64::INFINITY, f64::min);
             let to = listed.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            return Ok(Axis { name, unit, from, to, count: None, listed: Some(listed) });
+            return Ok(Axis { name, unit, from, to, count: None, logarithmic: None, listed: Some(listed) });
         }
         let (from, to, count) = match parts.as_slice() {
             [from, to] => (from, to, None),
@@ -85,16 +88,25 @@ impl Axis {
         if from >= to {
             return Err(wrong("FROM must be below TO"));
         }
-        let count = count.map(|text| match text.parse() {
+        let (count, logarithmic) = count.map_or((None, None), |text| match (text.strip_suffix("log"), text.strip_suffix("lin")) {
+            (Some(count), _) => (Some(count), Some(true)),
+            (_, Some(count)) => (Some(count), Some(false)),
+            _ => (Some(text), None),
+        });
+        if logarithmic == Some(true) && from <= 0.0 {
+            return Err(wrong("a logarithmic range must be above zero"));
+        }
+        let count = count.filter(|text| logarithmic.is_none() || !text.is_empty()).map(|text| match text.parse() {
             Ok(count) if (2..=MOST).contains(&count) => Ok(count),
             _ => Err(wrong(&format!("COUNT = {text} must be a whole number from 2 to {MOST}"))),
         });
-        Ok(Axis { name, unit, from, to, count: count.transpose()?, listed: None })
+        Ok(Axis { name, unit, from, to, count: count.transpose()?, logarithmic, listed: None })
     }
 
-    /// Whether the values are spaced logarithmically: the range has a decade or more, and is not one of angles.
+    /// Whether the values are spaced logarithmically: as the user says, else if the range has a decade or more, and is not one of angles.
+    /// `python/brinell/studies/plan.py` has the same rule.
     pub fn is_logarithmic(&self) -> bool {
-        self.name != "angle" && self.from > 0.0 && self.to >= 10.0 * self.from
+        self.logarithmic.unwrap_or(self.name != "angle" && self.from > 0.0 && self.to >= 10.0 * self.from)
     }
 
     /// The values: those that the user lists, or the user's number of them, otherwise `usual`. They include both ends unchanged.
