@@ -1,4 +1,4 @@
-"""A ball falls onto a plate in Exudyn and bounces to rest, with an explicit and an implicit
+"""A ball falls onto a plate in Exudyn and bounces until it no longer yields, with an explicit and an implicit
 integrator, in steps of a millisecond.
 
     pip install exudyn ./python

@@ -1,4 +1,4 @@
-"""A ball falls onto a plate in MuJoCo and bounces to rest, in steps of a millisecond.
+"""A ball falls onto a plate in MuJoCo and bounces until it no longer yields, in steps of a millisecond.
 
     pip install mujoco ./python
     python examples/mujoco_ball.py [PICTURE.svg]

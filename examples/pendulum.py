@@ -1,4 +1,4 @@
-"""A hammer on a pendulum falls against an anvil and rebounds until it rests, in steps of a
+"""A hammer on a pendulum falls against an anvil and rebounds until it no longer yields, in steps of a
 millisecond.
 
     pip install matplotlib ./python
