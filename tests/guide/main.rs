@@ -7,10 +7,12 @@ mod book;
 mod code;
 mod comparisons;
 mod devices;
+mod large_strain;
 mod links;
 mod markdown;
 mod measurements;
 mod modules;
+mod near_yield;
 #[path = "../../src/parallel.rs"]
 mod parallel;
 mod promises;

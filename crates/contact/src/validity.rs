@@ -7,8 +7,8 @@ use libm::{fabs, sqrt};
 /// Ratio of contact radius to effective radius `R` up to which the laws hold: they assume a paraboloid and small strain.
 ///
 /// Compared with finite elements with large deformation up to this ratio, the law `brinell`, which is corrected for
-/// [large strain](mod@crate::large_strain), has the force within 0.7 % on a plane and 1.2 % on a sphere. Without the correction a plane has
-/// 0.6 to 1.4 % too much, but a sphere of `E*/S = 300` has 17 %.
+/// [large strain](mod@crate::large_strain), has the force within 1.4 % on a plane and 1.6 % on a sphere that it is not fitted to. Without
+/// the correction a plane has 0.6 to 1.4 % too much, but a sphere of `E*/S = 300` has 17 %.
 ///
 /// The same part of the [smaller body](size_of) is the limit where that is smaller: a socket that hardly differs from its ball has an
 /// effective radius far above both, and each body counts as a half-space beside the contact.

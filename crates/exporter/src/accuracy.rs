@@ -188,8 +188,8 @@ fn of_large_strain(scene: &Scene, prediction: &Prediction) -> String {
         return String::new();
     }
     format!(
-        " The contact radius reaches {} effective radii, and large strain is included: for one body that yields, within 0.7 % (a plane, up \
-         to 0.36) and 1.2 % (a sphere, up to 0.3) of the force by finite elements with large deformation.",
+        " The contact radius reaches {} effective radii, and large strain is included: for one body that yields, within 1.4 % (a plane, up \
+         to 0.36) and 1.6 % (a sphere, up to 0.3) of the force by finite elements with large deformation that it isn't fitted to.",
         cell(ratio, 1.0)
     )
 }
