@@ -312,3 +312,29 @@ fn the_ranges_of_a_prediction_are_those_of_the_strength() {
         );
     }
 }
+
+/// AISI 1095 tempered at 205 to 650 C: HBW, Rp0.2 and Rm \[MPa\]. By its hardness it rebounds more than by its tension, as the guide says.
+#[test]
+fn a_steel_that_hardens_more_than_its_class_rebounds_less_than_by_its_hardness() {
+    let folder = empty_folder();
+    let restitution = |strength: &str| {
+        let text = format!(
+            "name = \"temper\"\nimpactor = {{ radius = 5e-3, density = 7850.0 }}\nimpact = {{ speed = 1.0 }}\n\
+             target = {{ youngs_modulus = 206e9, poissons_ratio = 0.3, density = 7850.0, {strength} }}\n"
+        );
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        let answer = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
+        number(&answer["laws"][0]["restitution"])
+    };
+    let tempers = [(401, 827, 1289), (375, 813, 1262), (363, 772, 1213), (321, 676, 1089), (269, 552, 896)];
+    for (hardness, proof, tensile) in tempers {
+        let tension = restitution(&format!(
+            "tensile_test = {{ proof_stress = \"{proof} MPa\", tensile_strength = \"{tensile} MPa\" }}"
+        ));
+        let reading = format!("hardness = \"{hardness} HBW 10/3000\"");
+        let by_class = restitution(&reading) / tension - 1.0;
+        let by_its_own = restitution(&format!("{reading}, hardening_exponent = 0.18")) / tension - 1.0;
+        assert!((0.07..0.135).contains(&by_class), "{hardness} HBW: {by_class}");
+        assert!((0.025..0.065).contains(&by_its_own), "{hardness} HBW: {by_its_own}");
+    }
+}
