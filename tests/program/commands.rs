@@ -296,10 +296,20 @@ fn a_prediction_is_written_as_people_write_numbers() {
 
 /// The end of the impact agrees with the prediction, and the force follows the law.
 #[test]
-fn a_time_history_goes_from_first_contact_to_separation() {
-    for (name, laws) in [("steel_ball", "big-alabo,brinell,jackson-green,hertz"), ("damped", "hunt-crossley,tsuji")] {
+fn a_time_history_goes_from_first_contact_to_the_end_of_the_force() {
+    // where the surface is slow, it rises long after the force has ended
+    let waves = "name = \"waves\"\nimpactor = { radius = 26e-3 }\nlaw = { elastic_restitution = \"waves\" }\n\
+                 target = { material = \"mild steel\", yield_strength = 100e6, surface = \"fresh\" }\n\
+                 impact = { mass = 4.7e-4, speed = 0.8 }\n";
+    for (name, laws) in [
+        ("steel_ball", "big-alabo,brinell,jackson-green,hertz"),
+        ("damped", "hunt-crossley,tsuji"),
+        ("waves", "brinell,thornton"),
+    ] {
         let folder = empty_folder();
-        let scene = scene(name).display().to_string();
+        let own = folder.path().join("waves.toml");
+        fs::write(&own, waves).unwrap();
+        let scene = if name == "waves" { own } else { scene(name) }.display().to_string();
         let arguments = ["predict", &scene, "--laws", laws, "--json", "--time-history", "over_time.csv"];
         let answer = run(folder.path(), arguments).with_status(0).json();
         let table = fs::read_to_string(folder.path().join("over_time.csv")).unwrap();

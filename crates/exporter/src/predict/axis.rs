@@ -88,11 +88,12 @@ impl Axis {
         if from >= to {
             return Err(wrong("FROM must be below TO"));
         }
-        let (count, logarithmic) = count.map_or((None, None), |text| match (text.strip_suffix("log"), text.strip_suffix("lin")) {
-            (Some(count), _) => (Some(count), Some(true)),
-            (_, Some(count)) => (Some(count), Some(false)),
-            _ => (Some(text), None),
-        });
+        let (count, logarithmic) =
+            count.map_or((None, None), |text| match (text.strip_suffix("log"), text.strip_suffix("lin")) {
+                (Some(count), _) => (Some(count), Some(true)),
+                (_, Some(count)) => (Some(count), Some(false)),
+                _ => (Some(text), None),
+            });
         if logarithmic == Some(true) && from <= 0.0 {
             return Err(wrong("a logarithmic range must be above zero"));
         }

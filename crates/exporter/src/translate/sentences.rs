@@ -115,7 +115,8 @@ fn other_masses(case: &Case, way: &Way, fitted: &Fitted) -> Option<String> {
             (false, true) => "twice of it, as of equal spheres on a wall,",
             (false, false) => "twice of it",
         };
-        differs.then(|| format!("with {which} the restitution is {}, by the scene's law {}", three(theirs), three(*own)))
+        differs
+            .then(|| format!("with {which} the restitution is {}, by the scene's law {}", three(theirs), three(*own)))
     });
     let said = said.collect::<Vec<_>>();
     let speed = quantity(case.speed, "m/s");
@@ -283,7 +284,9 @@ pub fn of_scene(
             quantity(radii.effective, "m")
         ));
     } else if scene.group_value(0, "target.radius").is_some() {
-        notes.push("The target is hollow. Tools take a ball on a flat: the moduli of Hertz contacts are for that.".into());
+        notes.push(
+            "The target is hollow. Tools take a ball on a flat: the moduli of Hertz contacts are for that.".into(),
+        );
     }
     if scene.directions > 0 {
         let coefficient = scene.group_value(0, "friction.coefficient").map_or(String::new(), |mu| format!(" ({mu})"));

@@ -204,7 +204,8 @@ fn no_line_is_too_wide_for_a_terminal_but_those_to_be_pasted() {
     }
 }
 
-const SPHERES: &str = "target = { material = \"stainless steel 304\", radius = 5e-3 }\nimpact = { mass = 2e-3, speed = 1.0 }\n";
+const SPHERES: &str =
+    "target = { material = \"stainless steel 304\", radius = 5e-3 }\nimpact = { mass = 2e-3, speed = 1.0 }\n";
 
 #[test]
 fn between_two_spheres_no_block_has_a_wall_and_on_a_flat_every_block_with_walls_has_one() {
