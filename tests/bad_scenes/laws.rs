@@ -30,6 +30,28 @@ fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
 }
 
 #[test]
+fn numbers_of_adams_with_a_wrong_unit_or_twice_are_refused() {
+    let adams = |constants: &str| format!("[law]\nloading = \"adams-impact\"\nloading_parameters = {{ {constants} }}");
+    refused_with(&adams("stiffness = §\"1e5 N/mm^2\""), &["the unit has the power 2, but exponent = 1.5"]);
+    refused_with(
+        &adams("stiffness = §\"1e5 N/mm\", exponent = 2.2"),
+        &["the unit has the power 1, but exponent = 2.2"],
+    );
+    for wrong in ["1e5 N", "1e5 N.s/mm^1.5", "1e5 N/in^1.5", "x N/mm^1.5", "1e5 N/mm^x"] {
+        refused_with(
+            &adams(&format!("stiffness = §\"{wrong}\"")),
+            &[wrong, "a stiffness has a unit like N/m^1.5 or N/mm^1.5"],
+        );
+    }
+    refused_with(&adams("full_damping = §\"10 N/mm\""), &["a damping has a unit like N.s/m or N.s/mm"]);
+    refused_with(
+        &adams("stiffness = 1e9, stiffness_factor = §2.0"),
+        &["stiffness_factor has no effect beside stiffness"],
+    );
+    refused_with(&adams("stiffness = §-1.0"), &["stiffness = -1 ", "allowed is 0 to 1e40"]);
+}
+
+#[test]
 fn input_derivatives_where_the_fmu_cannot_choose_are_refused_with_the_reason() {
     let coupled = "[coupling]\neffective_mass = 4e-3\n[fmu]\ninput_derivatives = §false\n";
     refused_with(coupled, &["fmu.input_derivatives = false", "[coupling] needs them", "leave this key out"]);

@@ -60,6 +60,8 @@ const OF_NO_SCHEMA: &[(&str, &str)] = &[
     ("impactor.radius is missing: neither the contact", "another table may give what a contact leaves out"),
     ("for every contact", "another table may give what a contact leaves out"),
     ("is not positive definite", "it is computed"),
+    ("the unit has the power", "it compares a unit with another number"),
+    ("has no effect beside stiffness", "beside a stiffness of zero it has"),
     ("isn't parallel to", "it is computed"),
     ("tangent = [0, 0, 1] is no direction", "it is computed"),
     ("tangent = [1, 0, 0.001] is no direction", "it is computed"),

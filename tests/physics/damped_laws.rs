@@ -150,7 +150,8 @@ fn kuwabara_kono_gives_the_restitutions_of_the_table() {
 
 #[test]
 fn the_impact_function_is_that_of_the_manuals() {
-    let law = Adams { stiffness_factor: 2.0, exponent: 2.2, full_damping: 50.0, damping_depth: 1e-4 };
+    let law =
+        Adams { stiffness_factor: 2.0, exponent: 2.2, full_damping: 50.0, damping_depth: 1e-4, ..Adams::REFERENCE };
     let model = Model { pair: mild(), law, restitution: 1.0, mass: 1.0 };
     let stiffness = 2.0 * mild().hertz_stiffness() * 1e-4f64.powf(1.5) / 1e-4f64.powf(2.2);
     for (depth, step) in [(0.5e-4, 0.5), (0.25e-4, 0.0625 * 2.5), (1e-4, 1.0), (3e-4, 1.0)] {

@@ -159,7 +159,9 @@ def test_what_numbers_for_one_mass_do_with_another_is_said(tool, name):
     said = next(note for note in way.notes if "one effective mass" in note)
     for part, words in ((0.5, "half of it"), (2.0, "twice of it")):
         rebounds = [
-            stepped(tool, name, way.numbers, RADIUS, part * MASS, 1.0, way.step, phase)["restitution"]
+            stepped(tool, name, way.numbers, RADIUS, part * MASS, 1.0, way.step, phase)[
+                "restitution"
+            ]
             for phase in PHASES
         ]
         law = brinell.predict(SCENE, mass=part * MASS).restitution
@@ -240,6 +242,35 @@ def test_millimetres_are_the_same_contact():
     assert mm.numbers["ramp"] == pytest.approx(si.numbers["ramp"] * 1e3, rel=1e-6)
     with pytest.raises(ProgramError, match="MuJoCo computes in SI units"):
         brinell.translate(SCENE, "mujoco", units="mm-t-s")
+
+
+@pytest.mark.parametrize(
+    ("units", "stiffness", "damping", "length"),
+    [("si", "N/m", "N.s/m", "m"), ("mm-t-s", "N/mm", "N.s/mm", "mm")],
+)
+def test_a_scene_takes_the_four_numbers_as_they_stand_in_adams(
+    units, stiffness, damping, length, tmp_path
+):
+    way = translated(SCENE, "adams", units=units)["impact"]
+    k, e, c, d = (way.numbers[name] for name in ("stiffness", "exponent", "damping", "ramp"))
+    scene = tmp_path / "adams.toml"
+    # no other radius or modulus matters
+    scene.write_text(
+        'name = "adams"\nimpactor = { radius = 0.02 }\n'
+        "target = { youngs_modulus = 70e9, poissons_ratio = 0.2 }\n"
+        f"impact = {{ mass = {MASS}, speed = 1.0 }}\n"
+        f'[law]\nloading = "adams-impact"\n[law.loading_parameters]\nstiffness = "{k} {stiffness}^{e}"\n'
+        f'exponent = {e}\nfull_damping = "{c} {damping}"\ndamping_depth = "{d} {length}"\n',
+        encoding="utf-8",
+    )
+    for speed in way.promised["speed"]:
+        promise = promised_at(way, speed)
+        found = brinell.predict(scene, speed=float(speed))
+        # the numbers are printed with seven digits
+        assert found.restitution == pytest.approx(promise["restitution"], rel=1e-6)
+        assert found.largest_force == pytest.approx(promise["largest_force"], rel=1e-5)
+        assert found.contact_time == pytest.approx(promise["contact_time"], rel=1e-6)
+        assert found.largest_indentation == pytest.approx(promise["depth"], rel=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
-use crate::nearest::unknown;
+use crate::nearest::{one_of, unknown};
 use crate::numbers::{in_message, out_of_range};
 use crate::table;
 use crate::units;
@@ -90,6 +90,7 @@ pub fn apply<T: Serialize + DeserializeOwned>(
         checked.push((name.get_ref().clone(), number));
     }
     let law = with_parameters(&law, &checked).expect("the table names the law's own constants");
+    check_typed_stiffness(&law, key, given)?;
     for parameter in &table.parameters {
         let Some(below) = &parameter.below else { continue };
         let value = |name: &str| value_of(&law, name).expect("the table names the law's own constants");
@@ -102,6 +103,86 @@ pub fn apply<T: Serialize + DeserializeOwned>(
         }
     }
     Ok(law)
+}
+
+/// The constants of the function IMPACT that stand for the same thing, and the exponent of both.
+const TYPED: &str = "stiffness";
+const FACTOR: &str = "stiffness_factor";
+const EXPONENT: &str = "exponent";
+
+/// The units of a stiffness with an exponent, and of a damping.
+const STIFFNESS: &str = "N/m^n";
+const DAMPING: &str = "N.s/m";
+
+/// The pattern, for JSON Schema, of texts with another unit of multibody tools in place of this `unit`, if there are such.
+pub fn pattern_of_a_spring(unit: &str) -> Option<&'static str> {
+    match unit {
+        STIFFNESS => Some(r"^\s*\+?[0-9.]+(?:[eE][+-]?[0-9]+)?\s*N/mm?(?:\^[0-9.]+)?\s*$"),
+        DAMPING => Some(r"^\s*\+?[0-9.]+(?:[eE][+-]?[0-9]+)?\s*N[.* ]s/mm?\s*$"),
+        _ => None,
+    }
+}
+
+/// Rejects a typed stiffness beside a factor, and one whose unit has another exponent than `law`.
+fn check_typed_stiffness(
+    law: &impl Serialize,
+    key: &str,
+    given: &BTreeMap<Spanned<String>, Spanned<toml::Value>>,
+) -> Result<(), Mistake> {
+    let of = |name: &str| given.iter().find(|(known, _)| known.get_ref() == name).map(|(_, value)| value);
+    let (Some(typed), Some(exponent)) = (of(TYPED), value_of(law, EXPONENT)) else { return Ok(()) };
+    if let Some(factor) = of(FACTOR).filter(|_| value_of(law, TYPED).is_some_and(|stiffness| stiffness > 0.0)) {
+        let message = format!("{key}_parameters.{FACTOR} has no effect beside {TYPED}, which is the stiffness itself");
+        return Err(Mistake(factor.span(), message));
+    }
+    let power = typed.get_ref().as_str().and_then(spring_unit).map(|(.., power)| power);
+    match power.filter(|power| *power != exponent) {
+        Some(power) => {
+            let [power, exponent] = [power, exponent].map(in_message);
+            let message = format!(
+                "{key}_parameters.{TYPED} = {}: the unit has the power {power}, but {EXPONENT} = {exponent}; they must be the same",
+                typed.get_ref()
+            );
+            Err(Mistake(typed.span(), message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The number in SI units of a stiffness or damping `text` with a unit that multibody tools have, such as `1e5 N/mm^2.2` or
+/// `10 N.s/mm`; `None` for other texts, and for constants with another SI `unit`.
+fn in_units_of_a_spring(text: &str, unit: &str) -> Option<Result<f64, String>> {
+    let (words, usual) = match unit {
+        STIFFNESS => ("a stiffness", ["N/m^1.5", "N/mm^1.5"]),
+        DAMPING => ("a damping", ["N.s/m", "N.s/mm"]),
+        _ => return None,
+    };
+    let allowed = || Err(format!("{words} has a unit like {}", one_of(&usual)));
+    let Some((number, seconds, power)) = spring_unit(text) else { return Some(allowed()) };
+    if seconds != (unit == DAMPING) || seconds && power != 1.0 {
+        return Some(allowed());
+    }
+    Some(Ok(number))
+}
+
+/// The number in newtons, metres and seconds of such a text; whether there are seconds; and the power of the length.
+fn spring_unit(text: &str) -> Option<(f64, bool, f64)> {
+    let (number, unit) =
+        text.trim().split_once(' ').or_else(|| text.trim().split_at_checked(text.trim().find('N')?))?;
+    let (above, below) = unit.trim().split_once('/')?;
+    let seconds = match above {
+        "N" => false,
+        "N.s" | "N s" | "N*s" => true,
+        _ => return None,
+    };
+    let (length, power) = below.split_once('^').map_or((below, None), |(length, power)| (length, Some(power)));
+    let power = power.map_or(Ok(1.0), str::parse::<f64>).ok()?;
+    let scale = match length {
+        "m" => 1.0,
+        "mm" => libm::pow(1e3, power),
+        _ => return None,
+    };
+    Some((number.trim().parse::<f64>().ok()? * scale, seconds, power))
 }
 
 /// The number that the scene gives for the constant `name`.
@@ -132,7 +213,9 @@ fn check_one(
         toml::Value::Integer(number) => *number as f64,
         other => {
             let wrong = |why: &str| Mistake(value.span(), format!("{key}_parameters.{asked} = {other}{why}"));
-            let with_unit = other.as_str().and_then(|text| units::with_unit(text, &parameter.unit));
+            let with_unit = other.as_str().and_then(|text| {
+                in_units_of_a_spring(text, &parameter.unit).or_else(|| units::with_unit(text, &parameter.unit))
+            });
             let with_unit = with_unit.ok_or_else(|| wrong(" is not a number"))?;
             with_unit.map_err(|why| wrong(&format!(": {why}")))?
         }

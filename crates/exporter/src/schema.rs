@@ -5,7 +5,7 @@ mod rules;
 
 use crate::measured;
 use crate::model::Dampings;
-use crate::parameters::LawConstant;
+use crate::parameters::{self, LawConstant};
 use crate::scene::{
     IDENTIFIER, INPUTS, OF_ALL_CONTACTS, PRODUCT, RATE_MODELS, SceneFile, WAVES, is_no_name, quantity_of,
 };
@@ -142,6 +142,9 @@ fn complete_constants(constant: &LawConstant) -> Value {
     let mut schema = json!({ "type": "number", "default": value, "description": description });
     let schema = schema.as_object_mut().expect("an object");
     quantify(schema, Some(*unit).filter(|unit| !unit.is_empty()), &(*minimum..=*maximum));
+    if let Some(pattern) = parameters::pattern_of_a_spring(unit) {
+        schema.extend([("type".into(), json!(["number", "string"])), ("pattern".into(), json!(pattern))]);
+    }
     Value::Object(std::mem::take(schema))
 }
 

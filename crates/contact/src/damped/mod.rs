@@ -29,7 +29,7 @@ laws! {
         kelvin_voigt::KelvinVoigt [characteristic_speed] { "kelvin-voigt" = KelvinVoigt::REFERENCE }
         tsuji::Tsuji [damping_factor] { "tsuji" = Tsuji::REFERENCE }
         kuwabara_kono::KuwabaraKono [relaxation_time] { "kuwabara-kono" = KuwabaraKono::REFERENCE }
-        adams::Adams [stiffness_factor, exponent, full_damping, damping_depth] { "adams-impact" = Adams::REFERENCE }
+        adams::Adams [stiffness, stiffness_factor, exponent, full_damping, damping_depth] { "adams-impact" = Adams::REFERENCE }
     }
 }
 
