@@ -222,20 +222,22 @@ const LEEB: [&str; 2] = ["HLD", "LD"];
 /// The form of a hardness, as a pattern of JSON Schema.
 pub fn pattern() -> String {
     let [brinell, vickers, rockwell] = [any_case(&BRINELL), any_case(&VICKERS), any_case(&ROCKWELL)];
-    let test = r"(?:\s*[0-9.]+\s*/\s*[0-9.]+(?:\s*/\s*[0-9.]+)?)?";
-    let spread = spread_pattern();
+    // three digits behind a comma may be thousands
+    let number = r"(?:[0-9.]+|[0-9]+,[0-9]{1,2})";
+    let test = format!(r"(?:\s*{number}\s*/\s*{number}(?:\s*/\s*{number})?)?");
+    let spread = spread_pattern(number);
     let scale = format!(r"(?:(?:{brinell}){test}|{vickers}[0-9./ ]*|{rockwell}|{})", any_case(&LEEB));
     // the scale may be the first
-    format!(r"^\s*[0-9.]+{spread}\s*{scale}\s*$|^\s*[A-Za-z].*[0-9]")
+    format!(r"^\s*{number}{spread}\s*{scale}\s*$|^\s*[A-Za-z].*[0-9]")
 }
 
 /// What stands between the two numbers of a range, and before a standard deviation.
 const RANGE: [&str; 6] = ["-", "\u{2013}", "\u{2212}", "...", "\u{2026}", ".."];
 const DEVIATION: [&str; 3] = ["\u{b1}", "+/-", "+-"];
 
-fn spread_pattern() -> String {
+fn spread_pattern(number: &str) -> String {
     let signs = RANGE.iter().chain(&DEVIATION).map(|sign| sign.replace('.', r"\.").replace('+', r"\+"));
-    format!(r"(?:\s*(?:{}|{})\s*[0-9.]+)?", signs.collect::<Vec<_>>().join("|"), any_case(&["TO"]))
+    format!(r"(?:\s*(?:{}|{})\s*{number})?", signs.collect::<Vec<_>>().join("|"), any_case(&["TO"]))
 }
 
 /// The scale that the heading of a column names, as a reading has it: `HV10`, `HBW 10/3000`. A number of the column may follow. A rebound
@@ -272,10 +274,7 @@ pub fn check_reading(text: &str) -> Result<(), String> {
 
 /// A reading in capitals, and its spread.
 fn parted(text: &str) -> Result<(String, Option<Spread>), String> {
-    match units::decimal_comma(text.split_whitespace().next().unwrap_or_default()) {
-        Some(comma) => Err(comma),
-        None => without_spread(&text.trim().to_uppercase()),
-    }
+    without_spread(&pointed(text)?.trim().to_uppercase())
 }
 
 /// That of one that was measured by impacts, the rate of which is in its strength.
@@ -313,6 +312,20 @@ fn without_spread(text: &str) -> Result<(String, Option<Spread>), String> {
         return Ok((reading(number), Some(Spread { ends: [number - half, number + half].map(reading), deviations })));
     }
     Ok((text.into(), None))
+}
+
+/// A `text` with points for the decimal commas, of ball and load, too: `200 HBW 2,5/187,5`.
+fn pointed(text: &str) -> Result<String, String> {
+    let pointed = |word: &str| Ok(word.split('/').map(units::pointed).collect::<Result<Vec<_>, String>>()?.join("/"));
+    Ok(text.split_whitespace().map(pointed).collect::<Result<Vec<_>, String>>()?.join(" "))
+}
+
+/// The number and the scale of a hardness that begins with its number, as a form shows it.
+pub fn shown(text: &str) -> Option<(String, String)> {
+    check_reading(text).ok()?;
+    let text = pointed(text).ok()?;
+    let (number, scale) = text.split_at(text.find(|c: char| c.is_alphabetic())?);
+    number.trim().parse::<f64>().is_ok().then(|| (number.trim().into(), scale.into()))
 }
 
 impl Reading {

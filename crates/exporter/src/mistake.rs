@@ -2,6 +2,7 @@
 
 use crate::layout::shown;
 use crate::numbers::{in_message, out_of_range};
+use crate::units;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -135,9 +136,10 @@ impl<T> Spanned<T> {
 pub struct Mistake(pub Range<usize>, pub String);
 
 impl Mistake {
-    /// The error with its line and column in the `text` of the file at `path`.
+    /// The error with its line and column in the `text` of the file at `path`. Numbers of a value with a unit are in that unit.
     pub fn in_file(self, text: &str, path: &Path) -> SceneError {
         let Mistake(span, message) = self;
+        let message = units::in_unit_of(text.get(span.clone()).unwrap_or_default(), &message).unwrap_or(message);
         let before = &text[..span.start];
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;

@@ -125,8 +125,11 @@ pub fn percent(difference: f64) -> String {
 /// FMU, but have all their digits.
 pub fn out_of_range(value: f64, allowed: &RangeInclusive<f64>, unit: &str) -> String {
     let (value, allowed) = (in_message(value), in_range(allowed));
-    format!("= {value} is out of range: allowed is {allowed} {unit}").trim_end().into()
+    format!("= {value} is out of range{ALLOWED}{allowed} {unit}").trim_end().into()
 }
+
+/// What comes before the range in a message.
+pub const ALLOWED: &str = ": allowed is ";
 
 /// A range in a message: `1e-9 to 10`.
 pub fn in_range(allowed: &RangeInclusive<f64>) -> String {

@@ -5,6 +5,8 @@
 
 use crate::layout::shortened;
 use crate::nearest::{nearest, one_of};
+use crate::numbers::{ALLOWED, in_message};
+use std::borrow::Cow;
 
 /// The size of a unit: `numerator/denominator * 10^power` of the SI unit. Powers of ten are kept apart, since a number is read with
 /// its exponent: `0.3 mm` is the very number that `0.3e-3` is.
@@ -196,9 +198,12 @@ fn kind(unit: &str) -> Option<&'static Kind> {
     Unit::parse(unit).and_then(Unit::kind)
 }
 
-/// The SI units of quantities, each with the units that people write.
-pub fn usual() -> impl Iterator<Item = (&'static str, &'static [&'static str])> {
-    KINDS.iter().map(|kind| (kind.unit, kind.usual))
+/// The SI units of quantities, each with the units that people write and the SI number of one of each.
+pub fn usual() -> impl Iterator<Item = (&'static str, Vec<(&'static str, f64)>)> {
+    let size = |own: &str, unit: &str| Some(Unit::parse(own)?.number("1", Unit::parse(unit)?));
+    KINDS.iter().map(move |Kind { unit, usual, .. }| {
+        (*unit, usual.iter().filter_map(|own| Some((*own, size(own, unit)?))).collect())
+    })
 }
 
 /// The number in `text`, and the unit after it, if there is one.
@@ -216,7 +221,8 @@ fn split(text: &str) -> Option<(String, &str)> {
 /// The pattern, for JSON Schema, of texts that stand for a number in this SI `unit`, and usual units. A single symbol has the same
 /// dimension; that of a product no regular expression knows.
 pub fn pattern(unit: &str, may_be_negative: bool) -> Option<(String, &'static [&'static str])> {
-    const NUMBER: &str = r"(?:[0-9_]+\.?[0-9_]*|\.[0-9_]+)(?:[eE][+-]?[0-9_]+)?";
+    // a comma is decimal unless it may separate thousands, see `comma`
+    const NUMBER: &str = r"(?:(?:[0-9_]+(?:\.[0-9_]*|,[0-9]{1,2}|,[0-9]{4,})?|(?:0[0-9_]*|[0-9_]{4,}),[0-9]{3}|\.[0-9_]+)(?:[eE][+-]?[0-9_]+)?|[0-9_]{1,3},[0-9]{3}[eE][+-]?[0-9_]+)";
     let (Kind { usual, .. }, Unit { dimension, .. }) = (kind(unit)?, Unit::parse(unit)?);
     let sign = if may_be_negative { "[+-]?" } else { r"\+?" };
     let prefixes: String = PREFIXES.iter().map(|(prefix, _)| *prefix).collect();
@@ -248,7 +254,11 @@ pub fn pattern(unit: &str, may_be_negative: bool) -> Option<(String, &'static [&
 /// # Errors
 /// What is wrong with the unit, and what is allowed.
 pub fn with_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
-    let (number, suffix) = split(text)?;
+    let text = match pointed(text) {
+        Ok(text) => text,
+        Err(why) => return Some(Err(why)),
+    };
+    let (number, suffix) = split(&text)?;
     let (expected, si) = (kind(unit)?, Unit::parse(unit)?);
     let allowed = || format!("{} has a unit like {}", expected.is, one_of(expected.usual));
     if suffix.is_empty() {
@@ -258,6 +268,10 @@ pub fn with_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
         )));
     }
     let Some(own) = Unit::parse(suffix) else {
+        if suffix.trim_start_matches([',', '.', '\'', '\u{2019}', ' ']).starts_with(|c: char| c.is_ascii_digit()) {
+            let why = "has one decimal point or comma, and nothing else between its digits";
+            return Some(Err(format!("a number {why}; `{}` follows {number}", shortened(suffix))));
+        }
         let guess = nearest(suffix, expected.usual.iter().copied());
         let more = match guess {
             Some(guess) => format!("did you mean `{guess}`? A{}", &allowed()[1..]),
@@ -284,24 +298,103 @@ pub fn is_unit(text: &str) -> bool {
     Unit::parse(text).is_some_and(|unit| unit.kind().is_some())
 }
 
-/// The message about a number with a decimal comma, and perhaps a unit: `this is a decimal comma; write 5.3`.
-pub fn decimal_comma(text: &str) -> Option<String> {
-    let text = text.trim_matches(['"', '\'']);
+/// A number with a comma between its digits.
+struct Comma {
+    /// With a point in its place.
+    decimal: String,
+    /// Without it, where three digits follow as in `206,000`: it may separate thousands.
+    group: Option<String>,
+    /// What stands behind the number.
+    suffix: String,
+}
+
+/// The comma in `text`, if that begins with a number that has one.
+fn comma(text: &str) -> Option<Comma> {
+    let text = text.trim().trim_matches(['"', '\'']).trim();
     let (whole, rest) = text.split_once(',')?;
-    let sign = ['+', '-'];
-    let is_whole = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_');
+    let figures = whole.strip_prefix(['+', '-']).unwrap_or(whole);
+    let is_whole = !figures.is_empty() && figures.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_');
     let digits = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-    if !is_whole(whole.trim().trim_start_matches(sign)) || digits == 0 || rest.contains([',', '=']) {
+    if !is_whole || digits == 0 || rest[digits..].starts_with([',', '.']) {
         return None;
     }
-    let point = format!("{}.{rest}", whole.trim());
-    let (_, suffix) = split(&point)?;
-    if !suffix.is_empty() {
-        return Unit::parse(suffix).map(|_| format!("this is a decimal comma; write {point}"));
+    let decimal = format!("{whole}.{rest}");
+    let (number, suffix) = split(&decimal)?;
+    // an exponent says that it is no group
+    let is_group = digits == 3 && figures.len() <= 3 && !figures.starts_with('0') && !number.contains(['e', 'E']);
+    let suffix = suffix.to_string();
+    Some(Comma { decimal, group: is_group.then(|| format!("{whole}{rest}")), suffix })
+}
+
+/// A quantity in `text` with a point for its decimal comma: where no list is possible, a comma between digits is one.
+///
+/// # Errors
+/// The comma may separate thousands.
+pub fn pointed(text: &str) -> Result<Cow<'_, str>, String> {
+    match comma(text) {
+        None => Ok(text.into()),
+        Some(Comma { decimal, group: None, .. }) => Ok(decimal.into()),
+        Some(Comma { decimal, group: Some(group), .. }) => {
+            Err(format!("write {decimal} if this is a decimal comma, or {group} if it separates thousands"))
+        }
     }
-    let is_group = digits == 3 && rest.len() == 3 && whole.trim().trim_start_matches(sign) != "0";
-    let group = if is_group { format!(", or {whole}{rest} if it separates thousands") } else { String::new() };
-    Some(format!("this is a decimal comma; write {point}{group}"))
+}
+
+/// The message about a number with a decimal comma where a list is possible: `this is a decimal comma; write 5.3`.
+pub fn decimal_comma(text: &str) -> Option<String> {
+    let Comma { decimal, group, suffix } = comma(text).filter(|_| text.matches(',').count() == 1)?;
+    let is_quantity = suffix.is_empty() || Unit::parse(&suffix).is_some();
+    let group = group.map_or(String::new(), |group| format!(", or {group} if it separates thousands"));
+    is_quantity.then(|| format!("this is a decimal comma; write {decimal}{group}"))
+}
+
+/// A number with a unit, as a form shows it.
+pub struct Shown {
+    /// With a decimal point.
+    pub digits: String,
+    pub unit: String,
+    /// The SI number of one such unit.
+    pub size: f64,
+    /// The SI number of all.
+    pub number: f64,
+}
+
+/// The parts of a `text` that is a number with a unit of the dimension of this SI `unit`.
+pub fn shown(text: &str, unit: &str) -> Option<Shown> {
+    let number = with_unit(text, unit)?.ok()?;
+    let text = pointed(text).ok()?;
+    let (digits, own) = split(&text)?;
+    Some(Shown { digits, unit: own.into(), size: Unit::parse(own)?.number("1", Unit::parse(unit)?), number })
+}
+
+/// The SI number that a form writes for what somebody types in a field with this `unit` beside it, if a power of ten is between them.
+pub fn bare(shown: &Shown) -> Option<f64> {
+    let power = libm::log10(shown.size);
+    ((power - libm::round(power)).abs() < 1e-12).then_some(shown.number)
+}
+
+/// A `message` in SI units about the number that a scene writes as `text`, in the unit that it has there: `radius = -3 mm is out of range:
+/// allowed is 1e-9 to 1000000000000 mm`. `None` if the text has no unit, or the message doesn't give its number.
+pub fn in_unit_of(text: &str, message: &str) -> Option<String> {
+    let text = pointed(text.trim_matches(['"', '\''])).ok()?;
+    let (number, suffix) = split(&text)?;
+    let own = Unit::parse(suffix)?;
+    let unit = own.kind()?.unit;
+    let si = Unit::parse(unit)?;
+    let (before, after) = message.split_once(&format!("= {} ", in_message(own.number(&number, si))))?;
+    let (range, after) = match after.split_once(ALLOWED) {
+        Some((between, range)) => {
+            let (from, range) = range.split_once(" to ")?;
+            let (to, rest) = range.split_once(' ')?;
+            let [from, to] = [from, to].map(|end| in_message(si.number(end, own)));
+            (
+                format!("{between}{ALLOWED}{from} to {to} {suffix}"),
+                rest.strip_prefix(unit).or_else(|| rest.strip_prefix(&unit.replace('.', " ")))?,
+            )
+        }
+        None => (String::new(), after),
+    };
+    Some(format!("{before}= {number} {suffix} {range}{after}"))
 }
 
 /// The message about a number with a unit that isn't in quotes, though in a scene it must be.
@@ -315,11 +408,8 @@ pub fn needs_quotes(text: &str) -> Option<String> {
 /// # Errors
 /// What is wrong with it, and what is allowed.
 pub fn number(text: &str, unit: &str) -> Result<f64, String> {
-    if let Ok(number) = text.trim().parse() {
+    if let Ok(number) = pointed(text)?.trim().parse() {
         return Ok(number);
-    }
-    if let Some(comma) = decimal_comma(text) {
-        return Err(comma);
     }
     let expected = || match kind(unit) {
         Some(Kind { name, usual, .. }) => {
@@ -500,7 +590,64 @@ mod tests {
             energies("five").unwrap_err().contains("a number in joules is expected, or with a unit like one of `uJ`")
         );
         assert!(speeds("5mm").unwrap_err().contains("mm is a length; a speed has"));
-        assert_eq!(speeds("1,5"), Err("this is a decimal comma; write 1.5".into()));
+        assert_eq!((speeds("1,5"), lengths("-0,25 mm")), (Ok(1.5), Ok(-0.25e-3)));
+    }
+
+    /// Every usual unit: what is out of range is said in the unit in which it was given.
+    #[test]
+    fn a_message_about_a_number_with_a_unit_is_in_that_unit() {
+        for Kind { unit, usual, .. } in &KINDS {
+            for own in *usual {
+                for number in ["-3", "0", "1e99", "0.25"] {
+                    let si = with_unit(&format!("{number} {own}"), unit).unwrap().unwrap();
+                    let message = format!("a.b {}", crate::numbers::out_of_range(si, &(1e-12..=1e9), unit));
+                    let said = in_unit_of(&format!("\"{number} {own}\""), &message).expect("it gives the number");
+                    let ends =
+                        said.strip_prefix(&format!("a.b = {number} {own} is out of range: allowed is ")).unwrap();
+                    let (from, to) = ends.strip_suffix(own).unwrap().split_once(" to ").unwrap();
+                    for (end, expected) in [(from, 1e-12), (to.trim_end(), 1e9)] {
+                        let end = with_unit(&format!("{end} {own}"), unit).unwrap().unwrap();
+                        assert!((end / expected - 1.0).abs() < 1e-15, "{said}");
+                    }
+                }
+            }
+        }
+        let message = "the mass = -0.004 must be positive and finite";
+        let said = in_unit_of("'-4 g'", message);
+        assert_eq!(said.as_deref(), Some("the mass = -4 g must be positive and finite"));
+        for text in ["-4e-3", "[1, 2]", "\"-5 g\"", "\"steel\"", ""] {
+            assert_eq!(in_unit_of(text, message), None, "{text}");
+        }
+    }
+
+    /// Numbers of all forms with a comma: read as with a point unless the comma may separate thousands, and the schema takes the same.
+    #[test]
+    fn a_comma_in_a_quantity_is_decimal_unless_it_may_separate_thousands() {
+        let wholes = ["0", "1", "12", "206", "1234", "012", "007"];
+        let parts = ["1", "25", "125", "000", "1250", "123456"];
+        for (whole, part) in wholes.iter().flat_map(|whole| parts.map(|part| (whole, part))) {
+            for (sign, exponent) in [("", ""), ("-", ""), ("+", "e-3"), ("", "E2")] {
+                for unit in ["mm", " mm", "\u{a0}in", " km"] {
+                    let text = format!("{sign}{whole},{part}{exponent}{unit}");
+                    let found = with_unit(&text, "m").expect("a number");
+                    let is_group =
+                        part.len() == 3 && whole.len() <= 3 && !whole.starts_with('0') && exponent.is_empty();
+                    if is_group {
+                        let group = format!("{sign}{whole}{part}{unit} if it separates thousands");
+                        assert!(found.is_err_and(|why| why.contains(&group)), "{text}");
+                    } else {
+                        assert_eq!(found, with_unit(&text.replace(',', "."), "m").unwrap(), "{text}");
+                    }
+                }
+            }
+        }
+        for text in ["1,234.5 mm", "1.234,5 mm", "1,2,3 mm", "1 234,5 mm", "1'234 mm"] {
+            let said = with_unit(text, "m").unwrap().unwrap_err();
+            assert!(said.contains("a number has one decimal point or comma"), "{text}: {said}");
+        }
+        for text in [",5 mm", "5, mm", "5, 3 mm", "5,x", "5,3"] {
+            assert!(!matches!(with_unit(text, "m"), Some(Ok(_))), "{text}");
+        }
     }
 
     #[test]
@@ -515,7 +662,7 @@ mod tests {
         ] {
             assert_eq!(decimal_comma(text).as_deref(), Some(said));
         }
-        for text in ["5", "5.3", "5, 3", "1,2,3", "1.5,3", ",5", "5,", "a,5", "5,3=4", "0,3 x", ""] {
+        for text in ["5", "5.3", "5, 3", "1,2,3", "1.5,3", ",5", "5,", "a,5", "5,3=4", "0,3 x", "5,3,", ""] {
             assert_eq!(decimal_comma(text), None, "{text}");
         }
     }

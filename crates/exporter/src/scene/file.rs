@@ -649,9 +649,6 @@ impl Found<'_> {
             _ => return Ok(()),
         };
         let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(text)));
-        if let Some(comma) = units::decimal_comma(text) {
-            return Err(wrong(comma));
-        }
         let number = units::with_unit(text, unit).transpose().map_err(wrong)?;
         self.values.extend(number.map(|number| (value.span().start, (value.span().end, format!("{number:e}")))));
         Ok(())
