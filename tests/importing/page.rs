@@ -70,5 +70,6 @@ fn the_page_does_what_the_program_does() {
     });
     let file = prebuilt::folder().join("page.json");
     fs::write(&file, given.to_string()).expect("the target folder can be written to");
-    browser::pytest("the page", &FILES, |python| python.env("BRINELL_TEST_PAGE", file));
+    browser::pytest("the page", &FILES, |python| python.env("BRINELL_TEST_PAGE", &file));
+    browser::pytest_in_others("the page", &FILES, |python| python.env("BRINELL_TEST_PAGE", &file));
 }

@@ -2,6 +2,7 @@
 
 import statistics
 
+import pytest
 from scene_page import ScenePage, scene
 
 COUNT = 200
@@ -32,6 +33,7 @@ CHANGE = """async (values) => {
 }"""
 
 
+@pytest.mark.chromium
 def test_two_hundred_changes_are_quick_and_leave_nothing_behind(opened: ScenePage) -> None:
     opened.write(scene("steel_ball"))
     protocol = opened.page.context.new_cdp_session(opened.page)

@@ -5,7 +5,7 @@ import tomllib
 from typing import Any
 
 import pytest
-from scene_page import ScenePage, right_scenes, scene
+from scene_page import ScenePage, right_scenes, scene, wait_until
 
 SCENES = 16
 # Changes closer to each other are undone together [ms].
@@ -91,6 +91,114 @@ def test_a_key_is_made_and_removed_and_the_text_is_as_before(opened: ScenePage) 
     opened.type("target.density", "")
     opened.changes_from(made)
     assert opened.text == text
+
+
+def units_of(opened: ScenePage) -> list[str]:
+    """The fields with a unit."""
+    paths = opened.page.evaluate("() => [...document.querySelectorAll('[data-test$=\".unit\"]')].map((one) => one.dataset.test)")
+    return [path.removesuffix(".unit") for path in paths]
+
+
+SCALED = '''name = "a"
+[impactor]
+radius = "5 mm"
+material = "bearing steel 52100, hardened"
+length = "1 m"
+area = "2 cm^2"
+[target]
+material = "mild steel"
+hardness = "180 HBW 10/3000"
+[fmu]
+step_size = "2 us"
+[impact]
+mass = "4 g"
+speed = "1 m/s"
+'''
+
+
+def test_a_comma_is_a_decimal_sign_and_what_is_no_unit_never_becomes_one(opened: ScenePage) -> None:
+    fields = ["impactor.radius", "impactor.length", "impactor.area", "fmu.step_size", "impact.mass", "impact.speed"]
+    assert set(fields) <= set(units_of(opened))
+    opened.write(SCALED)
+    for path in fields:
+        unit, menu = opened.form()[f"{path}.unit"], opened.at(f"{path}.unit").text_content()
+        for typed, written in (("x", None), ("6,5 furlong", None), ("6,5", "6.5"), ("0,125", "0.125"), ("7,25e1", "7.25e1")):
+            before = opened.text
+            opened.type(path, typed)
+            text = opened.changes_from(before)
+            value = tomllib.loads(text)[path.partition(".")[0]][path.partition(".")[2]]
+            assert value == (f"{written} {unit}" if written else typed), typed
+            assert opened.at("mistake").is_hidden() == (written is not None), (typed, opened.at("mistake").text_content())
+            assert opened.form()[f"{path}.unit"] == unit, typed
+        assert opened.at(f"{path}.unit").text_content() == menu, "the menu has units alone"
+        opened.write(SCALED)
+    # three digits may be thousands: the message has both, and what it asks for is taken
+    opened.type("impactor.radius", "1,234")
+    opened.at("impactor.radius.wrong").get_by_text("write 1.234 if this is a decimal comma, or 1234").wait_for()
+    opened.type("impactor.radius", "1.234")
+    wait_until(lambda: tomllib.loads(opened.text)["impactor"]["radius"], "1.234 mm")
+    # a hardness has a scale
+    for typed, written in (("182,5", "182.5 HBW 10/3000"), ("58,5 HRC", "58.5 HRC"), ("60,5", "60.5 HRC")):
+        opened.type("target.hardness", typed)
+        wait_until(lambda: tomllib.loads(opened.text)["target"]["hardness"], written)
+        wait_until(lambda: opened.form()["target.hardness.scale"], written.partition(" ")[2])  # noqa: B023
+
+
+def test_what_is_typed_key_by_key_stays_until_the_field_is_left(opened: ScenePage) -> None:
+    opened.write(SCALED)
+    opened.at("impactor.radius").fill("")
+    opened.at("impactor.radius").press_sequentially("6,50")
+    wait_until(lambda: tomllib.loads(opened.text)["impactor"].get("radius"), "6.50 mm")
+    assert opened.at("impactor.radius").input_value() == "6,50"
+    opened.page.keyboard.press("Tab")
+    wait_until(lambda: opened.at("impactor.radius").input_value(), "6.50")
+
+
+def test_ranges_are_in_the_unit_of_the_field(opened: ScenePage) -> None:
+    opened.write(SCALED)
+    for unit, range_ in (("mm", "1e-9 to 1e12 mm"), ("um", "1e-6 to 1e15 µm"), ("in", "3.937e-11 to 3.937e10 in")):
+        before = opened.text
+        opened.at("impactor.radius.unit").select_option(unit)
+        if unit != "mm":
+            opened.changes_from(before)
+        opened.at("impactor.radius").focus()
+        wait_until(lambda: f"Range: from {range_}." in (opened.at("help").text_content() or ""), True)  # noqa: B023
+    opened.type("impactor.radius", "-3 mm")
+    opened.at("impactor.radius.wrong").get_by_text("impactor.radius = -3 mm is out of range: allowed is 1e-9 to").wait_for()
+
+
+def test_the_keyboard_goes_from_a_material_to_the_next_field(opened: ScenePage) -> None:
+    opened.write(scene("steel_ball").replace("[impactor]", '[impactor]\nmaterial = "mild steel"'))
+    for leave in ("Tab", "Enter"):
+        opened.at("impactor.material").focus()
+        opened.at("impactor.material.list").wait_for()
+        opened.page.keyboard.press(leave)
+        if leave == "Enter":
+            assert opened.page.evaluate("document.activeElement.dataset.test") == "impactor.material"
+            opened.page.keyboard.press("Tab")
+        assert opened.page.evaluate("document.activeElement.dataset.test") == "impactor.strength"
+
+
+DRAG = """(slider, value) => {
+  slider.value = value;
+  slider.dispatchEvent(new Event("input", { bubbles: true }));
+}"""
+
+
+def test_a_drag_of_a_slider_is_one_step_of_undo(opened: ScenePage) -> None:
+    text = scene("steel_ball")
+    opened.write(text)
+    for name in ("speed", "radius", "strength"):
+        slider = opened.at(f"slider.{name}")
+        opened.page.wait_for_timeout(GROUP)
+        for place in ("0.2", "0.55", "-0.3"):
+            before = opened.text
+            slider.evaluate(DRAG, place)
+            opened.changes_from(before)
+            opened.page.wait_for_timeout(GROUP if place == "0.2" else 0)
+        slider.evaluate("(slider) => slider.dispatchEvent(new Event('change', { bubbles: true }))")
+        opened.at("undo").click()
+        opened.has_read(text)
 
 
 def test_choices_replace_the_keys_of_others(opened: ScenePage) -> None:

@@ -15,6 +15,7 @@ OPEN_ALL = "() => document.querySelectorAll('details').forEach((folded) => (fold
 OVERFLOW = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
 
 
+@pytest.mark.chromium
 def test_a_phone_needs_no_horizontal_scroll(browser: Browser) -> None:
     context = browser.new_context(offline=True, viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     opened = ScenePage(context.new_page())
@@ -28,6 +29,7 @@ def test_a_phone_needs_no_horizontal_scroll(browser: Browser) -> None:
     context.close()
 
 
+@pytest.mark.chromium
 def test_a_browser_that_was_started_without_a_language_shows_the_page(browser: Browser) -> None:
     """With LANG=C the browser has a language that it refuses itself."""
     context = browser.new_context(offline=True)
@@ -37,11 +39,25 @@ def test_a_browser_that_was_started_without_a_language_shows_the_page(browser: B
     context.close()
 
 
+CUT = """() => [...document.querySelectorAll("select, input, button")]
+  .filter((one) => one.checkVisibility() && one.type !== "range" && (one.scrollHeight > one.clientHeight + 1))
+  .map((one) => [one.dataset.test, one.scrollHeight, one.clientHeight])"""
+
+
+def test_menus_fields_and_buttons_show_all_of_their_text(opened: ScenePage) -> None:
+    opened.write(scene("two_contacts"))
+    opened.page.evaluate(OPEN_ALL)
+    for name in TABS:
+        opened.at(f"tab.{name}").click()
+        assert opened.page.evaluate(CUT) == [], name
+
+
 # What is right takes long to tell. In the dark only colours differ.
 LIGHT = {"resultTypes": ["violations"]}
 RULES = {"light": LIGHT, "dark": LIGHT | {"runOnly": ["color-contrast"]}}
 
 
+@pytest.mark.chromium
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_nothing_that_axe_knows_is_in_the_way_of_anyone(opened: ScenePage, scheme: Literal["light", "dark"]) -> None:
     opened.page.emulate_media(color_scheme=scheme)
@@ -60,6 +76,7 @@ def test_nothing_that_axe_knows_is_in_the_way_of_anyone(opened: ScenePage, schem
     opened.page.emulate_media(color_scheme="light")
 
 
+@pytest.mark.chromium
 def test_it_prints_with_its_scene_on_few_pages(opened: ScenePage) -> None:
     opened.at(f"tab.{TABS[0]}").click()
     opened.write(scene("steel_ball"))
@@ -71,6 +88,7 @@ def test_it_prints_with_its_scene_on_few_pages(opened: ScenePage) -> None:
     assert 1 <= opened.page.pdf().count(b"/Type /Page\n") <= 4
 
 
+@pytest.mark.chromium
 def test_every_connection_is_refused_and_none_is_tried(page: Page) -> None:
     page.context.set_offline(False)
     opened = ScenePage(page)

@@ -76,6 +76,13 @@ def test_a_wrong_coupling_is_seen_in_the_rebound(opened: ScenePage) -> None:
     opened.type("try.step", "0")
     opened.at("try.run").click()
     opened.page.wait_for_function(BOUNCED)
+    # a table of another question isn't taken for the answer, and the same question isn't computed again
+    busy = "() => document.querySelector('[data-test=\"try.table\"]').getAttribute('aria-busy')"
+    assert opened.page.evaluate(busy) == "false"
+    opened.at("tab.result").click()
+    opened.at("tab.try").click()
+    opened.page.wait_for_timeout(300)
+    assert opened.page.evaluate(busy) == "false"
     rows = opened.page.locator('[data-test="try.table"] tbody tr:has(th)').all()
     errors = {row.locator("th").inner_text(): row.locator("td").last.inner_text() for row in rows}
     opened.at("tab.result").click()

@@ -14,6 +14,7 @@ CUT = """[...document.querySelectorAll("figure svg text")].filter((text) => {
 }).map((text) => text.textContent)"""
 
 
+@pytest.mark.chromium
 @pytest.mark.parametrize("report", REPORTS, ids=lambda path: path.parent.name)
 def test_fits_a_desktop_a_phone_and_six_printed_pages(page: Page, report: Path) -> None:
     page.goto(report.as_uri())

@@ -41,13 +41,45 @@ pub fn pytest(what: &str, files: &[&str], given: impl FnOnce(&mut Command) -> &m
         Ok(browser) => browser,
         Err(why) => return skipped(what, why),
     };
+    let text = run(browser, files, "chromium", given);
+    println!("{text}");
+}
+
+/// Runs these files in the Firefox and the WebKit of the system too, as far as it has them.
+pub fn pytest_in_others(what: &str, files: &[&str], given: impl Fn(&mut Command) -> &mut Command) {
+    let Ok(browser) = browser() else { return };
+    for (kind, programs, package) in OTHERS {
+        if let Some(missing) = programs.iter().find(|names| !names.split('|').any(is_installed)) {
+            skipped(
+                &format!("{what} in {kind}"),
+                &format!("there is no {missing} (Debian and Ubuntu: apt install {package})"),
+            );
+            continue;
+        }
+        println!("{}", run(browser, files, kind, &given));
+    }
+}
+
+/// Other browsers: their names, the programs that are needed, each by its names, and where they are from.
+const OTHERS: [(&str, &[&str], &str); 2] = [
+    ("firefox", &["firefox-esr|firefox"], "firefox-esr"),
+    ("webkit", &["WebKitWebDriver", "Xvfb"], "webkit2gtk-driver xvfb"),
+];
+
+fn is_installed(program: &str) -> bool {
+    env::var_os("PATH").is_some_and(|path| env::split_paths(&path).any(|folder| folder.join(program).is_file()))
+}
+
+/// What pytest says of these files in this kind of browser.
+fn run(browser: &Browser, files: &[&str], kind: &str, given: impl FnOnce(&mut Command) -> &mut Command) -> String {
     let mut command = Command::new(&browser.python);
+    command.env("BRINELL_TEST_BROWSER", kind);
     keeping_modules(&mut command).args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"]).args(files);
     command.current_dir(root().join("tests/page")).env("BRINELL_TEST_CHROMIUM", &browser.program);
     // scenes are UTF-8, whatever the user's language
     command.env("PYTHONUTF8", "1");
     let output = given(&mut command).output().expect("the virtual environment has an interpreter");
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{files:?} failed:\n{text}");
-    println!("{text}");
+    assert!(output.status.success(), "{files:?} failed in {kind}:\n{text}");
+    text
 }

@@ -12,7 +12,7 @@ use brinell_exporter::predict::sweep::Sweep;
 use brinell_exporter::predict::{positive, time_history};
 use brinell_exporter::scene::Scene;
 use brinell_exporter::translate::{Request, speeds, text, translate};
-use brinell_exporter::{curve, translate};
+use brinell_exporter::{curve, translate, units};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -120,7 +120,8 @@ pub fn picture(asked: &Asked) -> Result<Value, Refused> {
 pub struct Translating {
     text: String,
     tool: String,
-    step: Option<f64>,
+    /// A time, in seconds or with its unit.
+    step: Option<String>,
     speeds: Option<String>,
     #[serde(default)]
     units: String,
@@ -130,7 +131,8 @@ pub struct Translating {
 pub fn translation(asked: &Translating) -> Result<Value, Refused> {
     let (scene, _) = scene(&asked.text)?;
     let speeds = asked.speeds.as_deref().map(speeds).transpose()?;
-    let request = Request { tool: &asked.tool, speeds, step: asked.step, millimetres: asked.units == "mm-t-s" };
+    let step = asked.step.as_deref().map(units::times).transpose()?;
+    let request = Request { tool: &asked.tool, speeds, step, millimetres: asked.units == "mm-t-s" };
     let translation = translate(&scene, &request)?;
     let data: Value = serde_json::from_str(&translate::json(&translation))?;
     Ok(json!({ "translation": data, "text": text::of(&translation) }))

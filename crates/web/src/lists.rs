@@ -29,7 +29,7 @@ pub fn about() -> Value {
         "parameters": variables(Causality::Parameter),
         "tools": TOOLS.iter().map(|tool| json!({ "name": tool.name, "title": tool.title })).collect::<Value>(),
         "platforms": Platform::ALL.iter().chain([&Platform::C_CODE]).map(platform).collect::<Value>(),
-        "quantities": units::usual().map(|(unit, usual)| (unit.to_string(), json!(usual))).collect::<Value>(),
+        "units": units::usual().map(|(unit, usual)| (unit.to_string(), json!(usual))).collect::<Value>(),
     })
 }
 

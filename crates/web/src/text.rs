@@ -2,12 +2,16 @@
 
 use crate::Refused;
 use brinell_exporter::mistake::SceneError;
-use brinell_exporter::scene::{self, Beside, Scene};
+use brinell_exporter::scene::{self, Beside, Scene, quantity_of};
 use brinell_exporter::tension::{self, Specimen};
+use brinell_exporter::{measured, units};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, RawString, Table, TableLike};
+
+/// The key of a reading with its scale.
+const HARDNESS: &str = "hardness";
 
 /// The name of the scene in messages.
 const PATH: &str = "scene.toml";
@@ -44,7 +48,37 @@ pub fn check(asked: &Asked) -> Value {
         Ok((_, doubts)) => (Vec::new(), doubts.iter().flat_map(|doubt| placed(text, doubt)).collect()),
         Err(refused) => (refused.mistakes, Vec::new()),
     };
-    json!({ "values": values, "mistakes": mistakes, "doubts": doubts, "files": scene::files_named(text) })
+    let mut quantities = Map::new();
+    values.iter().for_each(|values| find_quantities(("", ""), "", values, &mut quantities));
+    json!({
+        "values": values, "quantities": quantities, "mistakes": mistakes, "doubts": doubts, "files": scene::files_named(text),
+    })
+}
+
+/// Finds the texts in the `value` of this key that are numbers with a unit or a hardness: their parts, as a form shows them, by their
+/// paths.
+fn find_quantities((table, key): (&str, &str), path: &str, value: &Value, found: &mut Map<String, Value>) {
+    let below = |name: &str| if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
+    match value {
+        Value::Object(entries) => {
+            entries.iter().for_each(|(name, value)| find_quantities((key, name), &below(name), value, found));
+        }
+        Value::Array(list) => list.iter().enumerate().for_each(|(index, value)| {
+            find_quantities((table, key), &below(&index.to_string()), value, found);
+        }),
+        Value::String(text) => found.extend(parts((table, key), text).map(|parts| (path.into(), parts))),
+        _ => {}
+    }
+}
+
+/// Number and unit, or scale, of the `text` of a key.
+fn parts((table, key): (&str, &str), text: &str) -> Option<Value> {
+    if key == HARDNESS {
+        let (digits, unit) = measured::shown(text)?;
+        return Some(json!({ "digits": digits, "unit": unit }));
+    }
+    let shown = units::shown(text, quantity_of(table, key).unit?)?;
+    Some(json!({ "digits": shown.digits, "unit": shown.unit, "size": shown.size, "number": shown.number }))
 }
 
 /// The scene with the curve in the bytes of a table as the tensile test of its target, in place of another strength.
@@ -108,7 +142,57 @@ pub struct Edits {
 #[derive(Deserialize)]
 pub struct Edit {
     path: Vec<Step>,
+    #[serde(default)]
     value: Value,
+    /// What somebody types for it, in place of a value.
+    typed: Option<Typed>,
+}
+
+/// What is typed in a field, with the unit or the scale beside it.
+#[derive(Deserialize)]
+struct Typed {
+    text: String,
+    #[serde(default)]
+    unit: String,
+    /// Whether the scene has a number without a unit, which stays one where that is exact.
+    #[serde(default)]
+    bare: bool,
+}
+
+impl Typed {
+    /// What the scene gets for it. A comma is a decimal sign, as one value has no list; what is no number with its unit stays as it is
+    /// typed, so that the scene's message is about it.
+    fn value(&self, table: &str, key: &str) -> Value {
+        // the digits behind a comma are yet to come
+        let text = self.text.trim().trim_end_matches(',');
+        let pointed = units::pointed(text).unwrap_or(text.into());
+        let number = pointed.parse::<f64>().ok().filter(|number| number.is_finite());
+        if text.is_empty() {
+            return Value::Null;
+        }
+        let whole = if number.is_some() { format!("{pointed} {}", self.unit) } else { text.into() };
+        let whole = whole.trim();
+        match (quantity_of(table, key).unit, number) {
+            _ if key == HARDNESS => match measured::shown(whole) {
+                Some((digits, scale)) => json!(format!("{digits} {scale}")),
+                None => json!(whole),
+            },
+            (None, Some(number)) => pointed.parse::<i64>().map_or(json!(number), |number| json!(number)),
+            (None, None) => json!(text),
+            (Some(unit), _) => match units::shown(whole, unit) {
+                Some(shown)
+                    if self.bare
+                        && let Some(number) = units::bare(&shown) =>
+                {
+                    json!(number)
+                }
+                Some(shown) => json!(format!("{} {}", shown.digits, shown.unit)),
+                // a unit of a law
+                None if number.is_some() && units::shown(&format!("1 {unit}"), unit).is_none() => json!(number),
+                None => json!(whole),
+            },
+        }
+    }
 }
 
 /// A step towards a key: into a table, or to an element of an array of tables.
@@ -127,8 +211,12 @@ pub fn edit(asked: &Edits) -> Result<Value, Refused> {
 /// `text` with `edits`. Comments and the order of keys stay.
 pub fn edited(text: &str, edits: &[Edit]) -> Result<String, Refused> {
     let mut document: DocumentMut = text.parse().map_err(|error| format!("the text is no TOML: {error}"))?;
-    for Edit { path, value } in edits {
-        change(document.as_table_mut(), path, value)?;
+    for Edit { path, value, typed } in edits {
+        let mut keys =
+            path.iter().rev().filter_map(|step| if let Step::Key(key) = step { Some(key.as_str()) } else { None });
+        let (key, table) = (keys.next().unwrap_or_default(), keys.next().unwrap_or_default());
+        let typed = typed.as_ref().map(|typed| typed.value(table, key));
+        change(document.as_table_mut(), path, typed.as_ref().unwrap_or(value))?;
     }
     Ok(document.to_string())
 }
@@ -136,12 +224,16 @@ pub fn edited(text: &str, edits: &[Edit]) -> Result<String, Refused> {
 impl Edit {
     /// The key at this path gets `value`.
     pub fn of(path: &[&str], value: Value) -> Edit {
-        Edit { path: path.iter().map(|key| Step::Key((*key).into())).collect(), value }
+        Edit { path: path.iter().map(|key| Step::Key((*key).into())).collect(), value, typed: None }
     }
 
     /// The `key` of a table `[[contact]]` gets `value`.
     pub fn of_contact(index: usize, key: &str, value: Value) -> Edit {
-        Edit { path: vec![Step::Key("contact".into()), Step::Element(index), Step::Key(key.into())], value }
+        Edit {
+            path: vec![Step::Key("contact".into()), Step::Element(index), Step::Key(key.into())],
+            value,
+            typed: None,
+        }
     }
 }
 

@@ -39,6 +39,47 @@ fn a_mistake_has_its_place_in_utf_16() {
     assert_eq!(refused["mistakes"][0]["line"], 9, "{refused}");
 }
 
+/// A text typed in a field, and what the scene gets for it: with the unit beside the field, or its own.
+#[test]
+fn what_is_typed_is_read_by_the_exporter() {
+    let typed = |path: Value, text: &str, unit: &str, bare: bool| {
+        let typed = json!({ "text": text, "unit": unit, "bare": bare });
+        let edits = json!([{ "path": path, "typed": typed }]);
+        let said = ask(&json!({ "method": "edit", "text": BALL, "edits": edits })).unwrap();
+        let check = ask(&json!({ "method": "check", "text": said["text"] })).unwrap();
+        let pointer =
+            path.as_array().unwrap().iter().map(|key| format!("/{}", key.as_str().unwrap())).collect::<String>();
+        (check["values"].pointer(&pointer).cloned().unwrap_or_default(), check)
+    };
+    let radius = || json!(["impactor", "radius"]);
+    for (text, unit, bare, value) in [
+        ("6,5", "mm", false, json!("6.5 mm")),
+        ("6,", "mm", false, json!("6 mm")),
+        (" 6.50 ", "um", false, json!("6.50 um")),
+        ("0,25 in", "mm", false, json!("0.25 in")),
+        ("6,5", "mm", true, json!(6.5e-3)),
+        ("0,7", "in", true, json!("0.7 in")),
+        ("6,5 ,5", "mm", false, json!("6,5 ,5")),
+        ("6.5 furlong", "mm", true, json!("6.5 furlong")),
+        ("1,234", "mm", false, json!("1,234")),
+        ("", "mm", false, Value::Null),
+    ] {
+        assert_eq!(typed(radius(), text, unit, bare).0, value, "{text} {unit}");
+    }
+    let (_, check) = typed(radius(), "6,5", "mm", false);
+    let written = json!({ "digits": "6.5", "unit": "mm", "size": 1e-3, "number": 6.5e-3 });
+    assert_eq!(check["quantities"], json!({ "impactor.radius": written }));
+    let (_, check) = typed(radius(), "6.5 ,5", "mm", false);
+    assert_eq!(check["quantities"], json!({}), "what is no unit never becomes one");
+    let hardness = || json!(["target", "hardness"]);
+    for (text, value) in [("182,5", "182.5 HBW 2.5/187.5"), ("58,5 HRC", "58.5 HRC"), ("hard", "hard")] {
+        let (found, check) = typed(hardness(), text, "HBW 2,5/187,5", false);
+        assert_eq!(found, value);
+        assert_eq!(check["quantities"].get("target.hardness").is_some(), text != "hard");
+    }
+    assert_eq!(typed(json!(["target", "poissons_ratio"]), "0,3", "", false).0, json!(0.3));
+}
+
 #[test]
 fn edits_keep_comments_and_make_and_remove_tables() {
     let text = edited(BALL, &json!(["impactor", "radius"]), &json!("6 mm"));

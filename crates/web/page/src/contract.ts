@@ -12,17 +12,33 @@ export interface Mistake {
   message: string;
 }
 
+/** A text of a scene that is a number with a unit, or with the scale of a hardness. */
+export interface Written {
+  digits: string;
+  unit: string;
+  /** How many SI units one `unit` is, and the number of SI units; a scale has none. */
+  size?: number;
+  number?: number;
+}
+
 export interface Check {
   values: Table | null;
+  /** By their paths, as `impactor.radius`. */
+  quantities: { [path: string]: Written };
   mistakes: Mistake[];
   doubts: Mistake[];
   files: string[];
 }
 
-export interface Edit {
-  path: Path;
-  value: Json;
+/** What somebody types in a field, with the unit or scale beside it; `bare` if the scene has a number without a unit. */
+export interface Typed {
+  text: string;
+  unit?: string;
+  bare?: boolean;
 }
+
+/** A key that gets a value, null to remove it, or what is typed for it. */
+export type Edit = { path: Path; value: Json } | { path: Path; typed: Typed };
 
 export interface Material {
   name: string;
@@ -47,6 +63,8 @@ export interface About {
   laws: { loading: LawEntry[]; unloading: LawEntry[]; damped: LawEntry[] };
   materials: Material[];
   tools: { name: string; title: string }[];
+  /** The usual units of each SI unit, with their sizes. */
+  units: { [si: string]: [unit: string, size: number][] };
   platforms: { folder: string; title?: string; targets: string[] }[];
 }
 

@@ -1,10 +1,10 @@
 // The scene's text: colours, completion and help from the schema, the exporter's mistakes underlined. Its history is the page's undo.
 import { autocompletion, type Completion, type CompletionContext, type CompletionResult, completionKeymap, startCompletion } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, redo, redoDepth, undo, undoDepth } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, isolateHistory, redo, redoDepth, undo, undoDepth } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
 import { toml } from "@codemirror/legacy-modes/mode/toml";
 import { type Diagnostic, setDiagnostics } from "@codemirror/lint";
-import { EditorState } from "@codemirror/state";
+import { Annotation, EditorState, Transaction } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import type { About, Json, Mistake, Path } from "./contract";
@@ -12,6 +12,11 @@ import { h } from "./dom";
 import { type Place, placeAt, places } from "./places";
 import type { Scene } from "./scene";
 import { help, type Schema } from "./schema";
+
+/** The drag to which a change belongs. */
+const Gesture = Annotation.define<symbol>();
+/** Changes closer to each other are one step of undo [ms]. */
+const TOGETHER = 500;
 
 const colours = HighlightStyle.define([
   { tag: tags.comment, color: "var(--muted)", fontStyle: "italic" },
@@ -86,35 +91,50 @@ function containing(found: Place[], offset: number, place: Place | null): Path {
 
 export class Editor {
   readonly view: EditorView;
+  #last: { time: number; gesture: symbol | undefined } = { time: 0, gesture: undefined };
 
   constructor(parent: HTMLElement, readonly scene: Scene, schema: Schema, about: About, text: string) {
     const hover = hoverTooltip((_view, position) => {
       const place = placeAt(scene.places, position);
       const info = place && position <= place.key ? schema.info(place.path) : null;
-      if (!place || !info || !help(info)) return null;
-      return { pos: place.from, end: place.key, above: true, create: () => ({ dom: h("div", { class: "hover" }, help(info)) }) };
+      const written = place ? scene.written(...place.path) : undefined;
+      const says = info ? help(info, written?.unit, written?.size) : "";
+      if (!place || !says) return null;
+      return { pos: place.from, end: place.key, above: true, create: () => ({ dom: h("div", { class: "hover" }, says) }) };
     });
     this.view = new EditorView({
       parent,
       state: EditorState.create({
         doc: text,
         extensions: [
-          lineNumbers(), history(), drawSelection(), highlightActiveLine(), EditorView.lineWrapping,
+          lineNumbers(), history({ newGroupDelay: Infinity, joinToEvent: (change, adjacent) => this.#joins(change, adjacent) }), drawSelection(), highlightActiveLine(), EditorView.lineWrapping,
           StreamLanguage.define(toml), syntaxHighlighting(colours), hover,
           autocompletion({ override: [(context) => complete(context, schema, about)], icons: false }),
           keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap]),
           EditorView.contentAttributes.of({ "aria-label": "The scene as TOML", "data-test": "editor", spellcheck: "false", tabindex: "0" }),
-          EditorView.updateListener.of((update) => update.docChanged && scene.read(update.state.doc.toString())),
+          EditorView.updateListener.of((update) => {
+            if (!update.docChanged) return;
+            const last = update.transactions.findLast(({ docChanged }) => docChanged)!;
+            this.#last = { time: last.annotation(Transaction.time) ?? 0, gesture: last.annotation(Gesture) };
+            scene.read(update.state.doc.toString());
+          }),
         ],
       }),
     });
-    scene.write = (next) => this.write(next);
+    scene.write = (next, gesture) => this.write(next, gesture);
     scene.onCheck(() => this.#underline());
     scene.read(text);
   }
 
+  /** Whether a change belongs to the last step of undo: all of a drag, however long it takes, and what is typed in one go. */
+  #joins(change: Transaction, adjacent: boolean): boolean {
+    const gesture = change.annotation(Gesture);
+    if (gesture && gesture === this.#last.gesture) return true;
+    return adjacent && (change.annotation(Transaction.time) ?? 0) - this.#last.time < TOGETHER;
+  }
+
   /** Replaces what differs, so that cursor and comments stay where they are. */
-  write(next: string): void {
+  write(next: string, gesture: symbol | null): void {
     const now = this.view.state.doc.toString();
     let from = 0;
     while (from < now.length && now[from] === next[from]) from++;
@@ -123,12 +143,14 @@ export class Editor {
     this.view.dispatch({
       changes: { from, to: now.length - tail, insert: next.slice(from, next.length - tail) },
       userEvent: "input.type.form",
+      annotations: gesture ? Gesture.of(gesture) : undefined,
     });
   }
 
   /** Another scene: one step of undo. */
   open(text: string): void {
-    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text }, selection: { anchor: 0 }, scrollIntoView: true });
+    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text }, selection: { anchor: 0 }, scrollIntoView: true,
+      annotations: isolateHistory.of("full") });
   }
 
   show({ from, to }: Mistake): void {

@@ -3,7 +3,7 @@ import type { About, Edit, Json, Material, Path } from "./contract";
 import { h, id, options } from "./dom";
 import { key, type Scene } from "./scene";
 import { help, type Schema, words } from "./schema";
-import { bare, factor, inUnit, pretty, type Quantity, si, split, tidy, usual } from "./units";
+import { inUnit, pretty, type Sizes, tidy, usual } from "./units";
 
 export interface Context {
   scene: Scene;
@@ -26,15 +26,13 @@ export interface Look {
 }
 
 /** Label, control and place for a mistake. */
-function shell(context: Context, path: Path, look: Look, control: HTMLElement, labelled: HTMLElement): { element: HTMLElement; mark: Field["mark"] } {
+function shell(context: Context, path: Path, look: Look, control: HTMLElement, labelled: HTMLElement): { element: HTMLElement; mark: Field["mark"]; explain(says: string): void } {
   const info = context.schema.info(path);
   const test = key(path);
   const wrong = h("p", { class: "wrong", id: id(), "data-test": `${test}.wrong`, role: "alert" });
   labelled.id ||= id();
   labelled.dataset.test ??= test;
-  const says = look.help ?? (info ? help(info) : "");
-  if (says) labelled.setAttribute("aria-description", says);
-  const element = h("div", { class: "field", "data-help": says },
+  const element = h("div", { class: "field" },
     h("label", { for: labelled.id }, look.label ?? info?.label ?? words(String(path.at(-1)))), control, wrong);
   const mark: Field["mark"] = (at, message) => {
     const mine = message !== null && (at === test || at.startsWith(`${test}.`));
@@ -42,42 +40,62 @@ function shell(context: Context, path: Path, look: Look, control: HTMLElement, l
     labelled.setAttribute("aria-invalid", String(mine));
     labelled.setAttribute("aria-errormessage", wrong.id);
   };
-  return { element, mark };
+  const explain = (says: string): void => {
+    element.dataset.help = says;
+    if (says) labelled.setAttribute("aria-description", says);
+  };
+  explain(look.help ?? (info ? help(info) : ""));
+  return { element, mark, explain };
 }
 
 const focused = (element: HTMLElement): boolean => element.contains(document.activeElement);
+
+/** What somebody types stays as typed until the field is left, unless the scene changes otherwise. */
+function typing(input: HTMLInputElement, value: () => Json | undefined): { sent(): void; left(): void; show(text: string): void } {
+  let state: "none" | "sent" | "read" = "none";
+  let own: Json | undefined;
+  return {
+    sent: () => void (state = "sent"),
+    left: () => void (state = "none"),
+    show(text) {
+      if (state === "sent") [state, own] = ["read", value()];
+      if (!(state === "read" && own === value() && focused(input)) && input.value !== text) input.value = text;
+    },
+  };
+}
 
 /** A number with its unit. A bare number of the scene stays bare where that is exact. */
 export function quantity(context: Context, path: Path, look: Look = {}): Field {
   const { scene } = context;
   const info = context.schema.info(path);
   const base = info?.unit ?? "";
-  const offered = info?.units.length ? info.units : [base];
-  const input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", oninput: send, onblur: () => field.update() });
+  const sizes: Sizes = new Map(context.about.units[base] ?? [[base, 1]]);
+  const input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", oninput: send, onblur: () => (typed.left(), field.update()) });
   const units = h("select", { "aria-label": "unit", "data-test": `${key(path)}.unit`, onchange: convert },
-    ...options(offered.map((unit) => [unit, pretty(unit)])));
-  const { element, mark } = shell(context, path, look, h("div", { class: "control" }, input, base ? units : null), input);
+    ...options([...sizes.keys()].map((unit) => [unit, pretty(unit)])));
+  const { element, mark, explain } = shell(context, path, look, h("div", { class: "control" }, input, base ? units : null), input);
+  const typed = typing(input, () => scene.value(...path));
   let wanted: string | null = null;
   if (base) setUnit(usual(base));
 
   function send(): void {
-    const raw = input.value.trim();
-    const typed = split(raw);
-    if (typed?.unit && factor(typed.unit)) setUnit((wanted = typed.unit));
-    if (raw === "") return scene.edit({ path, value: null });
-    if (!typed) return scene.edit({ path, value: raw });
-    if (!base) return scene.edit({ path, value: typed.unit ? raw : Number(typed.digits) });
-    scene.edit({ path, value: written({ digits: typed.digits, unit: typed.unit || units.value }, typeof scene.value(...path) === "number") });
+    typed.sent();
+    if (base) wanted = units.value;
+    scene.type(path, { text: input.value, unit: base ? units.value : "" });
   }
   function convert(): void {
     wanted = units.value;
-    const now = si(scene.value(...path));
+    const now = scene.si(...path);
     if (now === null) return field.update();
-    scene.edit({ path, value: written(inUnit(now, base, offered, wanted), typeof scene.value(...path) === "number") });
+    scene.type(path, { text: inUnit(now, base, sizes, wanted).digits, unit: wanted });
   }
-  function setUnit(unit: string): void {
-    if (![...units.options].some(({ value }) => value === unit)) units.append(...options([[unit, pretty(unit)]]));
+  function setUnit(unit: string, size?: number): void {
+    if (!sizes.has(unit)) {
+      sizes.set(unit, size ?? 1);
+      units.append(...options([[unit, pretty(unit)]]));
+    }
     units.value = unit;
+    if (info && !look.help) explain(help(info, unit, sizes.get(unit)));
   }
   const field: Field = {
     element,
@@ -86,27 +104,18 @@ export function quantity(context: Context, path: Path, look: Look = {}): Field {
     update() {
       if (focused(input) && scene.busy) return;
       const value = scene.value(...path);
-      let shown: Quantity | null = null;
-      if (typeof value === "number") shown = inUnit(value, base, offered, wanted ?? undefined);
-      else if (typeof value === "string") shown = split(value) ?? { digits: value, unit: "" };
+      const written = scene.written(...path);
+      const shown = written ?? (typeof value === "number" ? inUnit(value, base, sizes, wanted ?? undefined) : null);
       const standard = info?.absent || (info?.default ?? "");
       const empty = look.empty ? look.empty() : typeof standard === "number" || typeof standard === "string" ? standard : null;
-      const fallback = typeof empty === "number" ? inUnit(empty, base, offered, wanted ?? undefined) : null;
+      const fallback = typeof empty === "number" ? inUnit(empty, base, sizes, wanted ?? undefined) : null;
       input.placeholder = fallback ? fallback.digits : String(empty ?? "");
-      if (base) setUnit(shown?.unit || fallback?.unit || wanted || usual(base));
-      const text = shown?.digits ?? "";
-      const typed = split(input.value);
-      const same = focused(input) && typed && shown && Number(typed.digits) === Number(text) && (!typed.unit || typed.unit === shown.unit);
-      if (!same && input.value !== text && !(focused(input) && value === input.value)) input.value = text;
+      // a text that is no number with a unit has none
+      if (base) setUnit(shown?.unit || (value === undefined && fallback?.unit) || wanted || usual(base), written?.size);
+      typed.show(shown?.digits ?? (typeof value === "string" ? value : ""));
     },
   };
   return field;
-}
-
-/** How a scene writes a quantity. */
-function written(quantity: Quantity, asNumber: boolean): Json {
-  const number = asNumber ? bare(quantity) : null;
-  return number !== null && Number.isFinite(number) ? number : `${quantity.digits} ${quantity.unit}`.trim();
 }
 
 export function textField(context: Context, path: Path, look: Look = {}): Field {
@@ -166,25 +175,24 @@ export function several(context: Context, path: Path, names: readonly (readonly 
 
 /** A number and a scale, such as a hardness. */
 export function withScale(context: Context, path: Path, scales: string[], look: Look = {}): Field {
-  const input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", oninput: send });
+  const input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", oninput: send, onblur: () => (typed.left(), update()) });
   const select = h("select", { "aria-label": "scale", "data-test": `${key(path)}.scale`, onchange: send }, ...options(scales.map((scale) => [scale, scale])));
   const { element, mark } = shell(context, path, look, h("div", { class: "control" }, input, select), input);
+  const { scene } = context;
+  const typed = typing(input, () => scene.value(...path));
   function send(): void {
-    const typed = split(input.value);
-    context.scene.edit({ path, value: input.value.trim() === "" ? null : typed?.unit ? input.value.trim() : `${input.value.trim()} ${select.value}` });
+    typed.sent();
+    scene.type(path, { text: input.value, unit: select.value });
   }
   const update = (): void => {
-    if (focused(input) && context.scene.busy) return;
-    const value = context.scene.value(...path);
-    const text = typeof value === "string" ? value : "";
-    const known = scales.find((one) => text.endsWith(` ${one}`));
-    const scale = known ?? split(text)?.unit;
-    if (scale) {
-      if (![...select.options].some((option) => option.value === scale)) select.append(...options([[scale, scale]]));
-      select.value = scale;
+    if (focused(input) && scene.busy) return;
+    const value = scene.value(...path);
+    const written = scene.written(...path);
+    if (written) {
+      if (![...select.options].some((option) => option.value === written.unit)) select.append(...options([[written.unit, written.unit]]));
+      select.value = written.unit;
     }
-    const digits = scale ? text.slice(0, -scale.length).trim() : text;
-    if (!(focused(input) && split(input.value)?.unit) && input.value !== digits) input.value = digits;
+    typed.show(written?.digits ?? (typeof value === "string" ? value : ""));
   };
   return { element, mark, paths: [path], update };
 }
@@ -252,7 +260,7 @@ export function materialOf(context: Context, path: Path): Material | undefined {
 
 /** A material by name, searched by any of its names. */
 export function material(context: Context, path: Path, look: Look = {}): Field {
-  const list = h("ul", { role: "listbox", id: id(), "aria-label": "materials", popover: "manual", class: "choices", "data-test": `${key(path)}.list` });
+  const list = h("ul", { role: "listbox", id: id(), "aria-label": "materials", popover: "manual", class: "choices", tabindex: -1, "data-test": `${key(path)}.list` });
   const input = h("input", {
     type: "text", role: "combobox", "aria-autocomplete": "list", "aria-expanded": "false", "aria-controls": list.id, autocomplete: "off",
       placeholder: "name, number or grade",

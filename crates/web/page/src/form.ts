@@ -4,7 +4,6 @@ import { fold, h, id } from "./dom";
 import { type Alternative, anyField, choice, type Context, type Field, group, material, materialOf, oneOf, quantity, several, textField, withScale } from "./fields";
 import { placeAt } from "./places";
 import { key } from "./scene";
-import { si } from "./units";
 
 const SCALES = ["HBW 10/3000", "HBW 2.5/187.5", "HV10", "HV1", "HRC", "HRB", "HLD"];
 /** Keys that only an elastic body has. */
@@ -12,7 +11,7 @@ const ELASTIC = ["material", "youngs_modulus", "poissons_ratio"];
 const STRENGTH = ["yield_strength", "hardness", "tensile_strength", "power_law", "tensile_test"];
 
 type Body = "impactor" | "target";
-const set = (path: Path, value: Json): Edit => ({ path, value });
+const set = (path: Path, value: Json): { path: Path; value: Json } => ({ path, value });
 
 /** The strength of a body by what is known of it. */
 function strength(context: Context, body: Body): Field {
@@ -121,7 +120,7 @@ function contacts(context: Context): { element: HTMLElement; fields: () => Field
   const names = (): string[] => ["ground", ...((scene.value("body") ?? []) as { name?: string }[]).map(({ name }) => name ?? "")];
   const between = (index: number, side: number, label: string): Field =>
     choice(context, ["contact", index, "between", side], names().map((name): [Json, string] => [name, name]), { label });
-  const add = (name: string, more: Edit["value"] = null): void => {
+  const add = (name: string, more: Json = null): void => {
     const index = length(name);
     const value = { name: `${name}_${index + 1}`, ...(more as object | null) };
     scene.edit(...Object.entries(value).map(([one, given]) => set([name, index, one], given as Json)));
@@ -170,8 +169,8 @@ export class Form {
     const law = laws(context);
     const contactList = contacts(context);
     const gravity = 9.80665;
-    const speed = (): number => si(scene.value("impact", "speed")) ?? 1;
-    const height = (): number => si(scene.value("impact", "drop_height")) ?? 0.5;
+    const speed = (): number => scene.si("impact", "speed") ?? 1;
+    const height = (): number => scene.si("impact", "drop_height") ?? 0.5;
     const mass = (): Json => scene.value("impact", "mass") ?? "4 g";
     const round = (value: number): number => Number(value.toPrecision(3));
     const impact = oneOf(context, "impact.by", "Given by", [
@@ -244,16 +243,20 @@ export class Form {
     this.#rest = [contactList, {
       update: () => {
         for (const { body, fields } of overrides) for (const field of fields.slice(0, 2)) field.element.hidden = scene.value(body, "material") === undefined;
-        const radius = si(scene.value("impactor", "radius"));
+        const radius = scene.si("impactor", "radius");
         diameter.textContent = radius ? `Diameter ${Number((2e3 * radius).toPrecision(6))} mm` : "";
         impactorStrength.element.hidden = [...ELASTIC, ...STRENGTH].every((name) => scene.value("impactor", name) === undefined);
       },
     }];
     const hint = "Numbers take any unit: 5 mm, 0.2 in, 1.5 kN/mm^2. Help for the field in use appears here.";
     const strip = h("p", { class: "help", "aria-hidden": "true", "data-test": "help" }, hint);
-    const explain = (event: Event): void => void (strip.textContent = (event.target as HTMLElement).closest<HTMLElement>("[data-help]")?.dataset.help || hint);
-    this.element.addEventListener("focusin", explain);
-    this.element.addEventListener("mouseover", explain);
+    let meant: HTMLElement | null = null;
+    const explain = (): void => void (strip.textContent = meant?.dataset.help || hint);
+    for (const kind of ["focusin", "mouseover"]) this.element.addEventListener(kind, ({ target }) => {
+      meant = (target as HTMLElement).closest<HTMLElement>("[data-help]");
+      explain();
+    });
+    this.#rest.push({ update: explain });
     this.element.append(strip);
     scene.onCheck(() => this.update());
   }

@@ -5,8 +5,7 @@ import { describe, fold, h } from "./dom";
 import type { Context } from "./fields";
 import { materialOf } from "./fields";
 import { type Engine, Refusal } from "./engine";
-import type { Scene } from "./scene";
-import { bare, digits, format, inUnit, pretty, si, split } from "./units";
+import { digits, format, inUnit, pretty } from "./units";
 
 const percent = (part: number): string => `${Number((100 * part).toPrecision(3))} %`;
 
@@ -32,24 +31,27 @@ interface Knob {
   update(): void;
 }
 
+/** Units that a slider writes where the scene has none. */
+const SLID = ["um", "mm", "m", "MPa", "GPa", "mm/s", "m/s"];
+
 /** A slider over a decade to each side of the scene's value. */
-function knob(scene: Scene, test: string, label: string,
+function knob({ scene, about }: Context, test: string, label: string,
   target: () => { path: (string | number)[]; value: number; unit: string; scale?: string } | null): Knob {
   const output = h("output", {});
   const slider = h("input", { type: "range", min: -1, max: 1, step: 0.01, "data-test": `slider.${test}`, "aria-label": label, oninput: move,
-    onchange: () => (middle = 0) });
+    onchange: () => (drag = null) });
   const name = h("span", {}, label);
   let middle = 0;
+  /** The drag under way: one step of undo. */
+  let drag: symbol | null = null;
   function move(): void {
     const now = target();
     if (!now || !middle) return;
     const value = Number((middle * 10 ** Number(slider.value)).toPrecision(3));
-    const before = scene.value(...now.path);
-    const unit = typeof before === "string" ? split(before)?.unit : undefined;
-    const quantity = now.scale === undefined ? inUnit(value, now.unit, ["um", "mm", "m", "MPa", "GPa", "mm/s", "m/s"], unit)
-      : { digits: String(value), unit: now.scale };
-    quantity.digits = String(Number(Number(quantity.digits).toPrecision(3)));
-    scene.edit({ path: now.path, value: typeof before === "number" ? (bare(quantity) ?? value) : `${quantity.digits} ${quantity.unit}`.trim() });
+    const written = scene.written(...now.path);
+    const sizes = new Map(written?.size ? [[written.unit, written.size]] : (about.units[now.unit] ?? []).filter(([unit]) => SLID.includes(unit)));
+    const quantity = now.scale === undefined ? inUnit(value, now.unit, sizes, written?.unit) : { digits: String(value), unit: now.scale };
+    scene.type(now.path, { text: String(Number(Number(quantity.digits).toPrecision(3))), unit: quantity.unit }, (drag ??= Symbol()));
     show(value, now);
   }
   function show(value: number, now: { unit: string; scale?: string }): void {
@@ -61,14 +63,18 @@ function knob(scene: Scene, test: string, label: string,
       const now = target();
       slider.disabled = !now;
       if (!now) return void (output.textContent = "–");
-      const written = scene.value(...now.path);
-      if (typeof written === "string") output.textContent = written.replace(/ .*/, (unit) => ` ${pretty(unit.trim())}`);
+      const written = scene.written(...now.path);
+      if (written) output.textContent = `${written.digits} ${pretty(written.unit)}`;
       else show(now.value, now);
       name.textContent = now.path.at(-1) === "drop_height" ? "Drop height" : label;
-      const fits = middle && Math.abs(Math.log10(now.value / middle)) <= 1;
-      if (fits && document.activeElement === slider) return;
+      const away = middle ? Math.log10(now.value / middle) : Infinity;
+      // not every browser focuses a slider that is dragged
+      if (Math.abs(away) <= 1.001 && (drag || document.activeElement === slider)) {
+        if (!drag) slider.value = String(away);
+        return;
+      }
       middle = now.value;
-      if (document.activeElement !== slider) slider.value = "0";
+      slider.value = "0";
     },
   };
 }
@@ -76,16 +82,15 @@ function knob(scene: Scene, test: string, label: string,
 function knobs(context: Context): Knob[] {
   const { scene } = context;
   const at = (path: string[], unit: string): { path: string[]; value: number; unit: string } | null => {
-    const value = si(scene.value(...path));
+    const value = scene.si(...path);
     return value && value > 0 ? { path, value, unit } : null;
   };
   return [
-    knob(scene, "speed", "Speed", () => at(["impact", "drop_height"], "m") ?? at(["impact", "speed"], "m/s")),
-    knob(scene, "radius", "Radius", () => at(["impactor", "radius"], "m")),
-    knob(scene, "strength", "Target strength", () => {
-      const hardness = scene.value("target", "hardness");
-      const number = typeof hardness === "string" ? split(hardness) : null;
-      if (number) return { path: ["target", "hardness"], value: Number(number.digits), unit: "", scale: number.unit };
+    knob(context, "speed", "Speed", () => at(["impact", "drop_height"], "m") ?? at(["impact", "speed"], "m/s")),
+    knob(context, "radius", "Radius", () => at(["impactor", "radius"], "m")),
+    knob(context, "strength", "Target strength", () => {
+      const hardness = scene.written("target", "hardness");
+      if (hardness) return { path: ["target", "hardness"], value: Number(hardness.digits), unit: "", scale: hardness.unit };
       const given = at(["target", "yield_strength"], "Pa") ?? at(["target", "tensile_strength"], "Pa");
       const material = materialOf(context, ["target", "material"])?.yield_strength;
       return given ?? (material ? { path: ["target", "yield_strength"], value: material, unit: "Pa" } : null);

@@ -1,5 +1,5 @@
 // The scene: one text, which form and editor both show. Edits of the form go through the exporter, which keeps comments.
-import type { Check, Edit, Json, Path, Table } from "./contract";
+import type { Check, Edit, Json, Path, Table, Typed, Written } from "./contract";
 import { toast } from "./dom";
 import type { Engine } from "./engine";
 import { Refusal } from "./engine";
@@ -16,15 +16,17 @@ export function valueAt(values: Json | undefined, path: Path): Json | undefined 
 
 export class Scene {
   text = "";
-  check: Check = { values: {}, mistakes: [], doubts: [], files: [] };
+  check: Check = { values: {}, quantities: {}, mistakes: [], doubts: [], files: [] };
   /** The last values of a text that was TOML. */
   values: Table = {};
+  #quantities: Check["quantities"] = {};
   places: Place[] = [];
-  /** Writes into the editor, which then calls `read`. */
-  write: (text: string) => void = () => {};
+  /** Writes into the editor, which then calls `read`. All of one gesture is one step of undo. */
+  write: (text: string, gesture: symbol | null) => void = () => {};
   readonly #checked: (() => void)[] = [];
   readonly #edits = new Map<string, Edit>();
   #editing = false;
+  #gesture: symbol | null = null;
   #looked = "";
 
   constructor(readonly engine: Engine) {}
@@ -47,6 +49,17 @@ export class Scene {
     return valueAt(this.values, path);
   }
 
+  /** Number and unit of a key whose text has both. */
+  written(...path: Path): Written | undefined {
+    return this.#quantities[key(path)];
+  }
+
+  /** The SI number of a key, bare or with a unit. */
+  si(...path: Path): number | null {
+    const value = this.value(...path);
+    return typeof value === "number" ? value : (this.written(...path)?.number ?? null);
+  }
+
   read(text: string): void {
     this.text = text;
     void this.#look();
@@ -54,6 +67,17 @@ export class Scene {
 
   /** Sets keys (null removes one); the newest value of each. */
   edit(...edits: Edit[]): void {
+    this.#gesture = null;
+    this.#put(edits);
+  }
+
+  /** What is typed for a key, or dragged: `gesture` tells one drag from the next. */
+  type(path: Path, typed: Typed, gesture: symbol | null = null): void {
+    this.#gesture = gesture;
+    this.#put([{ path, typed: { ...typed, bare: typeof this.value(...path) === "number" } }]);
+  }
+
+  #put(edits: Edit[]): void {
     for (const edit of edits) {
       this.#edits.delete(key(edit.path));
       this.#edits.set(key(edit.path), edit);
@@ -66,11 +90,12 @@ export class Scene {
     while (this.#edits.size > 0) {
       const edits = [...this.#edits.values()];
       const before = this.text;
+      const gesture = this.#gesture;
       try {
         const { ok } = await this.engine.ask("edit", { text: before, edits }, undefined, true);
         if (this.text !== before) continue; // typed meanwhile: once more, on the new text
         for (const edit of edits) if (this.#edits.get(key(edit.path)) === edit) this.#edits.delete(key(edit.path));
-        if (ok.text !== before) this.write(ok.text);
+        if (ok.text !== before) this.write(ok.text, gesture);
       } catch (error) {
         if (!(error instanceof Refusal)) throw error;
         this.#edits.clear();
@@ -86,7 +111,7 @@ export class Scene {
     const check = await this.engine.newest("check", "check", { text }, true);
     if (!check || text !== this.text) return;
     this.check = check;
-    this.values = check.values ?? this.values;
+    if (check.values) [this.values, this.#quantities] = [check.values, check.quantities];
     this.places = places(text);
     this.#looked = text;
     this.#tell();

@@ -14,7 +14,8 @@ export interface KeyInfo {
   unit: string | null;
   /** Units in which it is usually given. */
   units: string[];
-  range: string;
+  /** What it may be, in a unit of this size. */
+  range(unit: string, size: number): string;
   default: Json | undefined;
   /** What an absent key means, in words. */
   absent: string;
@@ -70,7 +71,8 @@ export class Schema {
       description: text(first("description")),
       unit: unit && unit !== "1" ? unit : null,
       units: list(first("x-units")).map(text),
-      range: range(first("minimum"), first("exclusiveMinimum"), first("maximum"), first("exclusiveMaximum"), unit),
+      range: (own, size) => range(["minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum"].map((name) =>
+        ((end) => (typeof end === "number" ? end / size : null))(first(name))), own),
       default: first("default"),
       absent: text(first("x-default")).replaceAll("`", ""),
       examples: list(first("examples")),
@@ -85,18 +87,23 @@ export class Schema {
   }
 }
 
-function range(least: Json | undefined, above: Json | undefined, most: Json | undefined, below: Json | undefined, unit: string): string {
-  const short = (value: number): string => (Math.abs(value) >= 1e5 ? value.toExponential().replace("+", "") : String(value));
+function range([least, above, most, below]: (number | null | undefined)[], unit: string): string {
+  const short = (value: number): string => {
+    const rounded = Number(value.toPrecision(4));
+    return rounded !== 0 && (Math.abs(rounded) >= 1e5 || Math.abs(rounded) < 1e-4) ? rounded.toExponential().replace("+", "") : String(rounded);
+  };
+  const given = (end: number | null | undefined): end is number => typeof end === "number";
   const ends = [
-    typeof above === "number" ? `more than ${short(above)}` : typeof least === "number" ? `from ${short(least)}` : "",
-    typeof below === "number" ? `less than ${short(below)}` : typeof most === "number" ? `to ${short(most)}` : "",
+    given(above) ? `more than ${short(above)}` : given(least) ? `from ${short(least)}` : "",
+    given(below) ? `less than ${short(below)}` : given(most) ? `to ${short(most)}` : "",
   ].filter(Boolean);
   return ends.length ? `${ends.join(" ")}${unit && unit !== "1" ? " " + pretty(unit) : ""}` : "";
 }
 
-/** What a key is, in one line: its description, its range, and what its absence means. */
-export function help(info: KeyInfo): string {
+/** What a key is, in one line: its description, its range in the unit that is chosen, and what its absence means. */
+export function help(info: KeyInfo, unit = info.unit ?? "", size = 1): string {
   const standard = info.default === undefined || info.default === null ? "" : `Default: ${JSON.stringify(info.default)}.`;
   const absent = info.absent === "required" ? "Required." : info.absent && `Without: ${info.absent}.`;
-  return [info.description.replace(/\s+/g, " "), info.range && `Range: ${info.range}.`, absent || standard].filter(Boolean).join(" ");
+  const range = info.range(unit, size);
+  return [info.description.replace(/\s+/g, " "), range && `Range: ${range}.`, absent || standard].filter(Boolean).join(" ");
 }

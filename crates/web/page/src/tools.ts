@@ -4,7 +4,6 @@ import { describe, h, options } from "./dom";
 import { copy } from "./download";
 import type { Engine } from "./engine";
 import type { Scene } from "./scene";
-import { si } from "./units";
 
 export class Tools {
   readonly element: HTMLElement;
@@ -30,12 +29,11 @@ export class Tools {
   /** Asks for the numbers, if anybody sees them. */
   async update(): Promise<void> {
     if (this.element.offsetParent === null || !this.scene.right) return;
-    const typed = this.#step.value.trim();
-    const step = typed === "" ? undefined : (si(typed) ?? undefined);
+    const step = this.#step.value.trim() || undefined;
     try {
       const answer = await this.engine.newest("translate", "translate", { text: this.scene.text, tool: this.#tool.value, units: this.#units.value, step });
       if (!answer) return;
-      this.#state.textContent = typed && step === undefined ? `“${typed}” is no time, such as 1e-5 or 10 us` : "";
+      this.#state.textContent = "";
       this.#show(answer);
     } catch (error) {
       this.#state.textContent = describe(error);

@@ -33,6 +33,9 @@ export class TryIt {
   #frame = 0;
   #timer = 0;
   #asked = 0;
+  #listed: Promise<void> | null = null;
+  /** The question whose answer is shown. */
+  #shown = "";
 
   constructor(readonly scene: Scene, readonly results: Results, readonly module: WebAssembly.Module) {
     this.element = h("div", { class: "tryit" },
@@ -68,11 +71,25 @@ export class TryIt {
     this.#stepText.textContent = `${format(this.#seconds, "s", 2)}: ${parts >= 1 ? `${digits(parts, 2)} steps per contact`
       : `${digits(1 / parts, 2)} contacts in a step`}`;
     clearTimeout(this.#timer);
-    if (this.#visible && this.scene.right) this.#timer = window.setTimeout(() => void this.run(), 150);
+    if (this.#visible && this.scene.right && this.#shown !== this.#question) this.#timer = window.setTimeout(() => void this.run(), 150);
   }
 
-  async #list(): Promise<void> {
-    if (this.#boxes.length) return;
+  /** What is computed, if that is anything. */
+  get #question(): string {
+    return JSON.stringify([this.scene.text, this.#seconds, this.#boxes.filter(({ box }) => box.checked).map(({ way }) => way.name)]);
+  }
+
+  /** Says whether the rebounds are yet to come; the table has those of an earlier question until then. */
+  #say(state: string, busy = false): void {
+    this.#state.textContent = state;
+    this.#table.setAttribute("aria-busy", String(busy));
+  }
+
+  #list(): Promise<void> {
+    return (this.#listed ??= this.#ask());
+  }
+
+  async #ask(): Promise<void> {
     const { ok: ways } = await this.scene.engine.ask("ways", { text: this.scene.text });
     const exact = ways.find(({ right, knows_mass }) => right && knows_mass);
     const chosen = [ways[0], exact, ways.find(({ right }) => !right)];
@@ -90,14 +107,17 @@ export class TryIt {
     this.#stop();
     const prediction = this.results.prediction;
     const law = prediction?.laws[0];
-    if (!prediction || !law) return;
+    if (!prediction || !law) return this.#say("");
     const height = prediction.speed ** 2 / (2 * GRAVITY);
     const time = Math.sqrt((2 * height) / GRAVITY) * (1 + 5 * law.restitution);
     const step = Math.max(this.#seconds, Number(((time * prediction.contacts) / MOST).toPrecision(2)));
     const { text } = this.scene;
-    this.#state.textContent = "Computing …";
+    this.#say("Computing …", true);
+    this.#shown = "";
     try {
       await this.#list();
+      if (asked !== this.#asked) return;
+      const question = this.#question;
       const bounce = async (way: Way): Promise<Bounce["seen"]> => {
         const engine = new Engine(this.module); // a bounce needs an instance of its own
         this.#engines.push(engine);
@@ -108,7 +128,8 @@ export class TryIt {
       const seen = await Promise.all(chosen.map(({ way }) => bounce(way)));
       if (asked !== this.#asked) return;
       this.#stop();
-      this.#state.textContent = step > this.#seconds ? `The step is ${format(step, "s", 2)}: shorter ones take a page too long.` : "";
+      this.#say(step > this.#seconds ? `The step is ${format(step, "s", 2)}: shorter ones take a page too long.` : "");
+      this.#shown = question;
       const runs = chosen.map(({ way, colour, box }, index) => ({ way, colour, shown: box.checked, seen: seen[index]! }));
       this.#runs = runs.filter(({ shown }) => shown);
       this.#tell(runs.find(({ way }) => way === exact?.way)?.seen.rebounds ?? []);
@@ -119,7 +140,7 @@ export class TryIt {
       this.#runs = [];
       this.#tell([]);
       this.#draw(0);
-      this.#state.textContent = describe(error);
+      this.#say(describe(error));
     }
   }
 
