@@ -6,7 +6,7 @@ use brinell_exporter::numbers::{percent, quantity, significant, with_band};
 use brinell_exporter::plot::{Picture, Series, View};
 use brinell_exporter::predict::spread;
 use brinell_exporter::predict::time_history::moments;
-use brinell_exporter::scene::Scene;
+use brinell_exporter::scene::{Body, Scene};
 use brinell_exporter::{bodies, documentation, table};
 
 /// A name and its value.
@@ -26,11 +26,27 @@ pub fn facts(scene: &Scene) -> Vec<Fact> {
         ("Closing speed", quantity(scene.impact.speed, "m/s")),
         ("Law", law),
     ];
+    facts.extend(Body::ALL.into_iter().filter_map(|body| {
+        let measured = scene.measured(0, body)?;
+        let name = match body {
+            Body::Impactor => "Impactor's strength from",
+            Body::Target => "Target's strength from",
+        };
+        let (given, deviation) = (measured.given.trim_end_matches(','), percent(measured.uncertainty));
+        Some((name, format!("{given} \u{b1} {}", deviation.trim_start_matches('+'))))
+    }));
     let shown = |name: &str| !matches!(name, "initial_gap" | "effective_mass");
     facts.extend(bodies::numbers(scene, 0).into_iter().filter(|(name, ..)| shown(name)).map(|(name, value, unit)| {
         (name, if unit.is_empty() { significant(value, 4) } else { quantity(value, unit) })
     }));
     facts
+}
+
+/// What was made of a hardness or a tensile test, in sentences.
+pub fn readings(scene: &Scene) -> Vec<String> {
+    let found = scene.in_impact(0, &scene.impact);
+    let words = |body| scene.measured_words(0, body, found.as_ref()?);
+    Body::ALL.into_iter().filter_map(words).collect()
 }
 
 /// The outcome of the impact.
@@ -60,7 +76,7 @@ pub fn figures(scene: &Scene) -> Vec<Figure> {
     let over_indentation = documentation::force_over_indentation(scene, &scene.predictions[0]);
     let moments = moments(&scene.any_model(), &scene.impact).unwrap_or_default();
     let points = moments.iter().map(|moment| (1e6 * moment.time, moment.force));
-    let over_time = Picture::new(("time [us]", "force [N]"), (false, false), vec![Series::line("force", points)]);
+    let over_time = Picture::new(("time [\u{b5}s]", "force [N]"), (false, false), vec![Series::line("force", points)]);
     let view = View::default();
     vec![
         Figure::new("force-over-indentation", "Force over indentation", &over_indentation, &view),

@@ -20,10 +20,11 @@ use crate::scene_file;
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use brinell_exporter::accuracy::accuracy;
+use brinell_exporter::html::prose;
 use brinell_exporter::layout::{json_line, paragraph, shown};
 use brinell_exporter::master::{Needs, WAYS};
 use brinell_exporter::model::AnyModel;
-use brinell_exporter::numbers::{digits, quantity, significant};
+use brinell_exporter::numbers::{quantity, significant};
 use brinell_exporter::plot::{Picture, View};
 use brinell_exporter::predict::{beyond, spread};
 use brinell_exporter::scene::Scene;
@@ -224,6 +225,7 @@ impl Report {
             ));
         }
         law.extend(accuracy(&alone, &prediction));
+        law.extend(card::readings(&alone));
         law.extend(spread::note(&alone));
         let warnings = beyond(&alone, &model.pair(), impact.speed, &prediction, &[]).into_iter().map(validity::words);
         let mut coupling = choice::sentences(&ways);
@@ -289,9 +291,11 @@ impl Report {
     /// The page.
     fn html(&self, figures: &Figures) -> String {
         let mut environment = Environment::new();
+        let print = |text: &str| Value::from_safe_string(prose(text));
         environment.add_filter("cell", cell);
-        environment.add_filter("seconds", |value: f64| quantity(value, "s"));
-        environment.add_filter("stiffness", |value: f64| quantity(value, "N/m"));
+        environment.add_filter("print", print);
+        environment.add_filter("seconds", move |value: f64| print(&quantity(value, "s")));
+        environment.add_filter("stiffness", move |value: f64| print(&quantity(value, "N/m")));
         let template = environment.template_from_named_str("report.html", include_str!("report.html"));
         let context = context! { report => Serde(self), figures => Serde(figures) };
         let filled = template.and_then(|template| template.render(context));
@@ -301,14 +305,20 @@ impl Report {
     }
 }
 
-/// A cell of a table: a dash for what doesn't exist.
-fn cell(value: &Value) -> String {
+/// A cell of a table: four digits, with a prefix where there is a unit, and a dash for what doesn't exist.
+fn cell(value: &Value, unit: Option<&str>) -> Value {
     match f64::try_from(value.clone()) {
-        Ok(number) if number.is_finite() => digits(number),
-        Err(_) if value.as_str().is_some() => value.to_string(),
+        Ok(number) if number.is_finite() => {
+            let unit = UNITS.into_iter().find(|known| Some(*known) == unit).unwrap_or("");
+            Value::from_safe_string(prose(&quantity(number, unit)))
+        }
+        Err(_) if value.as_str().is_some() => value.clone(),
         _ => "-".into(),
     }
 }
+
+/// The units of tables.
+const UNITS: [&str; 3] = ["m", "s", "N"];
 
 /// Limitations for a scene with several contacts.
 const NOT_FOR_SEVERAL: &str = "The scene has several contacts: this page measures the first contact, by itself. If contacts share a \

@@ -145,7 +145,7 @@ pub fn figures(lines: &[Line]) -> Vec<Figure> {
     let error: Axis = ("error of restitution", |point| point.restitution);
     let all: [(&str, Axis, Axis); 6] = [
         ("error-against-steps", steps, error),
-        ("error-against-time", ("time per impact [us]", |point| 1e6 * point.run_time), error),
+        ("error-against-time", ("time per impact [\u{b5}s]", |point| 1e6 * point.run_time), error),
         ("error-against-calls", ("calls per impact", |point| point.calls), error),
         ("force-against-steps", steps, ("error of largest force", |point| point.max_force)),
         ("dent-against-steps", steps, ("error of dent", |point| point.dent)),

@@ -362,7 +362,7 @@ def test_a_result_is_drawn_with_its_differences(scene):
         np.column_stack([points["depth [um]"], points["force"]])
     )
     assert set(lines) == {"measured", "law, scene", "law, fitted"}
-    assert (below.get_xlabel(), above.get_ylabel()) == ("depth [um]", "force [N]")
+    assert (below.get_xlabel(), above.get_ylabel()) == ("depth [µm]", "force [N]")
     left = points["force"] - lines["law, fitted"][:, 1]
     assert below.get_lines()[0].get_ydata() == pytest.approx(left)
     speeds = brinell.fit(scene(300e6), rebounds(scene(300e6))).plot()

@@ -143,6 +143,6 @@ pub fn picture(choices: &[Choice], largest: f64, impact: &Impact) -> Result<Pict
         let points = rows(choice, largest, impact)?.iter().map(|row| (1e6 * row.indentation, row.force)).collect();
         series.push(Series { label: choice.name.clone(), points, dots: false });
     }
-    let titles = ("indentation [um]", "force [N]");
+    let titles = ("indentation [\u{b5}m]", "force [N]");
     Ok(Picture { x_title: titles.0.into(), y_title: titles.1.into(), logarithmic: (false, false), series })
 }

@@ -348,7 +348,7 @@ fn constants(page: &mut String, constants: &[plan::FixedParameter]) -> std::fmt:
 /// Force against indentation over the scene's impact.
 fn curve(plan: &Plan) -> String {
     let picture = force_over_indentation(plan.scene, plan.prediction());
-    Picture { x_title: picture.x_title.replace("um", &unit("um")), ..picture }.svg(480, 340)
+    picture.svg(480, 340)
 }
 
 /// Force over indentation in the impact of `scene`, with this `prediction`.
@@ -359,7 +359,7 @@ pub fn force_over_indentation(scene: &Scene, prediction: &Prediction) -> Picture
     let named = branches.into_iter().zip(["loading", "unloading"]);
     let series = named.map(|(points, label)| Series { label: label.into(), points: micrometres(points), dots: false });
     Picture {
-        x_title: "indentation [um]".into(),
+        x_title: "indentation [\u{b5}m]".into(),
         y_title: "force [N]".into(),
         logarithmic: (false, false),
         series: series.collect(),

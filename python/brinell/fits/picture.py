@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..pictures import logarithmic, save
 from .measured import UNITS
 
 if TYPE_CHECKING:
     from .result import Fit
 
-SCALES = {"depth": (1e6, "um"), "dent_depth": (1e6, "um"), "dent_diameter": (1e3, "mm"),
-          "contact_time": (1e6, "us"), "flow_stress": (1e-6, "MPa")}  # fmt: skip
+SCALES = {"depth": (1e6, "µm"), "dent_depth": (1e6, "µm"), "dent_diameter": (1e3, "mm"),
+          "contact_time": (1e6, "µs"), "flow_stress": (1e-6, "MPa")}  # fmt: skip
 
 
 def draw(fit: Fit, path: str | Path | None) -> Any:
     """The figure of a fit; it is also written to `path`."""
-    import matplotlib
     from matplotlib.figure import Figure
 
     results = list(fit.rms)
@@ -46,13 +46,12 @@ def draw(fit: Fit, path: str | Path | None) -> Any:
         above.set(ylabel=_label(result, own))
         below.set(xlabel=_label(argument, unit), ylabel="difference")
         if argument == "speed" and at.max() >= 10.0 * at.min():
-            above.set(xscale="log")
+            logarithmic(above, "x")
         for one in (above, below):
             one.grid(alpha=0.3)
         above.legend(fontsize="small")
     if path is not None:
-        with matplotlib.rc_context({"svg.hashsalt": "brinell"}):
-            figure.savefig(path, metadata={"Date": None} if Path(path).suffix == ".svg" else {})
+        save(figure, path)
     return figure
 
 

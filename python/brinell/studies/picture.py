@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import nearest
+from ..pictures import logarithmic, save
 
 if TYPE_CHECKING:
     import pandas
@@ -33,7 +34,6 @@ def draw(
     One name gives curves, two give a map, more give dots over each. Over one name, a table with
     several laws gives a curve of each. Labels have the units of `attrs["units"]`.
     """
-    import matplotlib
     from matplotlib.figure import Figure
 
     path, tables = Path(path), _by_law(table)
@@ -62,9 +62,7 @@ def draw(
             _axes(axes, first, name, units, _label(result, units))
             if others and index == 0:
                 axes.legend(fontsize="small")
-    with matplotlib.rc_context({"svg.hashsalt": "brinell"}):
-        metadata = {"Date": None} if path.suffix == ".svg" else {}
-        figure.savefig(path, metadata=metadata)
+    save(figure, path)
 
 
 def _by_law(table: pandas.DataFrame | Table) -> dict[str, dict[str, NDArray[Any]]]:
@@ -139,10 +137,12 @@ def _axes(
     middle = values[len(values) // 2]
     # in a logarithmic range, the middle value is nearer to the geometric than to the other mean
     spread = values[0] > 0.0 and middle < 0.75 * 0.5 * (values[0] + values[-1])
+    if spread:
+        logarithmic(axes, "y" if vertical else "x")
     if vertical:
-        axes.set(ylabel=_label(name, units), yscale="log" if spread else "linear")
+        axes.set(ylabel=_label(name, units))
         return
-    axes.set(xlabel=_label(name, units), xscale="log" if spread else "linear")
+    axes.set(xlabel=_label(name, units))
     if label:
         axes.set(ylabel=label)
         axes.grid(alpha=0.3)

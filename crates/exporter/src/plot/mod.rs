@@ -1,7 +1,7 @@
 //! Pictures of lines and dots over two axes, as SVG, drawn by plotters.
 
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::{Ranged, ValueFormatter};
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -120,9 +120,16 @@ impl Picture {
         let linear = RangedCoordf64::from;
         match self.logarithmic {
             (false, false) => self.fill(builder.build_cartesian_2d(linear(x), linear(y.clone())), y, view),
-            (true, false) => self.fill(builder.build_cartesian_2d(x.log_scale(), linear(y.clone())), y, view),
-            (false, true) => self.fill(builder.build_cartesian_2d(linear(x), y.clone().log_scale()), y, view),
-            (true, true) => self.fill(builder.build_cartesian_2d(x.log_scale(), y.clone().log_scale()), y, view),
+            (true, false) => {
+                self.fill(builder.build_cartesian_2d(Logarithmic::of(x, ACROSS), linear(y.clone())), y, view)
+            }
+            (false, true) => {
+                self.fill(builder.build_cartesian_2d(linear(x), Logarithmic::of(y.clone(), UPWARDS)), y, view);
+            }
+            (true, true) => {
+                let axes = (Logarithmic::of(x, ACROSS), Logarithmic::of(y.clone(), UPWARDS));
+                self.fill(builder.build_cartesian_2d(axes.0, axes.1), y, view);
+            }
         }
     }
 
@@ -202,6 +209,72 @@ impl Picture {
     }
 }
 
+/// The least distance of ticks, as part of their axis: labels beside each other need more room than those below each other.
+const ACROSS: f64 = 1.0 / 8.0;
+const UPWARDS: f64 = 1.0 / 14.0;
+
+/// A logarithmic axis, with ticks that leave room for their labels.
+struct Logarithmic {
+    range: Range<f64>,
+    logarithms: RangedCoordf64,
+    ticks: Vec<f64>,
+}
+
+impl Logarithmic {
+    fn of(range: Range<f64>, least: f64) -> Logarithmic {
+        let ticks = ticks(&range, least);
+        Logarithmic { logarithms: (range.start.ln()..range.end.ln()).into(), range, ticks }
+    }
+}
+
+impl Ranged for Logarithmic {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        self.logarithms.map(&value.ln(), limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.range.clone()
+    }
+}
+
+/// The ticks of a logarithmic axis over this `range`, no two nearer than the part `least` of it: powers of ten if three of them fit,
+/// else as many as there is room for, in steps of 1, 2 and 5 that are nearly even on a short axis.
+fn ticks(range: &Range<f64>, least: f64) -> Vec<f64> {
+    let decades = range.start.log10().floor() as i32..=range.end.log10().ceil() as i32;
+    // as a person writes them: no dust of powers
+    let number = |digit: u32, power: i32| format!("{digit}e{power}").parse::<f64>().expect("a number");
+    let inside = |ticks: Vec<f64>| ticks.into_iter().filter(|tick| range.contains(tick)).collect::<Vec<_>>();
+    let room = (range.end / range.start).ln() * least;
+    let fits = |ticks: &Vec<f64>| ticks.windows(2).all(|pair| (pair[1] / pair[0]).ln() >= room);
+    let powers = |stride: i32| {
+        let kept = decades.clone().filter(move |power| power.rem_euclid(stride) == 0);
+        inside(kept.map(|power| number(1, power)).collect())
+    };
+    let tens = (1..=128).map(powers).find(fits).unwrap_or_default();
+    if tens.len() >= 3 {
+        return tens;
+    }
+    let digits = |digits: &[u32]| {
+        inside(decades.clone().flat_map(|power| digits.iter().map(move |digit| number(*digit, power))).collect())
+    };
+    let even = decades.clone().rev().flat_map(|power| [5, 2, 1].map(|digit| (digit, power - 1)));
+    let even = even.map(|(digit, power)| {
+        let step = number(digit, power);
+        let (first, last) = ((range.start / step).ceil() as u32, (range.end / step).floor().min(99.0) as u32);
+        // a multiple of the step has its digits
+        inside((first..=last).map(|count| number(count * digit, power)).collect())
+    });
+    let all = [tens, digits(&[1, 3]), digits(&[1, 2, 5])].into_iter().chain(even);
+    all.filter(fits).max_by_key(Vec::len).unwrap_or_default()
+}
+
 /// How a series is drawn.
 struct Style {
     line: ShapeStyle,
@@ -221,5 +294,32 @@ fn label(value: &f64) -> String {
         0.0 => "0".into(),
         size if (1e-3..1e5).contains(&size) => format!("{rounded}"),
         _ => format!("{rounded:e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ranges of all lengths and places: ticks within them, in order, with room for their labels, and at least two of them.
+    #[test]
+    fn ticks_of_a_logarithmic_axis_have_room_and_are_round() {
+        for least in [ACROSS, UPWARDS] {
+            for place in -30..30 {
+                for length in 1..=100 {
+                    let start = 10_f64.powf(0.37 * f64::from(place));
+                    // from 0.1 to 20 decades
+                    let range = start..start * 10_f64.powf(0.1 * 1.0545_f64.powi(length));
+                    let found = ticks(&range, least);
+                    assert!(found.len() >= 2, "{range:?}: {found:?}");
+                    assert!(
+                        found.iter().all(|tick| range.contains(tick) && label(tick).len() <= 8),
+                        "{range:?}: {found:?}"
+                    );
+                    let room = (range.end / range.start).ln() * least;
+                    assert!(found.windows(2).all(|two| (two[1] / two[0]).ln() >= room), "{range:?}: {found:?}");
+                }
+            }
+        }
     }
 }
