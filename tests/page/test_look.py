@@ -132,6 +132,11 @@ def test_a_scene_or_an_fmu_dropped_on_it_is_opened(opened: ScenePage, tmp_path: 
     ):
         opened.page.evaluate(DROP, [name, base64.b64encode(content).decode()])
         opened.has_read(text)
+    # each is a step of undo of its own, however soon the next one comes
+    opened.at("undo").click()
+    opened.has_read(second)
+    opened.at("redo").click()
+    opened.has_read(first)
     # a file that is none changes nothing, and says so
     opened.page.evaluate(DROP, ["broken.fmu", base64.b64encode(b"no archive").decode()])
     opened.at("toast").get_by_text("broken.fmu").wait_for()

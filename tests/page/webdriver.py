@@ -384,7 +384,8 @@ class Locator:
         self._of("one.focus();")
 
     def click(self) -> None:
-        wait(self.is_visible, f"{self.chain} is visible")
+        ready = "const [one] = find(given[0]); return one !== undefined && seen(one) && !one.disabled;"
+        wait(lambda: self.tab.run(ready, self.chain), f"{self.chain} can be clicked")
         self.tab.driver.send("ElementClick", **self._element())
 
     def press_sequentially(self, text: str) -> None:

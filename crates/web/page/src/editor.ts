@@ -17,6 +17,8 @@ import { help, type Schema } from "./schema";
 const Gesture = Annotation.define<symbol>();
 /** Changes closer to each other are one step of undo [ms]. */
 const TOGETHER = 500;
+/** Longer than any drag, and shorter than the time since 1970, which stands for that since a step of undo that is closed [ms]. */
+const LONGEST = 1e9;
 
 const colours = HighlightStyle.define([
   { tag: tags.comment, color: "var(--muted)", fontStyle: "italic" },
@@ -107,7 +109,7 @@ export class Editor {
       state: EditorState.create({
         doc: text,
         extensions: [
-          lineNumbers(), history({ newGroupDelay: Infinity, joinToEvent: (change, adjacent) => this.#joins(change, adjacent) }), drawSelection(), highlightActiveLine(), EditorView.lineWrapping,
+          lineNumbers(), history({ newGroupDelay: LONGEST, joinToEvent: (change, adjacent) => this.#joins(change, adjacent) }), drawSelection(), highlightActiveLine(), EditorView.lineWrapping,
           StreamLanguage.define(toml), syntaxHighlighting(colours), hover,
           autocompletion({ override: [(context) => complete(context, schema, about)], icons: false }),
           keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap]),
