@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from brinell.fits.law import LARGEST_RADIUS_RATIO, Law
 from brinell.fits.measured import measured
+from brinell.pictures import ROOM, ticks
 
 matplotlib.use("Agg")
 
@@ -367,6 +368,19 @@ def test_a_result_is_drawn_with_its_differences(scene):
     assert below.get_lines()[0].get_ydata() == pytest.approx(left)
     speeds = brinell.fit(scene(300e6), rebounds(scene(300e6))).plot()
     assert speeds.get_axes()[0].get_xscale() == "log"
+
+
+def test_ticks_of_a_logarithmic_axis_are_round_and_have_room():
+    random = np.random.default_rng(20)
+    for room in ROOM.values():
+        for _ in range(2000):
+            low = 10.0 ** random.uniform(-30.0, 30.0)
+            high = low * 10.0 ** random.uniform(0.1, 20.0)
+            found = np.array(ticks(low, high, room))
+            assert len(found) >= 2
+            assert np.all((low <= found) & (found <= high))
+            assert np.all(found[1:] >= found[:-1] * (high / low) ** room)
+            assert all(len(f"{tick:.6g}") <= 8 and float(f"{tick:.3g}") == tick for tick in found)
 
 
 def test_the_scene_of_a_result_predicts_what_was_fitted(scene, tmp_path):
