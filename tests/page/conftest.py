@@ -22,7 +22,9 @@ KIND = os.environ.get("BRINELL_TEST_BROWSER", "chromium")
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line("markers", "chromium: what is asked of a browser beside its page, which needs Chromium's protocol")
+    config.addinivalue_line(
+        "markers", "chromium: what is asked of a browser beside its page, which needs Chromium's protocol"
+    )
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -95,11 +95,13 @@ def test_a_key_is_made_and_removed_and_the_text_is_as_before(opened: ScenePage) 
 
 def units_of(opened: ScenePage) -> list[str]:
     """The fields with a unit."""
-    paths = opened.page.evaluate("() => [...document.querySelectorAll('[data-test$=\".unit\"]')].map((one) => one.dataset.test)")
+    paths = opened.page.evaluate(
+        "() => [...document.querySelectorAll('[data-test$=\".unit\"]')].map((one) => one.dataset.test)"
+    )
     return [path.removesuffix(".unit") for path in paths]
 
 
-SCALED = '''name = "a"
+SCALED = """name = "a"
 [impactor]
 radius = "5 mm"
 material = "bearing steel 52100, hardened"
@@ -113,7 +115,7 @@ step_size = "2 us"
 [impact]
 mass = "4 g"
 speed = "1 m/s"
-'''
+"""
 
 
 def test_a_comma_is_a_decimal_sign_and_what_is_no_unit_never_becomes_one(opened: ScenePage) -> None:
@@ -122,13 +124,22 @@ def test_a_comma_is_a_decimal_sign_and_what_is_no_unit_never_becomes_one(opened:
     opened.write(SCALED)
     for path in fields:
         unit, menu = opened.form()[f"{path}.unit"], opened.at(f"{path}.unit").text_content()
-        for typed, written in (("x", None), ("6,5 furlong", None), ("6,5", "6.5"), ("0,125", "0.125"), ("7,25e1", "7.25e1")):
+        for typed, written in (
+            ("x", None),
+            ("6,5 furlong", None),
+            ("6,5", "6.5"),
+            ("0,125", "0.125"),
+            ("7,25e1", "7.25e1"),
+        ):
             before = opened.text
             opened.type(path, typed)
             text = opened.changes_from(before)
             value = tomllib.loads(text)[path.partition(".")[0]][path.partition(".")[2]]
             assert value == (f"{written} {unit}" if written else typed), typed
-            assert opened.at("mistake").is_hidden() == (written is not None), (typed, opened.at("mistake").text_content())
+            assert opened.at("mistake").is_hidden() == (written is not None), (
+                typed,
+                opened.at("mistake").text_content(),
+            )
             assert opened.form()[f"{path}.unit"] == unit, typed
         assert opened.at(f"{path}.unit").text_content() == menu, "the menu has units alone"
         opened.write(SCALED)
@@ -141,7 +152,7 @@ def test_a_comma_is_a_decimal_sign_and_what_is_no_unit_never_becomes_one(opened:
     for typed, written in (("182,5", "182.5 HBW 10/3000"), ("58,5 HRC", "58.5 HRC"), ("60,5", "60.5 HRC")):
         opened.type("target.hardness", typed)
         wait_until(lambda: tomllib.loads(opened.text)["target"]["hardness"], written)
-        wait_until(lambda: opened.form()["target.hardness.scale"], written.partition(" ")[2])  # noqa: B023
+        wait_until(lambda: opened.form()["target.hardness.scale"], written.partition(" ")[2])
 
 
 def test_what_is_typed_key_by_key_stays_until_the_field_is_left(opened: ScenePage) -> None:
@@ -162,9 +173,11 @@ def test_ranges_are_in_the_unit_of_the_field(opened: ScenePage) -> None:
         if unit != "mm":
             opened.changes_from(before)
         opened.at("impactor.radius").focus()
-        wait_until(lambda: f"Range: from {range_}." in (opened.at("help").text_content() or ""), True)  # noqa: B023
+        wait_until(lambda: f"Range: from {range_}." in (opened.at("help").text_content() or ""), True)
     opened.type("impactor.radius", "-3 mm")
-    opened.at("impactor.radius.wrong").get_by_text("impactor.radius = -3 mm is out of range: allowed is 1e-9 to").wait_for()
+    opened.at("impactor.radius.wrong").get_by_text(
+        "impactor.radius = -3 mm is out of range: allowed is 1e-9 to"
+    ).wait_for()
 
 
 def test_the_keyboard_goes_from_a_material_to_the_next_field(opened: ScenePage) -> None:

@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, ClassVar, Self
 from urllib.request import url2pathname
 
 # Seconds until something that is waited for counts as missing.
@@ -60,7 +60,14 @@ SAVED = """async () => {
   return [name, btoa(text)];
 }"""
 
-KEYS = {"Control": "\ue009", "Shift": "\ue008", "Tab": "\ue004", "Enter": "\ue007", "ArrowDown": "\ue015", "ArrowRight": "\ue014"}
+KEYS = {
+    "Control": "\ue009",
+    "Shift": "\ue008",
+    "Tab": "\ue004",
+    "Enter": "\ue007",
+    "ArrowDown": "\ue015",
+    "ArrowRight": "\ue014",
+}
 
 
 class Firefox:
@@ -69,11 +76,17 @@ class Firefox:
     PATHS = "firefox-esr", "firefox"
 
     def __init__(self, program: str, folder: Path) -> None:
-        preferences = {"marionette.port": 0, "browser.shell.checkDefaultBrowser": False, "datareporting.policy.dataSubmissionEnabled": False}
+        preferences = {
+            "marionette.port": 0,
+            "browser.shell.checkDefaultBrowser": False,
+            "datareporting.policy.dataSubmissionEnabled": False,
+        }
         lines = (f"user_pref({json.dumps(name)}, {json.dumps(value)});\n" for name, value in preferences.items())
         (folder / "user.js").write_text("".join(lines))
         command = [program, "--headless", "--no-remote", "--marionette", "--profile", str(folder)]
-        self.process = subprocess.Popen(command, env=os.environ | {"HOME": str(folder)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.process = subprocess.Popen(
+            command, env=os.environ | {"HOME": str(folder)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
         port = folder / "MarionetteActivePort"
         wait(lambda: port.is_file() and port.read_text().strip(), "Firefox starts")
         self.socket = socket.create_connection(("127.0.0.1", int(port.read_text())), timeout=2 * PATIENCE)
@@ -109,18 +122,25 @@ class WebKit:
 
     PATHS = ("WebKitWebDriver",)
     BROWSERS = "/usr/lib/*/webkit2gtk-4.*/MiniBrowser", "/usr/libexec/webkit2gtk-4.*/MiniBrowser"
-    COMMANDS = {
+    COMMANDS: ClassVar = {
         "Navigate": "url", "ExecuteAsyncScript": "execute/async", "PerformActions": "actions", "SetWindowRect": "window/rect",
         "SetTimeouts": "timeouts", "ElementClick": "element/{id}/click", "ElementSendKeys": "element/{id}/value",
     }  # fmt: skip
 
     def __init__(self, program: str, folder: Path) -> None:
         self.processes: list[subprocess.Popen[bytes]] = []
-        variables = os.environ | {"HOME": str(folder), "XDG_RUNTIME_DIR": str(folder), "NO_AT_BRIDGE": "1", "WEBKIT_DISABLE_COMPOSITING_MODE": "1"}
+        variables = os.environ | {
+            "HOME": str(folder),
+            "XDG_RUNTIME_DIR": str(folder),
+            "NO_AT_BRIDGE": "1",
+            "WEBKIT_DISABLE_COMPOSITING_MODE": "1",
+        }
         if "DISPLAY" not in os.environ:
             read, write = os.pipe()
             screen = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"]
-            self.processes.append(subprocess.Popen(screen, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+            self.processes.append(
+                subprocess.Popen(screen, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            )
             os.close(write)
             with os.fdopen(read) as number:
                 variables["DISPLAY"] = f":{number.readline().strip()}"
@@ -128,7 +148,9 @@ class WebKit:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
         command = [program, f"--port={self.port}"]
-        self.processes.append(subprocess.Popen(command, env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        self.processes.append(
+            subprocess.Popen(command, env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        )
         wait(self._listens, "WebKitWebDriver starts")
         self.session = ""
 
@@ -265,9 +287,14 @@ class Tab:
         # the window is larger by its frame
         frame = [0, 0]
         for _ in range(2):
-            self.driver.send("SetWindowRect", x=0, y=0, width=size["width"] + frame[0], height=size["height"] + frame[1])
+            self.driver.send(
+                "SetWindowRect", x=0, y=0, width=size["width"] + frame[0], height=size["height"] + frame[1]
+            )
             with contextlib.suppress(AssertionError):
-                wait(lambda: self.evaluate("[innerWidth, innerHeight]") == [size["width"], size["height"]] or None, "a size")
+                wait(
+                    lambda: self.evaluate("[innerWidth, innerHeight]") == [size["width"], size["height"]] or None,
+                    "a size",
+                )
                 return
             width, height = self.evaluate("[innerWidth, innerHeight]")
             frame = [frame[0] + size["width"] - width, frame[1] + size["height"] - height]
@@ -277,7 +304,9 @@ class Tab:
 
     def press(self, keys: str) -> None:
         codes = [KEYS.get(key, key) for key in keys.split("+")]
-        actions = [{"type": "keyDown", "value": code} for code in codes] + [{"type": "keyUp", "value": code} for code in reversed(codes)]
+        actions = [{"type": "keyDown", "value": code} for code in codes] + [
+            {"type": "keyUp", "value": code} for code in reversed(codes)
+        ]
         self.driver.send("PerformActions", actions=[{"type": "key", "id": "keyboard", "actions": actions}])
 
     def screenshot(self, *, path: Path) -> None:
@@ -294,11 +323,13 @@ class Download:
         self.tab = tab
         self.suggested_filename, self.content = "", b""
 
-    def __enter__(self) -> Download:
+    def __enter__(self) -> Self:
         self.tab.evaluate("() => { window.saved = null; }")
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         if kind is None:
             self.suggested_filename, text = wait(lambda: self.tab.evaluate(SAVED), "a file is saved")
             self.content = base64.b64decode(text)
