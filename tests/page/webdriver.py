@@ -73,7 +73,7 @@ KEYS = {
 class Firefox:
     """Its commands, on the socket that `--marionette` opens."""
 
-    PATHS = "firefox-esr", "firefox"
+    PATHS = ("firefox-esr",)
 
     def __init__(self, program: str, folder: Path) -> None:
         preferences = {
