@@ -312,8 +312,7 @@ fn cell(value: &Value, unit: Option<&str>) -> Value {
             let unit = UNITS.into_iter().find(|known| Some(*known) == unit).unwrap_or("");
             Value::from_safe_string(prose(&quantity(number, unit)))
         }
-        Err(_) if value.as_str().is_some() => value.clone(),
-        _ => "-".into(),
+        _ => Value::from_safe_string(value.as_str().map_or("-".into(), prose)),
     }
 }
 

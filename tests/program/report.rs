@@ -67,6 +67,24 @@ fn the_page_is_self_contained_with_its_data_beside_it() {
 }
 
 #[test]
+fn the_cells_of_the_page_have_four_digits_and_units_with_the_signs_of_print() {
+    let (folder, _) = &*DEFAULT;
+    let page = fs::read_to_string(folder.path().join("report/index.html")).expect("a page");
+    let cells = page.split("<td").skip(1).filter_map(|rest| rest.split("</td>").next()?.split_once('>'));
+    let mut numbers = 0;
+    for (_, cell) in cells {
+        let words: Vec<&str> = cell.split([' ', '<', '\u{b7}']).collect();
+        assert!(!words.iter().any(|word| ["um", "us", "uJ"].contains(word)), "{cell}");
+        for word in words.iter().filter(|word| word.parse::<f64>().is_ok()) {
+            let digits = word.replace(['.', '-'], "");
+            assert!(digits.trim_matches('0').len() <= 4 && !word.contains('e'), "{cell}");
+            numbers += 1;
+        }
+    }
+    assert!(numbers > 500 && page.contains(" \u{b5}s</td>") && page.contains(" \u{b5}m</td>"), "{numbers} numbers");
+}
+
+#[test]
 fn the_page_has_every_row_of_the_data() {
     let (folder, data) = &*DEFAULT;
     let page = fs::read_to_string(folder.path().join("report/index.html")).expect("a page");

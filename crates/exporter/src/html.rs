@@ -48,6 +48,7 @@ pub fn quantity(value: f64, unit: &'static str) -> String {
 /// A number without `e`: `1e-12` becomes the twelfth negative power of ten.
 pub fn number(text: &str) -> String {
     match text.split_once('e') {
+        Some((mantissa, "0")) if text.parse::<f64>().is_ok() => mantissa.into(),
         Some((mantissa, exponent)) if text.parse::<f64>().is_ok() => {
             let times = match mantissa {
                 "1" => String::new(),
@@ -81,6 +82,7 @@ mod tests {
         for (text, printed) in [
             ("here an indentation of 225 um, and", "here an indentation of 225 \u{b5}m, and"),
             ("a contact of 2e-15 s (3 us).", "a contact of 2\u{b7}10<sup>\u{2212}15</sup> s (3 \u{b5}s)."),
+            ("a radius of 1e0 m", "a radius of 1 m"),
             ("-1e6 N & 7850 kg/m^3", "-10<sup>6</sup> N &amp; 7850 kg/m\u{b3}"),
             ("the 2 use a ball of us, 1 use", "the 2 use a ball of us, 1 use"),
             ("a factor of 0.3 effective radii", "a factor of 0.3 effective radii"),
