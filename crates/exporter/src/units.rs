@@ -367,7 +367,7 @@ pub fn shown(text: &str, unit: &str) -> Option<Shown> {
     Some(Shown { digits, unit: own.into(), size: Unit::parse(own)?.number("1", Unit::parse(unit)?), number })
 }
 
-/// The SI number that a form writes for what somebody types in a field with this `unit` beside it, if a power of ten is between them.
+/// Its SI number, if a power of ten is between them: then a scene that has it without a unit keeps all of its digits.
 pub fn bare(shown: &Shown) -> Option<f64> {
     let power = libm::log10(shown.size);
     ((power - libm::round(power)).abs() < 1e-12).then_some(shown.number)

@@ -166,7 +166,7 @@ impl Typed {
         // the digits behind a comma are yet to come
         let text = self.text.trim().trim_end_matches(',');
         let pointed = units::pointed(text).unwrap_or(text.into());
-        let number = pointed.parse::<f64>().ok().filter(|number| number.is_finite());
+        let number = pointed.replace('_', "").parse::<f64>().ok().filter(|number| number.is_finite());
         if text.is_empty() {
             return Value::Null;
         }
@@ -180,13 +180,10 @@ impl Typed {
             (None, Some(number)) => pointed.parse::<i64>().map_or(json!(number), |number| json!(number)),
             (None, None) => json!(text),
             (Some(unit), _) => match units::shown(whole, unit) {
-                Some(shown)
-                    if self.bare
-                        && let Some(number) = units::bare(&shown) =>
-                {
-                    json!(number)
-                }
-                Some(shown) => json!(format!("{} {}", shown.digits, shown.unit)),
+                Some(shown) => match units::bare(&shown).filter(|_| self.bare) {
+                    Some(number) => json!(number),
+                    None => json!(format!("{} {}", shown.digits, shown.unit)),
+                },
                 // a unit of a law
                 None if number.is_some() && units::shown(&format!("1 {unit}"), unit).is_none() => json!(number),
                 None => json!(whole),

@@ -55,6 +55,7 @@ fn what_is_typed_is_read_by_the_exporter() {
     for (text, unit, bare, value) in [
         ("6,5", "mm", false, json!("6.5 mm")),
         ("6,", "mm", false, json!("6 mm")),
+        ("1_000", "um", false, json!("1000 um")),
         (" 6.50 ", "um", false, json!("6.50 um")),
         ("0,25 in", "mm", false, json!("0.25 in")),
         ("6,5", "mm", true, json!(6.5e-3)),
