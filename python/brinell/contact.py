@@ -12,7 +12,7 @@ from typing import Any, Self
 import numpy as np
 
 from .errors import ContactError, ContactWarning, tell
-from .library import WARNING, Instance, Library
+from .library import Instance, Library
 from .stepping import Force, Stepping
 from .variables import Gaps, Numbers, Parameters, Texts, Variables, number
 
@@ -275,20 +275,8 @@ class Contact:
         """Read any variable by its name, in SI units. With several contacts, the plain name of an
         output gives an array over the contacts; with two tangential directions, of pairs."""
         with self._lock:
-            component, variables = self._alive(), self._variables
-            names = [name] if name in variables else variables.components(name)
-            if not names:
-                raise variables.unknown("variable", name)
-            real = variables.is_real(names[0])
-            values = ((c_double if real else c_int) * len(names))()
-            function = "GetReal" if real else "GetInteger"
-            get, references = (
-                self._instance.functions["fmi2" + function],
-                variables.references(names),
-            )
-            if get(component, references, len(names), values) > WARNING:
-                raise self._instance.refusal(function)
-            return values[0] if len(names) == 1 else variables.shaped(names, values)
+            self._alive()
+            return self._variables.reading(name)(self._instance)
 
     def derivative(self, name: str = "force", order: int = 1) -> Any:
         """Read the time derivative of an output at the end of the last step: per second (order 1),
@@ -335,3 +323,17 @@ class Contact:
             finally:
                 call("FreeFMUstate", byref(pointer))
             self._time = state.time
+
+    def _keep(self) -> None:
+        """Keep the state in memory, for `_back`: once, and faster than `save`."""
+        with self._lock:
+            self._alive()
+            self._instance.keep()
+            self._kept_time = self._time
+
+    def _back(self) -> None:
+        """Return to the state that was kept last."""
+        with self._lock:
+            self._alive()
+            self._instance.back()
+            self._time = self._kept_time

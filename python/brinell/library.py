@@ -145,14 +145,23 @@ class Instance:
         if component is None:
             del _logs[number]
             raise ContactError(f"{library.path}: the FMU creates no instance: {self.text()}")
+        self._kept = c_void_p()
         # the library stays loaded until the instance is freed
-        self._finalizer = weakref.finalize(self, _free, library, component, number)
+        self._finalizer = weakref.finalize(self, _free, library, component, number, self._kept)
 
     def call(self, function: str, *arguments: Any) -> None:
         """Call `fmi2<function>`; raise `ContactError` with the FMU's text if it is rejected."""
         status = self.functions["fmi2" + function](self.component, *arguments)
         if status > WARNING:
             raise self.refusal(function)
+
+    def keep(self) -> None:
+        """Keep the state in the FMU's own memory, for `back`."""
+        self.call("GetFMUstate", byref(self._kept))
+
+    def back(self) -> None:
+        """Return to the state that was kept last."""
+        self.call("SetFMUstate", self._kept)
 
     def refusal(self, function: str) -> ContactError:
         """The error for a call that was just rejected."""
@@ -177,6 +186,7 @@ class Instance:
         self._finalizer()
 
 
-def _free(library: Library, component: Any, number: int) -> None:
+def _free(library: Library, component: Any, number: int, kept: c_void_p) -> None:
+    library.functions["fmi2FreeFMUstate"](component, byref(kept))
     library.functions["fmi2FreeInstance"](component)
     _logs.pop(number, None)

@@ -37,6 +37,8 @@ class Stepping:
         # whether any derivative is not zero
         self._set = False
         self._values = (c_double * count)()
+        # of the upper triangle of the inverse masses, made when they are first given
+        self._masses: tuple[Any, int, Any] | None = None
         self._choose(force)
 
     def _choose(self, force: Force) -> None:
@@ -109,6 +111,9 @@ class Stepping:
         return self._values[0] if count == 1 else np.array(self._values)
 
     def _fill(self, array: Any, first: int, name: str, values: Any) -> None:
+        if type(values) is np.ndarray and values.dtype == float and values.shape == (self._count,):
+            array[first : first + self._count] = values.tolist()
+            return
         if self._count == 1 and (type(values) is float or np.shape(values) != (1,)):
             array[first] = number(name, values)
             return
@@ -183,12 +188,7 @@ class Stepping:
         """The tangential force [N] of each contact that belongs to the force of the last step; an
         array of its two components with two tangential directions."""
         name = "mean_tangential_force" if self._was_mean else "tangential_force"
-        names = self._variables.components(name)
-        if not names:
-            raise self._variables.unknown("output", name, self._variables.outputs)
-        values = (c_double * len(names))()
-        instance.call("GetReal", self._variables.references(names), len(names), values)
-        return self._variables.shaped(names, values)
+        return self._variables.reading(name)(instance)
 
     def _follow(self, instance: Instance, h: float, gap: Numbers) -> None:
         """Contacts that cannot touch within the step end it where those of the engine do: a rate
@@ -197,12 +197,9 @@ class Stepping:
         gaps, now = (c_double * count)(), {}
         self._fill(gaps, 0, "gap", gap)
         for name in ("indentation", "force"):
-            values = (c_double * count)()
-            names = variables.every(name)
-            if not names:
+            if not variables.every(name):
                 raise variables.unknown("output", name)
-            instance.call("GetReal", variables.references(names), count, values)
-            now[name] = np.array(values)
+            now[name] = np.atleast_1d(variables.reading(name)(instance))
         rate, (first, second) = np.array(self._rates), np.reshape(self._derivatives, (2, count))
         closer = [np.maximum(part, 0.0) for part in (rate, first, second)]
         reach = h * (closer[0] + h / 2.0 * (closer[1] + h / 3.0 * closer[2]))
@@ -242,16 +239,19 @@ class Stepping:
                 "column for each contact"
                 + (", and for each of its tangents" if variables.directions else "")
             )
-        entries = [[number("inverse_masses", value) for value in row] for row in matrix]
-        values = np.array(entries)
+        values = matrix
+        if type(matrix) is not np.ndarray or matrix.dtype != float:
+            values = np.array([[number("inverse_masses", it) for it in row] for row in matrix])
         skew = np.abs(values - values.T)
         # products of an engine's matrices are symmetric to rounding
-        if np.any(skew > SYMMETRIC * np.abs(values).max()):
+        if skew.any() and np.any(skew > SYMMETRIC * np.abs(values).max()):
             row, column = np.unravel_index(np.nanargmax(skew), skew.shape)
             raise ContactError(
                 f"inverse_masses: entry [{row + 1},{column + 1}] = {values[row, column]} and "
                 f"[{column + 1},{row + 1}] = {values[column, row]} 1/kg must be equal"
             )
-        upper = values[np.triu_indices(count)].tolist()
-        array = (c_double * len(names))(*upper)
-        instance.call("SetReal", self._variables.references(names), len(names), array)
+        if self._masses is None:
+            self._upper = np.triu_indices(count)
+            self._masses = (variables.references(names), len(names), (c_double * len(names))())
+        self._masses[2][:] = values[self._upper].tolist()
+        instance.call("SetReal", *self._masses)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from ctypes import c_uint
+from ctypes import c_double, c_int, c_uint
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .errors import ContactError, UnknownName, nearest
-from .library import Library
+from .library import WARNING, Instance, Library
 from .program import in_si
 
 RATE = "indentation_rate"
@@ -24,12 +24,30 @@ Parameters = Mapping[str, Numbers | Texts]
 """By name. A parameter that each contact has for itself takes one number for all, or one for each."""
 
 
+class Reading:
+    """Variables that are read together. Arrays for C are made once."""
+
+    def __init__(self, references: Any, is_real: bool, shape: tuple[int, ...]) -> None:
+        self._function = "GetReal" if is_real else "GetInteger"
+        self._values = ((c_double if is_real else c_int) * len(references))()
+        self._shown = np.ctypeslib.as_array(self._values).reshape(shape)
+        self._references = references
+
+    def __call__(self, instance: Instance) -> Any:
+        """Their values: a number, or an array."""
+        get, values = instance.functions["fmi2" + self._function], self._values
+        if get(instance.component, self._references, len(values), values) > WARNING:
+            raise instance.refusal(self._function)
+        return values[0] if self._shown.ndim == 0 else self._shown.copy()
+
+
 class Variables:
     """The variables of an FMU, read once from its description."""
 
     def __init__(self, library: Library) -> None:
         self._all = library.variables
         self._path = library.path
+        self._readings: dict[str, Reading] = {}
         rates = self.owners(RATE, "input")
         if not rates:
             raise ContactError(f"{self._path} has no input {RATE}: it is not an FMU of Brinell")
@@ -74,13 +92,21 @@ class Variables:
         """The number of tangential directions, 0 without friction."""
         return len(self.components("tangential_rate")) // len(self.contacts)
 
-    def shaped(self, names: Sequence[str], values: Any) -> Any:
-        """The values of `components` in an array for C: a number or an array over the contacts, with
-        two tangential directions of their two components each."""
-        count = len(self.contacts)
-        if len(names) == count:
-            return values[0] if count == 1 else np.array(values)
-        return np.array(values) if count == 1 else np.reshape(values, (count, 2))
+    def reading(self, name: str) -> Reading:
+        """Any variable by its name. With several contacts, the plain name of an output is an array over
+        the contacts; with two tangential directions, of pairs."""
+        found = self._readings.get(name)
+        if found is not None:
+            return found
+        names = [name] if name in self._all else self.components(name)
+        if not names:
+            raise self.unknown("variable", name)
+        # what each contact has, and how many of it
+        sizes = (len(self.contacts), len(names) // len(self.contacts))
+        shape = () if len(names) == 1 else tuple(size for size in sizes if size > 1)
+        made = Reading(self.references(names), self.is_real(names[0]), shape)
+        self._readings[name] = made
+        return made
 
     def owners(self, name: str, causality: str | None = None) -> list[str]:
         """All variables with this name, with or without the name of a contact or group in front."""
