@@ -64,12 +64,14 @@ def attach(
     - `inverse_masses = "input"`, for contacts that share bodies and for friction; with
       `parameters_per_contact = ["initial_gap"]` for contacts with a `count`.
 
-    A scene with `[friction]` should have `directions = 2`. `parameters` are those of `Contact`.
+    A scene with `[friction]` should have `directions = 2`, unless the bodies can slide in one
+    direction only, which is then that of the friction; otherwise a warning says so. Directions in
+    which they can't move are left out. `parameters` are those of `Contact`.
 
     Drake must not compute the contact of a pair, too: the bodies have no collision geometry, or
     a collision filter excludes the pair. The bodies must be free to follow the impulses but for
     their joints: the FMU does not know constraints, limits and contacts of Drake, whose forces are
-    those at the start of a step.
+    constant over a step.
     """
     if not plant.is_finalized():
         raise ContactError("the plant is not finalized: call plant.Finalize() before attach")
@@ -118,10 +120,18 @@ class Attached(attached.Attached):
         self.plant, self.simulator, self._pairs = plant, simulator, pairs
         self.context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
         self._spare: Any = plant.CreateDefaultContext()
+        # each once, in the order of their numbers
+        spheres = [sphere for pair in pairs for sphere in pair if isinstance(sphere, Sphere)]
+        self._moving = {sphere.body.index(): sphere.body for sphere in spheres}
+        numbers = {index: number for number, index in enumerate(self._moving)}
         shapes = []
         for first, other in pairs:
-            reach = other.radius if isinstance(other, Sphere) else 0.0
-            shapes.append(Pair(first.radius, reach, isinstance(other, Plane)))
+            own = numbers[first.body.index()]
+            if isinstance(other, Sphere):
+                both = (own, numbers[other.body.index()])
+                shapes.append(Pair(first.radius, other.radius, False, both))
+            else:
+                shapes.append(Pair(first.radius, 0.0, True, (own, -1)))
         super().__init__(shapes, contact, parameters)
 
     def _steps(self) -> int:
@@ -159,37 +169,79 @@ class Attached(attached.Attached):
         _, first, second, third, fourth = slopes
         return np.asarray(place + time / 6.0 * (first + 2.0 * second + 2.0 * third + fourth))
 
+    @property
+    def _damping(self) -> Array:
+        damping = self._joint_damping()
+        for motor, first, gain in self._steered():
+            damping[first] += gain if abs(self._torque(motor)) < motor.effort_limit() else 0.0
+        return damping
+
+    def _joint_damping(self) -> Array:
+        plant, damping = self.plant, np.zeros(self.plant.num_velocities())
+        for joint in map(plant.get_joint, plant.GetJointIndices()):
+            part = slice(joint.velocity_start(), joint.velocity_start() + joint.num_velocities())
+            damping[part] = joint.GetDampingVector(self.context)
+        return damping
+
+    def _steered(self) -> list[tuple[Any, int, float]]:
+        """The actuators with a controller of the plant, where they act, and what acts as a damping."""
+        plant, found = self.plant, []
+        for index in plant.GetJointActuatorIndices():
+            motor = plant.get_joint_actuator(index)
+            if motor.has_controller():
+                gains = motor.get_controller_gains()
+                # the plant takes place and speed at the end of its step
+                gain = gains.d + self._timestep * gains.p
+                found.append((motor, motor.joint().velocity_start(), gain))
+        return found
+
+    def _torque(self, motor: Any) -> float:
+        """What an actuator with a controller gives in a step of the plant [N or N m]."""
+        torques = self.plant.get_net_actuation_output_port().Eval(self.context)
+        return float(torques[motor.input_start()])
+
     def _acceleration(self) -> Array:
         plant, context, spare = self.plant, self.context, self._spare
         # with all that the plant computes in a step: actuators, springs, joint limits, constraints
         plant.CalcForcedUnrestrictedUpdate(context, spare.get_mutable_state())
-        change = plant.GetVelocities(spare) - plant.GetVelocities(context)
-        return np.asarray(change / self._timestep)
+        change = np.asarray(plant.GetVelocities(spare) - plant.GetVelocities(context))
+        # and without what its step takes off the forces at the start
+        lost = self._joint_damping() * change
+        for motor, first, gain in self._steered():
+            torque, limit = self._torque(motor), motor.effort_limit()
+            lost[first] += np.clip(torque + gain * change[first], -limit, limit) - torque
+        return change / self._timestep + (self._solve(lost[None])[0] if lost.any() else 0.0)
 
     def _solve(self, rows: Array) -> Array:
         return np.linalg.solve(self.plant.CalcMassMatrix(self.context), rows.T).T
 
-    def _geometry(self, index: int) -> tuple[Array, Array, Array]:
-        first, other = self._pairs[index]
-        pose = self.plant.EvalBodyPoseInWorld(self.context, first.body)
-        centre = pose.multiply(np.array(first.centre))
-        if isinstance(other, Plane):
-            from_axis: Any = RotationMatrix.MakeFromOneVector
-            return centre, np.array(other.point), from_axis(np.array(other.normal), 2).matrix().T
-        pose = self.plant.EvalBodyPoseInWorld(self.context, other.body)
-        return centre, pose.multiply(np.array(other.centre)), pose.rotation().matrix().T
+    def _spheres(self) -> tuple[Array, Array, Array]:
+        centres, others, axes = [], [], []
+        for first, other in self._pairs:
+            pose = self.plant.EvalBodyPoseInWorld(self.context, first.body)
+            centres.append(pose.multiply(np.array(first.centre)))
+            if isinstance(other, Plane):
+                from_axis: Any = RotationMatrix.MakeFromOneVector
+                others.append(np.array(other.point))
+                axes.append(from_axis(np.array(other.normal), 2).matrix())
+            else:
+                pose = self.plant.EvalBodyPoseInWorld(self.context, other.body)
+                others.append(pose.multiply(np.array(other.centre)))
+                axes.append(pose.rotation().matrix())
+        return np.array(centres), np.array(others), np.array(axes)
 
-    def _jacobians(self, index: int) -> tuple[Array, Array]:
-        plant, found = self.plant, np.zeros((2, 2, 3, self.plant.num_velocities()))
-        world, by = plant.world_frame(), JacobianWrtVariable.kV
-        for part, sphere in enumerate(self._pairs[index]):
-            if isinstance(sphere, Sphere):
-                frame, centre = sphere.body.body_frame(), np.array(sphere.centre)
-                turns, moves = plant.CalcJacobianSpatialVelocity(
-                    self.context, by, frame, centre, world, world
-                ).reshape(2, 3, -1)
-                found[part] = moves, turns
-        return found[0], found[1]
+    def _jacobians(self) -> tuple[Array, Array]:
+        plant, context, by = self.plant, self.context, JacobianWrtVariable.kV
+        world, points = plant.world_frame(), np.zeros((len(self._moving) + 1, 3))
+        motions = np.zeros((len(points), 2, 3, plant.num_velocities()))
+        for point, motion, body in zip(points, motions, self._moving.values(), strict=False):
+            frame = body.body_frame()
+            turns, moves = plant.CalcJacobianSpatialVelocity(
+                context, by, frame, np.zeros(3), world, world
+            ).reshape(2, 3, -1)
+            motion[:] = moves, turns
+            point[:] = plant.EvalBodyPoseInWorld(context, body).translation()
+        return points, motions
 
     def _end(
         self, start: tuple[Array, Array], place: Array, speed: Array, acceleration: Array

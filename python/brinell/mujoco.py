@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import mujoco
@@ -45,14 +45,15 @@ def attach(
     - `inverse_masses = "input"`, for contacts that share bodies and for friction; with
       `parameters_per_contact = ["initial_gap"]` for contacts with a `count`.
 
-    A scene with `[friction]` should have `directions = 2`; with one, only the first tangent of each
-    contact has friction, which is across the normal along an axis of the other geom. `parameters`
-    are those of `Contact`.
+    A scene with `[friction]` should have `directions = 2`, unless the bodies can slide in one
+    direction only, which is then that of the friction; otherwise a warning says so. Directions in
+    which they can't move are left out. `parameters` are those of `Contact`.
 
     MuJoCo's own contact of a pair must be off: `contype="0" conaffinity="0"`, or an `<exclude>`.
-    The integrator must be Euler, MuJoCo's default. The bodies must be free to follow the impulses
-    but for their joints: the FMU does not know the constraints of the engine (equalities, limits,
-    other contacts), whose forces are those at the start of a step.
+    The integrator must be Euler, MuJoCo's default, for which `h kv/I` of servos is below 2. The
+    bodies must be free to follow the impulses but for their joints: the FMU does not know the
+    constraints of the engine (equalities, limits, other contacts), whose forces are constant over a
+    step.
     """
     if model.opt.integrator != mujoco.mjtIntegrator.mjINT_EULER:
         name = mujoco.mjtIntegrator(model.opt.integrator).name.removeprefix("mjINT_").lower()
@@ -67,11 +68,9 @@ class _Pair(attached.Pair):
     """A sphere that touches a plane or another sphere, in a model of MuJoCo."""
 
     geom: int
-    body: int
     place: Array
     """The centre of the sphere in its geom [m]."""
     other: int
-    other_body: int
 
 
 def _pairs_of(model: mujoco.MjModel, names: tuple[str, str], corner: float | None) -> list[_Pair]:
@@ -116,10 +115,8 @@ def _pairs_of(model: mujoco.MjModel, names: tuple[str, str], corner: float | Non
         signs = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3, indexing="ij"), axis=-1).reshape(8, 3)
         places = signs * (size - corner)
     reach = 0.0 if on_plane else float(model.geom_size[other, 0])
-    return [
-        _Pair(own, reach, on_plane, first, bodies[first], place, other, bodies[other])
-        for place in places
-    ]
+    both = (int(bodies[first]), int(bodies[other]))
+    return [_Pair(own, reach, on_plane, both, first, place, other) for place in places]
 
 
 def _collide(model: mujoco.MjModel, first: int, other: int) -> bool:
@@ -147,13 +144,30 @@ class Attached(attached.Attached):
         contact: Attachable,
         parameters: dict[str, Any],
     ) -> None:
-        self.model, self.data, self._pairs = model, data, pairs
-        mujoco.mj_kinematics(model, data)
-        super().__init__(pairs, contact, parameters)
+        self.model, self.data = model, data
+        self._geoms = np.array([pair.geom for pair in pairs])
+        self._places = np.array([pair.place for pair in pairs])
+        self._others = np.array([pair.other for pair in pairs])
+        # those that joints move
+        moving = {body for pair in pairs for body in pair.bodies if model.body_weldid[body] > 0}
+        self._moving = sorted(moving)
+        self._motions = np.zeros((len(moving) + 1, 2, 3, model.nv))
+        self._points = np.zeros((len(moving) + 1, 3))
+        mujoco.mj_fwdPosition(model, data)
+        numbers = {body: number for number, body in enumerate(self._moving)}
+        numbered = []
+        for pair in pairs:
+            first, other = (numbers.get(body, -1) for body in pair.bodies)
+            numbered.append(replace(pair, bodies=(first, other)))
+        super().__init__(numbered, contact, parameters)
 
     @property
     def _timestep(self) -> float:
         return float(self.model.opt.timestep)
+
+    @property
+    def _damping(self) -> Array:
+        return np.asarray(self.model.dof_damping)
 
     def _state(self) -> tuple[Array, Array]:
         return self.data.qpos.copy(), self.data.qvel.copy()
@@ -168,7 +182,8 @@ class Attached(attached.Attached):
         return moved
 
     def _acceleration(self) -> Array:
-        mujoco.mj_forward(self.model, self.data)
+        # the places were put
+        mujoco.mj_forwardSkip(self.model, self.data, mujoco.mjtStage.mjSTAGE_POS, 0)
         return np.array(self.data.qacc)
 
     def _solve(self, rows: Array) -> Array:
@@ -176,22 +191,23 @@ class Attached(attached.Attached):
         mujoco.mj_solveM(self.model, self.data, solved, rows)
         return solved
 
-    def _geometry(self, index: int) -> tuple[Array, Array, Array]:
-        pair, data = self._pairs[index], self.data
-        centre = data.geom_xpos[pair.geom] + data.geom_xmat[pair.geom].reshape(3, 3) @ pair.place
-        return centre, data.geom_xpos[pair.other], data.geom_xmat[pair.other].reshape(3, 3).T
+    def _spheres(self) -> tuple[Array, Array, Array]:
+        places, axes = self.data.geom_xpos, self.data.geom_xmat.reshape(-1, 3, 3)
+        centres = places[self._geoms]
+        if self._places.any():
+            centres += (axes[self._geoms] @ self._places[..., None])[..., 0]
+        return centres, places[self._others], axes[self._others]
 
-    def _jacobians(self, index: int) -> tuple[Array, Array]:
-        pair, (centre, other, _) = self._pairs[index], self._geometry(index)
-        first, second = np.zeros((2, 2, 3, self.model.nv))
-        mujoco.mj_jac(self.model, self.data, *first, centre, pair.body)
-        mujoco.mj_jac(self.model, self.data, *second, other, pair.other_body)
-        return first, second
+    def _jacobians(self) -> tuple[Array, Array]:
+        for body, motion, point in zip(self._moving, self._motions, self._points, strict=False):
+            point[:] = self.data.xpos[body]
+            mujoco.mj_jac(self.model, self.data, *motion, point, body)
+        return self._points, self._motions
 
     def _end(
         self, start: tuple[Array, Array], place: Array, speed: Array, acceleration: Array
     ) -> None:
-        # with the mass matrix of the state before
-        self.data.qvel, self.data.qacc = speed, acceleration
+        # the time, the activations of actuators, and what else a step of the engine changes
+        self.data.qacc = acceleration
         mujoco.mj_Euler(self.model, self.data)
-        self._put(place, self.data.qvel.copy())
+        self._put(place, speed + self._timestep * acceleration)

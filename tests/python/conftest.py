@@ -47,3 +47,13 @@ def unit(tmp_path_factory):
         return made[name]
 
     return export
+
+
+@pytest.fixture(scope="module")
+def resting(tmp_path_factory):
+    """An FMU of one contact with a loss, so that bodies come to rest."""
+    scene = tmp_path_factory.mktemp("resting") / "resting.toml"
+    values = {"name": "resting", "coupling": INPUTS, "count": 1, "more": "", "friction": "", "outputs": ""}
+    text = SCENE.format(**values).replace('"contact-radius"', '"contact-radius"\nelastic_restitution = 0.8')
+    scene.write_text(text, encoding="utf-8")
+    return brinell.export(scene, scene.with_suffix(".fmu"))
