@@ -19,6 +19,8 @@ from .library import Library
 SINGULAR = 1e-9
 """Directions in which the inverse masses are smaller than this part of the largest are those of
 redundant contacts, such as the fourth foot of a box: nothing moves along them."""
+LEVER = 1e-3
+"""The same for slips beside the distances: bodies that must move far for a small slip don't."""
 ALONE = 1e-9
 """Contacts whose inverse masses couple by less than this part of their own share no body."""
 STILL = 1e-6
@@ -732,14 +734,14 @@ class Attached(ABC):
         inverse = _inverse(masses[np.ix_(normals, normals)], largest)
         free = masses[np.ix_(slips, slips)] - coupling @ inverse @ coupling.T
         back = back - coupling @ (inverse @ ways)
-        along = _inverse(free, largest) @ back
+        along = _inverse(free, largest, LEVER) @ back
         return np.concatenate((inverse @ (ways - coupling.T @ along), along)), free @ along - back
 
 
-def _inverse(matrix: Array, largest: float) -> Array:
+def _inverse(matrix: Array, largest: float, part: float = SINGULAR) -> Array:
     """The inverse, without the directions in which nothing moves."""
     values, vectors = np.linalg.eigh(matrix)
-    moves = values > SINGULAR * largest
+    moves = values > part * largest
     return np.asarray((vectors[:, moves] / values[moves]) @ vectors[:, moves].T)
 
 
