@@ -28,6 +28,7 @@ fn models() -> impl Iterator<Item = (&'static str, Model<AnyDamped>)> {
 /// The law of Adams with random numbers: its surface lags behind, and grips again below an exponent of 2.
 fn random_adams(random: &mut Random) -> Model<AnyDamped> {
     let law = Adams {
+        stiffness: 0.0,
         stiffness_factor: random.log_uniform(0.1, 10.0),
         exponent: if random.next() < 0.8 { 1.0 + random.next() } else { 2.0 + random.next() },
         full_damping: random.log_uniform(1.0, 1e4),

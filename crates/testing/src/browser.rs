@@ -79,5 +79,5 @@ fn run(browser: &Browser, files: &[&str], kind: &str, given: impl FnOnce(&mut Co
     let output = given(&mut command).output().expect("the virtual environment has an interpreter");
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{files:?} failed in {kind}:\n{text}");
-    text
+    text.into_owned()
 }

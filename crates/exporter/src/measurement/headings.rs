@@ -210,11 +210,11 @@ fn size_of(unit: &str, si: &str, name: &str) -> Result<f64, String> {
     if let Some((_, why)) = MASSES.iter().find(|(mass, _)| si == "N" && *mass == plain) {
         return Err(format!("`{unit}` is ambiguous for {name}: {why}"));
     }
-    let usual = units::usual().find(|(other, _)| *other == si).map_or(&[][..], |(_, usual)| usual);
+    let usual = usual_of(si);
     let alike: Vec<&str> = usual.iter().copied().filter(|other| other.to_lowercase() == plain.to_lowercase()).collect();
     match alike[..] {
         [one] => units::size(one, si).ok_or_else(|| format!("`{unit}` is no unit of {name}")),
-        [] => Err(format!("`{}` is no unit of {name}; expected {}", shortened(unit), one_of(usual))),
+        [] => Err(format!("`{}` is no unit of {name}; expected {}", shortened(unit), one_of(&usual))),
         _ => Err(format!("`{unit}` is ambiguous for {name}: it may be {}", one_of(&alike))),
     }
 }
@@ -232,7 +232,13 @@ fn is_alias(plain: &str) -> bool {
 
 /// The usual units of a quantity, for messages.
 pub fn usual(kind: &ColumnKind) -> Vec<&'static str> {
-    units::usual().find(|(unit, _)| *unit == kind.unit).map_or(Vec::new(), |(_, usual)| usual.to_vec())
+    usual_of(kind.unit)
+}
+
+/// The usual units of the quantities with this SI unit.
+fn usual_of(si: &str) -> Vec<&'static str> {
+    let units = units::usual().filter(|(unit, _)| *unit == si).flat_map(|(_, usual)| usual);
+    units.map(|(unit, _)| unit).collect()
 }
 
 /// The name that is most like that of an unknown `heading`, if any is.

@@ -239,7 +239,8 @@ impl Case {
         let law = choices[0].laws.clone();
         let radius = |name: &str| scene.group_value(0, name);
         let radii = Radii::new(radius("impactor.radius").unwrap_or(f64::NAN), radius("target.radius"));
-        let with_part = |part: &f64| Some((*part, of_law(scene, Impact { mass: part * mass, speed }, false).ok()?.restitution));
+        let with_part =
+            |part: &f64| Some((*part, of_law(scene, Impact { mass: part * mass, speed }, false).ok()?.restitution));
         let at_other_masses = OTHER_MASSES.iter().filter_map(with_part).collect();
         Ok(Case { mass, speed, speeds, wanted: wanted?, radii, law, at_other_masses })
     }
