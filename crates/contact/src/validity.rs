@@ -65,6 +65,7 @@ impl Depths {
 /// Illinois method.
 ///
 /// Reference: M. Dowell, P. Jarratt, *BIT* 11 (1971) 168-174.
+#[inline(never)]
 fn indentation_at(wanted: f64, radius: f64, contact_radius: &impl Fn(f64) -> f64) -> f64 {
     // ratios are squared, because the square of a small radius may underflow
     let excess = |depth: f64| {

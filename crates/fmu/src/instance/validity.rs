@@ -76,10 +76,14 @@ impl<S: Scene> Instance<S> {
     pub(super) fn check_width_of(&mut self, contact: usize, rate: f64, step: f64) -> Result<(), Fault> {
         let Depths { possible, .. } = self.depths(contact);
         let Some(history) = self.histories().get(contact) else { return Ok(()) };
-        if history.indentation() + rate * step < possible {
+        let end = history.indentation() + rate * step;
+        if end < possible {
             return Ok(());
         }
-        // on a plate, the bodies come closer than the indentation tells
+        // only on a plate, which has no derivatives, the bodies come closer than the indentation tells
+        if S::derivatives() > 0 {
+            return Err(Fault::TooWide { contact, indentation: end, possible });
+        }
         let (mut history, model) = (*history, self.model(contact));
         let kept = S::Contact::kept(&model);
         history.step_held(rate, step, &kept, || model).map_err(|deep| too_deep(contact, deep))?;
