@@ -627,7 +627,8 @@ impl Found<'_> {
             let path = if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
             if let (TEST | CURVE, DeValue::String(name)) = (key.as_ref(), value.get_ref()) {
                 let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(name)));
-                let curve = self.curve(name, &specimen(table)?).map_err(wrong)?;
+                let owner = path.rsplit_once('.').map_or("", |(owner, _)| owner);
+                let curve = self.curve(name, &specimen(owner, table)?).map_err(wrong)?;
                 self.values.insert(value.span().start, (value.span().end, curve));
                 return Ok(());
             }
@@ -664,13 +665,15 @@ impl Found<'_> {
     }
 }
 
-/// What a `table` beside a curve says of its specimen.
-fn specimen(table: &DeTable) -> Result<Specimen, Mistake> {
+/// What a `table` beside a curve says of its specimen. `owner` is its path.
+fn specimen(owner: &str, table: &DeTable) -> Result<Specimen, Mistake> {
     let number = |key: &str| {
         let Quantity { unit, allowed } = quantity_of(TEST, key);
         let Some((unit, value)) = unit.zip(table.get(key)) else { return Ok(None) };
         let number = match value.get_ref() {
-            DeValue::String(text) => units::with_unit(text, unit).and_then(Result::ok),
+            DeValue::String(text) => units::with_unit(text, unit)
+                .transpose()
+                .map_err(|why| Mistake(value.span(), format!("{owner}.{key} = \"{}\": {why}", shortened(text))))?,
             DeValue::Float(number) => number.as_str().replace('_', "").parse().ok(),
             DeValue::Integer(number) => number.as_str().replace('_', "").parse().ok(),
             // of another type: the parser tells
@@ -679,7 +682,7 @@ fn specimen(table: &DeTable) -> Result<Specimen, Mistake> {
         let is_out = |number: &f64| !allowed.contains(number);
         match number.filter(is_out) {
             Some(number) => {
-                Err(Mistake(value.span(), format!("{TEST}.{key} {}", out_of_range(number, &allowed, unit))))
+                Err(Mistake(value.span(), format!("{owner}.{key} {}", out_of_range(number, &allowed, unit))))
             }
             None => Ok(number),
         }
