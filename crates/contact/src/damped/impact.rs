@@ -158,8 +158,8 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
 
     /// Whether a surface that grips again has let go of the bodies, or gripped, on the way `from` one state to a later one.
     fn lets_go_or_grips(&self, from: &State, later: &State) -> bool {
-        // bodies that are apart, or about to touch, had the surface's force just before or after
-        let pushes = |state: &State| state.indentation <= 0.0 || self.force(state) > 0.0;
+        // it lags behind in a separation only, and ends with a force
+        let pushes = |state: &State| state.speed >= 0.0 || state.indentation <= 0.0 || self.force(state) > 0.0;
         self.law.grips_again() && pushes(from) != pushes(later)
     }
 

@@ -98,9 +98,12 @@ impl<D: Damped + Copy> Bodies<D> {
         (time < step).then_some(time)
     }
 
-    /// Whether the surface pushes. A touch begins with a force, and a surface that grips again ends with one.
+    /// Whether the surface pushes. It lags behind in a separation only, and one that grips again ends with a force, which may be too
+    /// small for a number.
     fn pushes(&self, state: &State) -> bool {
-        state.depth <= 0.0 || self.contact.sum_of_forces(state.depth, state.speed) > 0.0
+        state.speed >= 0.0
+            || state.depth <= SMALLEST_MOTION
+            || self.contact.sum_of_forces(state.depth, state.speed) > 0.0
     }
 
     /// The longest first step \[s\] of a surface that didn't push at the state `before` and has gripped now: the force begins with
