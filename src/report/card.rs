@@ -2,7 +2,7 @@
 
 use super::Figure;
 use brinell_contact::impact::Prediction;
-use brinell_exporter::numbers::{percent, quantity, significant, with_band};
+use brinell_exporter::numbers::{cell, percent, quantity, significant, with_band};
 use brinell_exporter::plot::{Picture, Series, View};
 use brinell_exporter::predict::spread;
 use brinell_exporter::predict::time_history::moments;
@@ -32,8 +32,8 @@ pub fn facts(scene: &Scene) -> Vec<Fact> {
             Body::Impactor => "Impactor's strength from",
             Body::Target => "Target's strength from",
         };
-        let (given, deviation) = (measured.given.trim_end_matches(','), percent(measured.uncertainty));
-        Some((name, format!("{given} \u{b1} {}", deviation.trim_start_matches('+'))))
+        let given = measured.given.trim_end_matches(',');
+        Some((name, format!("{given} \u{b1} {} %", cell(100.0 * measured.uncertainty, 1.0))))
     }));
     let shown = |name: &str| !matches!(name, "initial_gap" | "effective_mass");
     facts.extend(bodies::numbers(scene, 0).into_iter().filter(|(name, ..)| shown(name)).map(|(name, value, unit)| {
@@ -98,7 +98,7 @@ mod tests {
             let scene = Scene::parse(text, Path::new("a.toml")).expect("a scene");
             let told = facts(&scene).into_iter().find(|(name, _)| *name == "Target's strength from").expect("a fact").1;
             assert!(told.starts_with(reading) && told.contains('\u{b1}'), "{told}");
-            let [sentence] = &readings(&scene)[..] else { panic!("one body has a reading") };
+            let sentence = readings(&scene).concat();
             assert!(sentence.contains(&format!("{reading} is a flow stress of")), "{sentence}");
             let deviation = told.split_once("\u{b1} ").expect("a deviation").1;
             assert!(sentence.contains(&format!("standard deviation {deviation}")), "{sentence}");
