@@ -283,7 +283,9 @@ fn files_that_no_export_uses_any_more_are_removed() {
 fn what_a_killed_command_left_is_swept_by_the_next() {
     let folder = empty_folder();
     let [out, temporary] = ["out", "temporary"].map(|name| folder.path().join(name));
-    [&out, &temporary].iter().for_each(|path| fs::create_dir(path).unwrap());
+    for path in [&out, &temporary] {
+        fs::create_dir(path).unwrap();
+    }
     let left = |place: &Path, prefix: &str, is_folder: bool| {
         let path = place.join(format!("{prefix}a1b2C3d4E5f6.tmp"));
         if is_folder { fs::create_dir(&path) } else { fs::write(&path, "half") }.unwrap();

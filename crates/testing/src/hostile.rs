@@ -114,7 +114,7 @@ pub fn all(good: &Path) -> Vec<Hostile> {
         "is a symbolic link, which tools unpack differently",
     );
     let zeros = |zip: &mut ZipWriter<_>| {
-        zip.start_file(MORE, deflated).unwrap();
+        zip.start_file(MORE, deflated.compression_level(Some(9))).unwrap();
         let piece = vec![0; 1_000_000];
         (0..100).for_each(|_| zip.write_all(&piece).unwrap());
     };
