@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Largest size of a library [bytes]: that of an FMU that knows the mass, with the law `brinell`.
-const LARGEST: u64 = 77_000;
+const LARGEST: u64 = 80_000;
 
 /// The same with friction: the springs, their growth with the dent, and their merge.
 const LARGEST_WITH_FRICTION: u64 = 121_000;
@@ -21,7 +21,7 @@ const LARGEST_OF_SHARED_BODIES: u64 = 160_000;
 const LARGEST_OF_SHARED_BODIES_WITH_FRICTION: u64 = 205_000;
 
 /// Largest size of the library of the default scene [bytes].
-const LARGEST_OF_DEFAULT: u64 = 37_000;
+const LARGEST_OF_DEFAULT: u64 = 38_000;
 
 fn libraries() -> Vec<PathBuf> {
     unit::scenes().iter().map(|scene| unit::library(&unit::export(scene))).collect()

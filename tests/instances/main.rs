@@ -15,7 +15,6 @@ mod rate_unit;
 mod saved_words;
 mod smallest_gaps;
 mod stability_warning;
-mod widths;
 mod wiring;
 
 use brinell_contact::Contact;
@@ -189,19 +188,27 @@ fn a_refused_step_of_several_contacts_moves_none_of_them() {
     assert_eq!(words(&instance), before);
 }
 
-/// Two of five contacts would become as wide as the ball.
+/// A ball of 5 mm on a plane, on larger and smaller balls, and in sockets that hardly differ from it.
 #[test]
-fn a_step_of_several_contacts_to_a_too_wide_one_moves_none_of_them() {
-    for (name, choice) in some_pairings() {
-        choose(choice);
-        let mut instance = ready::<Several>();
-        (0..5).for_each(|contact| set_rate(&mut instance, contact, if contact > 2 { 1.0 } else { 1e-3 }));
-        instance.do_step(0.0, 1e-4).unwrap();
-        let before = words(&instance);
-        let time = instance.time();
-        assert_ne!(instance.do_plain_step(time, 1e-1), Plain::Done, "{name}");
-        assert!(matches!(instance.do_step(time, 1e-1), Err(Fault::TooWide { contact: 3, .. })), "{name}");
-        assert_eq!(words(&instance), before, "{name}");
+fn a_wide_contact_is_told_at_three_tenths_of_the_smaller_radius() {
+    for target in [f64::INFINITY, 2e-2, 1e-3, -1.0, -6e-3, -5.1e-3] {
+        for (name, choice) in some_pairings() {
+            choose(Choice { target_radius: target, ..choice });
+            let mut instance = ready::<Several>();
+            let effective = choice.radius / (1.0 + choice.radius / target);
+            let limit = 0.3 * effective.min(choice.radius).min(target.abs());
+            let width = |instance: &Instance<Several>| instance.real((Real::ContactRadius, 0));
+            let mut before = 0.0;
+            set_rate(&mut instance, 0, 1.0);
+            let told = (0..20_000).any(|_| {
+                before = width(&instance);
+                let time = instance.time();
+                instance.do_step(time, 1e-3 * limit).unwrap();
+                instance.take_deep().is_some()
+            });
+            let what = format!("{name} on {target} m: told between {before:e} and {:e} m", width(&instance));
+            assert!(told && before < limit && width(&instance) >= limit, "{what}, not at {limit:e} m");
+        }
     }
 }
 

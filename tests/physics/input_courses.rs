@@ -296,7 +296,7 @@ fn derivatives_that_are_set_quickly_are_those_that_are_not() {
 #[test]
 fn a_step_with_derivatives_that_leads_too_deep_says_so() {
     let step = 1e-6;
-    let valid = model("big-alabo", "contact-radius").depths(f64::INFINITY).valid;
+    let valid = model("big-alabo", "contact-radius").valid_depth(f64::INFINITY);
     for start in [0.0, 0.5] {
         for end in [0.6, 0.999, 1.001, 2.0] {
             for bend in [false, true] {

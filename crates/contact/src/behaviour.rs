@@ -4,7 +4,6 @@ use super::numbers::quotient;
 use super::path::Course;
 use super::regime::{Regime, TooDeep};
 use super::tangential::{Quantity, Sliding};
-use super::validity::Depths;
 use core::borrow::Borrow;
 use core::f64::consts::PI;
 
@@ -190,8 +189,8 @@ pub trait Contact<M>: Copy {
         Sliding::Apart
     }
 
-    /// How deep the bodies of `model` may be pressed together, of which the smaller one has this `size` \[m\].
-    fn depths(model: &M, size: f64) -> Depths;
+    /// The indentation up to which the law of `model` is valid \[m\], for bodies of which the smaller one has this `size` \[m\].
+    fn valid_depth(model: &M, size: f64) -> f64;
 
     /// Whether a law of `model` may reject an indentation below the [limit](super::regime::LARGEST_INDENTATION). A fitted law
     /// may end earlier.

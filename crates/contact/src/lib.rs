@@ -127,7 +127,6 @@ pub use regime::{Regime, TooDeep};
 pub use segment::Segment;
 pub use two_bodies::{OtherBody, TwoBodies};
 pub use unloading::{Peak, Unloading};
-pub use validity::Depths;
 
 /// The surface that a new contact meets after the bodies have separated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -273,9 +272,9 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         self.unloading.work(&self.pair, &self.peak(max_indentation), &path, indentation)
     }
 
-    /// How deep the bodies may be pressed together, of which the smaller one has this `size` \[m\].
-    pub fn depths(&self, size: f64) -> Depths {
-        Depths::of(self.pair.radius, size, |depth| self.point_of_loading(depth).contact_radius)
+    /// The indentation up to which the loading law is valid \[m\] for bodies of which the smaller one has this `size` \[m\].
+    pub fn valid_depth(&self, size: f64) -> f64 {
+        validity::largest_indentation(self.pair.radius, size, |depth| self.point_of_loading(depth).contact_radius)
     }
 
     /// Whether the passivity guard shortens the path from `max_indentation` \[m\].

@@ -39,34 +39,16 @@ const DOUBLINGS: u32 = 8;
 /// Largest relative error of the contact area after the search.
 const AREA_TOLERANCE: f64 = 1e-12;
 
-/// How deep two bodies of an effective `radius` \[m\], of which the smaller one has this `size` \[m\], may be pressed together.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Depths {
-    /// The indentation up to which the law is valid \[m\]: the contact radius is [`LARGEST_RADIUS_RATIO`] of the effective radius, or of
-    /// the smaller body.
-    pub valid: f64,
-    /// The indentation at which the contact is as wide as the smaller body \[m\]: no contact is wider.
-    pub possible: f64,
-}
-
-impl Depths {
-    /// Those of a law with this `contact_radius`, a function of the indentation \[m\].
-    #[inline(never)]
-    pub fn of(radius: f64, size: f64, contact_radius: impl Fn(f64) -> f64) -> Depths {
-        let valid = LARGEST_RADIUS_RATIO * smallest(radius, size);
-        let [valid, possible] = [valid, size].map(|wanted| indentation_at(wanted, radius, &contact_radius));
-        Depths { valid, possible }
-    }
-}
-
-/// The indentation \[m\] at which `contact_radius`, a function of it, has the value `wanted` \[m\], on a sphere of effective `radius` \[m\].
+/// The indentation up to which a law is valid \[m\]: its `contact_radius`, a function of the indentation, is [`LARGEST_RADIUS_RATIO`] of
+/// the effective `radius` \[m\], or of the smaller body, which has this `size` \[m\].
 ///
 /// The contact radius rises with the indentation for every law, and is hardly ever below that of Hertz, `sqrt(R d)`. The search uses the
 /// Illinois method.
 ///
 /// Reference: M. Dowell, P. Jarratt, *BIT* 11 (1971) 168-174.
 #[inline(never)]
-fn indentation_at(wanted: f64, radius: f64, contact_radius: &impl Fn(f64) -> f64) -> f64 {
+pub fn largest_indentation(radius: f64, size: f64, contact_radius: impl Fn(f64) -> f64) -> f64 {
+    let wanted = LARGEST_RADIUS_RATIO * smallest(radius, size);
     // ratios are squared, because the square of a small radius may underflow
     let excess = |depth: f64| {
         let ratio = contact_radius(depth) / wanted;

@@ -8,7 +8,7 @@ use brinell_contact::impact::{self, Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Depths, Loading, Model, Pair, TwoBodies};
+use brinell_contact::{Loading, Model, Pair, TwoBodies};
 
 // number of predictions that this thread has made
 #[cfg(test)]
@@ -96,12 +96,12 @@ impl AnyModel {
         }
     }
 
-    /// How deep the bodies may be pressed together, of which the smaller one has this `size` \[m\].
-    pub fn depths(&self, size: f64) -> Depths {
+    /// The indentation up to which the law is valid \[m\] for bodies of which the smaller one has this `size` \[m\].
+    pub fn valid_depth(&self, size: f64) -> f64 {
         match self {
-            AnyModel::Elastoplastic(model) => model.depths(size),
-            AnyModel::Lossy(model) => model.plastic.depths(size),
-            AnyModel::Damped(model) => model.depths(size),
+            AnyModel::Elastoplastic(model) => model.valid_depth(size),
+            AnyModel::Lossy(model) => model.plastic.valid_depth(size),
+            AnyModel::Damped(model) => model.valid_depth(size),
         }
     }
 

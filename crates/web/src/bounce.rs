@@ -424,12 +424,6 @@ fn refusal(fault: &Fault) -> String {
         Fault::TooDeep { indentation, .. } => {
             format!("the FMU refuses a step: at {} the law can't be evaluated", quantity(*indentation, "m"))
         }
-        Fault::TooWide { indentation, .. } => {
-            format!(
-                "the FMU refuses a step: at {} the contact is as wide as the smaller body",
-                quantity(*indentation, "m")
-            )
-        }
         Fault::NoInputDerivatives => "the FMU takes no input derivatives: its law depends on the rate".into(),
         other => format!("the FMU refuses a step: {other:?}"),
     }

@@ -19,7 +19,7 @@ pub use history::{History, follow};
 use super::laws::{Constant, LawNumbers, laws};
 use super::material::Pair;
 use super::numbers::smallest;
-use super::validity::{Depths, LARGEST_RADIUS_RATIO};
+use super::validity::LARGEST_RADIUS_RATIO;
 use libm::sqrt;
 
 laws! {
@@ -48,13 +48,12 @@ pub struct Model<D> {
 }
 
 impl<D> Model<D> {
-    /// How deep the bodies may be pressed together, of which the smaller one has this `size` \[m\], with Hertz's contact radius
-    /// `a^2 = R d`.
-    pub fn depths(&self, size: f64) -> Depths {
+    /// The indentation up to which the law is valid \[m\] for bodies of which the smaller one has this `size` \[m\], with Hertz's contact
+    /// radius `a^2 = R d`.
+    pub fn valid_depth(&self, size: f64) -> f64 {
         let radius = self.pair.radius;
-        let valid = LARGEST_RADIUS_RATIO * smallest(radius, size);
-        let [valid, possible] = [valid, size].map(|wanted| wanted / radius * wanted);
-        Depths { valid, possible }
+        let wanted = LARGEST_RADIUS_RATIO * smallest(radius, size);
+        wanted / radius * wanted
     }
 }
 

@@ -8,7 +8,6 @@ use crate::numbers::largest;
 use crate::path::Course;
 use crate::segment::Segment;
 use crate::unloading::Unloading;
-use crate::validity::Depths;
 use crate::{Model, momentum};
 use core::borrow::Borrow;
 
@@ -168,8 +167,8 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         moved
     }
 
-    fn depths(model: &Model<L, U>, size: f64) -> Depths {
-        model.depths(size)
+    fn valid_depth(model: &Model<L, U>, size: f64) -> f64 {
+        model.valid_depth(size)
     }
 
     fn may_refuse(model: &Model<L, U>) -> bool {

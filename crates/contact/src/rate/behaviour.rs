@@ -8,7 +8,6 @@ use crate::loading::Loading;
 use crate::path::Course;
 use crate::regime::{Regime, TooDeep};
 use crate::unloading::Unloading;
-use crate::validity::Depths;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
@@ -119,8 +118,8 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
     }
 
     /// That of the target under a slow load, which is the smaller one.
-    fn depths(model: &Model<L, U>, size: f64) -> Depths {
-        model.slow.depths(size)
+    fn valid_depth(model: &Model<L, U>, size: f64) -> f64 {
+        model.slow.valid_depth(size)
     }
 
     fn may_refuse(model: &Model<L, U>) -> bool {

@@ -11,7 +11,6 @@ use crate::numbers::largest;
 use crate::path::{Course, Sum};
 use crate::regime::{Regime, TooDeep};
 use crate::unloading::Unloading;
-use crate::validity::Depths;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
@@ -241,8 +240,8 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
         Rough::sliding(self)
     }
 
-    fn depths(model: &RoughModel<L, U, N::Loss>, size: f64) -> Depths {
-        model.normal.depths(size)
+    fn valid_depth(model: &RoughModel<L, U, N::Loss>, size: f64) -> f64 {
+        model.normal.valid_depth(size)
     }
 
     fn may_refuse(model: &RoughModel<L, U, N::Loss>) -> bool {

@@ -134,11 +134,6 @@ fn add_groups(file: &mut File, scene: &Scene) {
     file.add("surface", by_table(scene, |group| format!("{:?}", group.surface)));
     let density = |group: &Group| group.density.map_or("None".into(), |density| format!("Some({})", literal(density)));
     file.add("density", by_table(scene, density));
-    if scene.contacts.iter().any(|group| group.rod_radius().is_some()) {
-        let radius =
-            |group: &Group| group.rod_radius().map_or("None".into(), |radius| format!("Some({})", literal(radius)));
-        file.add("rod_radius", by_table(scene, radius));
-    }
 }
 
 /// A property of each table of the scene, or once if it is the same in all.

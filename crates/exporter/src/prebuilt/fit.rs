@@ -75,7 +75,6 @@ pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
             is_counted: group.count.is_some(),
             is_fresh: group.surface == Surface::Fresh,
             density: group.density.unwrap_or(f64::NAN),
-            rod_radius: group.rod_radius().unwrap_or(f64::NAN),
             name: lists.text(group.name.as_deref().unwrap_or_default()),
         }
     });

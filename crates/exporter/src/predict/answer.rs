@@ -37,7 +37,8 @@ impl Answer<'_> {
         fall: Option<f64>,
     ) -> Result<Answer<'a>, PredictError> {
         let predictions: Vec<_> = choices.iter().map(|choice| one(choice, &impact)).collect::<Result<_, _>>()?;
-        for (choice, prediction) in choices.iter().zip(&predictions) {
+        // a table of laws shows how far they are apart, also where one of them has no such contact
+        if let ([choice], [prediction]) = (choices, &predictions[..]) {
             check_width(scene, 0, &choice.laws, &impact, prediction, &[])?;
         }
         let both = choices.iter().zip(&predictions);

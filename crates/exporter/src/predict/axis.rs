@@ -140,6 +140,9 @@ fn find(name: &str) -> Result<(&'static str, &'static str), String> {
         Some(found) => Ok(*found),
         None => {
             let all = names.iter().copied().chain(constants.iter().map(|(name, _)| *name));
+            // of equally near names the first is taken, and most targets yield
+            let (targets, others): (Vec<_>, Vec<_>) = all.partition(|name| name.starts_with("target."));
+            let all = targets.into_iter().chain(others);
             let guess = nearest(name, all).map(|guess| format!("; did you mean `{guess}`? Expected"));
             let guess = guess.unwrap_or_else(|| ", expected".into());
             Err(format!(

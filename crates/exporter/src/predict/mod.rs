@@ -107,7 +107,7 @@ pub fn check_width(
     prediction: &Prediction,
     values: &[(&str, f64)],
 ) -> Result<(), PredictError> {
-    let (radius, size) = (prediction.max_contact_radius, scene.size_with(group, values));
+    let (radius, size) = (prediction.max_contact_radius, scene.smaller_radius_with(group, values));
     let Impact { mass, speed } = *impact;
     if radius >= size { Err(PredictError::TooWide { law: law.into(), mass, speed, radius, size }) } else { Ok(()) }
 }

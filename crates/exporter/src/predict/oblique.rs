@@ -174,7 +174,8 @@ pub fn one(
     let normal = Impact { mass, speed: moving.rates[0] };
     let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass, speed };
     let prediction = choice.model.predict(&normal);
-    if let Some(prediction) = &prediction {
+    // a sweep shows where it leaves the range of the law
+    if let Some(prediction) = prediction.as_ref().filter(|_| values.is_empty()) {
         super::check_width(scene, 0, &choice.laws, &normal, prediction, &named)?;
     }
     let limits = |prediction| super::beyond(scene, &choice.model.pair(), normal.speed, &prediction, &named);

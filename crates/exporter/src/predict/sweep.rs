@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, varied};
 use super::oblique::{self, Setting};
-use super::{PredictError, Quantity, beyond, check_width, constants, one, quantities};
+use super::{PredictError, Quantity, beyond, constants, one, quantities};
 use crate::columns::{Column, Columns};
 use crate::laws::Choice;
 use crate::layout;
@@ -62,7 +62,6 @@ impl Sweep {
             let regime = ("regime", f64::from(prediction.regime as i32), "");
             let quantities = quantities(&prediction).into_iter().chain([regime]).collect();
             let named: Vec<_> = values.iter().map(|(axis, value)| (axis.name, *value)).collect();
-            check_width(scene, 0, &choice.laws, &impact, &prediction, &named)?;
             Ok((quantities, beyond(scene, &choice.model.pair(), impact.speed, &prediction, &named)))
         };
         let oblique = |setting| {

@@ -181,9 +181,14 @@ impl Scene {
         [of(Body::Impactor, [f64::NAN, f64::INFINITY, 0.0]), of(Body::Target, [f64::INFINITY, f64::NAN, f64::NAN])]
     }
 
-    /// The size of the smaller body of `group` \[m\], with other values for some of the parameters: its radius, or that of a rod.
+    /// The smaller radius of the bodies of `group` \[m\], with other values for some of the parameters: no contact is wider.
+    pub fn smaller_radius_with(&self, group: usize, values: &[(&str, f64)]) -> f64 {
+        size_of(self.bodies_with(group, values).map(|body| body.radius))
+    }
+
+    /// The size of the smaller body of `group` \[m\]: the same, or the radius of a rod, of which the FMU doesn't know.
     pub fn size_with(&self, group: usize, values: &[(&str, f64)]) -> f64 {
-        let size = size_of(self.bodies_with(group, values).map(|body| body.radius));
+        let size = self.smaller_radius_with(group, values);
         self.contacts[group].rod_radius().map_or(size, |radius| size.min(radius))
     }
 

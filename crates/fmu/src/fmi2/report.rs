@@ -75,7 +75,6 @@ fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
     match fault {
         Fault::NoPointContact { contact, .. }
         | Fault::TooDeep { contact, .. }
-        | Fault::TooWide { contact, .. }
         | Fault::TooLong { contact, .. }
         | Fault::UnknownMass { contact } => Some(contact),
         Fault::FixedParameter { index } | Fault::OutOfRange { index, .. } => S::settable(index)?.1,
@@ -205,10 +204,6 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         Fault::TooDeep { indentation, .. } => {
             numbers[0] = indentation;
             "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
-        }
-        Fault::TooWide { indentation, possible, .. } => {
-            (numbers[0], numbers[1]) = (indentation, possible);
-            "the indentation would become ~ m: from ~ m on the contact is as wide as the smaller body; is indentation_rate in m/s?"
         }
         Fault::TooLong { step, .. } => {
             numbers[0] = step;

@@ -26,12 +26,8 @@ impl<S: Scene> Instance<S> {
             let (mut history, model) = (history, self.model(0));
             let moved = history.step_with_mean_force(&course, step, || model);
             let (deepest, mean) = moved.map_err(|deep| too_deep(0, deep))?;
-            self.check_depth(0, deepest)?;
-            let Depths { valid, possible } = self.depths(0);
-            if !history.stays_within(valid) {
-                history.stays_within(possible);
-            }
-            if deepest >= valid {
+            history.stays_within(self.valid_depth(0));
+            if deepest >= self.valid_depth(0) {
                 self.note_deep(0, deepest);
             }
             self.contacts.histories.as_mut().fill(history);
@@ -43,12 +39,12 @@ impl<S: Scene> Instance<S> {
             for increment in motions {
                 if increment != 0.0
                     && !self.contacts.histories.as_mut().iter_mut().all(|history| history.short_step(increment))
-                    && let Err(fault) = self.move_one(increment, 1.0)
+                    && let Err(deepest) = self.move_one(increment, 1.0)
                 {
                     // if a single motion fails, the contact has not changed
                     before.into_iter().for_each(|before| self.contacts.histories.as_mut().fill(before));
                     self.deep = deep;
-                    return Err(fault);
+                    return Err(too_deep(0, deepest));
                 }
             }
         }

@@ -110,15 +110,6 @@ pub enum Fault {
         /// The indentation \[m\].
         indentation: f64,
     },
-    /// An indentation at which the contact is as wide as the smaller body.
-    TooWide {
-        /// The contact, counted from 0.
-        contact: usize,
-        /// The indentation \[m\].
-        indentation: f64,
-        /// The indentation from which on it is that wide \[m\].
-        possible: f64,
-    },
     /// A step in which the bodies touch more often than can be computed.
     TooLong {
         /// The contact, counted from 0.

@@ -27,7 +27,7 @@ use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
 use account::{Account, Ending};
 use brinell_contact::behaviour::is_finite_at;
 use brinell_contact::shared::Work;
-use brinell_contact::{Contact, Depths, TooDeep};
+use brinell_contact::{Contact, TooDeep};
 use clock::Clock;
 use coupling::{Curve, Momentum};
 use stability::Watched;
@@ -91,8 +91,6 @@ struct Contacts<S: Scene> {
 struct Settings<S: Scene> {
     /// The largest absolute value of an input that needs no further check \[m/s\].
     largest_rate: f64,
-    /// An indentation at which no contact is wide \[m\].
-    shallow: f64,
     /// A hash of the scene and of all parameters: a saved state with the same hash is one of the same scene, whose parameters
     /// need not be copied.
     stamp: u64,
@@ -196,15 +194,15 @@ impl<S: Scene> Settings<S> {
         model_of::<S>(group, self.bodies.as_ref().get(group).unwrap_or(&none), &self.values)
     }
 
-    /// How deep the bodies of `group` may be pressed together.
-    fn depths(&mut self, group: usize) -> Depths {
-        let known = self.bodies.as_ref().get(group).map_or(Depths::default(), |bodies| bodies.depths);
-        if known.valid != 0.0 {
+    /// The indentation up to which the law of `group` is valid \[m\].
+    fn valid_depth(&mut self, group: usize) -> f64 {
+        let known = self.bodies.as_ref().get(group).map_or(f64::NAN, |bodies| bodies.depth);
+        if known != 0.0 {
             return known;
         }
-        let depths = S::Contact::depths(&self.model(group), validity::size::<S>(group, &self.values));
-        self.bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.depths = depths);
-        depths
+        let depth = S::Contact::valid_depth(&self.model(group), validity::size::<S>(group, &self.values));
+        self.bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.depth = depth);
+        depth
     }
 }
 

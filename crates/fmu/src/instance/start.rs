@@ -1,7 +1,7 @@
 //! An instance before any motion: its bodies, as the parameters describe them, and their positions.
 
 use super::*;
-use brinell_contact::{Body, Depths, Pair};
+use brinell_contact::{Body, Pair};
 
 /// The bodies of a group, as far as their properties are worth caching.
 #[derive(Clone, Copy, Debug, Default)]
@@ -13,8 +13,8 @@ pub(super) struct Bodies<K> {
     pub radius: f64,
     /// Effective modulus \[Pa\].
     pub modulus: f64,
-    /// How deep they may be pressed together. Both are zero until a contact closes, because computing them is slow.
-    pub depths: Depths,
+    /// Indentation up to which the law is valid \[m\]. It is zero until a contact closes, because computing it is slow.
+    pub depth: f64,
 }
 
 /// The type of the bodies of a scene.
@@ -131,13 +131,7 @@ impl<S: Scene> Instance<S> {
                 works: Store::filled(Work::new(history)),
                 numbers: core::array::from_fn(|_| Store::filled(0.0)),
             },
-            settings: Settings {
-                largest_rate: 0.0,
-                shallow: 0.0,
-                stamp: 0,
-                bodies: Store::filled(Bodies::default()),
-                values,
-            },
+            settings: Settings { largest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
             deep: Deep { contact: 0, indentation: 0.0 },
         };
         instance.reset()?;
@@ -177,7 +171,7 @@ impl<S: Scene> Instance<S> {
     #[cold]
     #[inline(never)]
     pub(super) fn stamp_parameters(&mut self) {
-        let Settings { largest_rate, shallow, stamp, bodies, values } = &mut self.settings;
+        let Settings { largest_rate, stamp, bodies, values } = &mut self.settings;
         let sizes = bodies.as_ref().iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
         let mix = |sum: u64, value: f64| {
             let mixed = (sum ^ value.to_bits()).wrapping_mul(GOLDEN);
@@ -188,12 +182,9 @@ impl<S: Scene> Instance<S> {
         if present != *stamp {
             *stamp = present;
             *largest_rate = validity::largest_rate::<S>(values);
-            let all = bodies.as_ref();
-            *shallow =
-                validity::shallow::<S>(values, |group| all.get(group).map_or(f64::INFINITY, |bodies| bodies.radius));
             for (group, bodies) in bodies.as_mut().iter_mut().enumerate() {
                 bodies.kept = S::Contact::kept(&model_of::<S>(group, bodies, values));
-                bodies.depths = Depths::default();
+                bodies.depth = 0.0;
             }
         }
     }

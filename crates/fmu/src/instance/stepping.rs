@@ -37,8 +37,7 @@ impl<S: Scene> Instance<S> {
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
-    /// [`Fault::TooWide`], [`Fault::TooLong`], [`Fault::InputOutOfRange`], [`Fault::UnknownMass`]; no contact changes then, but those that
-    /// share bodies where one becomes too wide.
+    /// [`Fault::TooLong`], [`Fault::InputOutOfRange`], [`Fault::UnknownMass`]; no contact changes then.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.clock.check(time, step, Self::shortest())?;
         self.check_tangential_rates(step)?;
@@ -111,7 +110,7 @@ impl<S: Scene> Instance<S> {
 
     /// Moves the contact of a simple instance for `step` \[s\], to the time `end` \[s\].
     #[inline(always)]
-    fn advance_one(&mut self, end: f64, step: f64) -> Result<(), Fault> {
+    fn advance_one(&mut self, end: f64, step: f64) -> Result<(), TooDeep> {
         let Contacts { histories, rates, watched, looks, .. } = &mut self.contacts;
         let (Some(history), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
         let ahead = Ahead { history, rate, time: self.clock.time, step, end, mean_force: 0.0 };
@@ -127,19 +126,14 @@ impl<S: Scene> Instance<S> {
 
     /// Moves the single contact of an instance at constant `rate` \[m/s\] for `step` \[s\].
     #[inline(never)]
-    pub(super) fn move_one(&mut self, rate: f64, step: f64) -> Result<(), Fault> {
-        if self.histories().first().is_some_and(|history| history.indentation() + rate * step >= self.settings.shallow)
-        {
-            self.check_width_of(0, rate, step)?;
-        }
+    pub(super) fn move_one(&mut self, rate: f64, step: f64) -> Result<(), TooDeep> {
         let Settings { bodies, values, .. } = &self.settings;
         let (Some(history), Some(bodies)) = (self.contacts.histories.as_mut().first_mut(), bodies.as_ref().first())
         else {
             return Ok(());
         };
-        let moved = history.step_held(rate, step, &bodies.kept, || model_of::<S>(0, bodies, values));
-        moved.map_err(|deep| too_deep(0, deep))?;
-        if !history.stays_within(bodies.depths.valid) {
+        history.step_held(rate, step, &bodies.kept, || model_of::<S>(0, bodies, values))?;
+        if !history.stays_within(bodies.depth) {
             self.note_depth();
         }
         Ok(())
@@ -149,12 +143,10 @@ impl<S: Scene> Instance<S> {
     #[cold]
     #[inline(never)]
     fn note_depth(&mut self) {
-        let Depths { valid, possible } = self.depths(0);
+        let depth = self.valid_depth(0);
         let Some(history) = self.contacts.histories.as_mut().first_mut() else { return };
         let reached = history.max_indentation();
-        if !history.stays_within(valid) {
-            // a short step must not pass it
-            history.stays_within(possible);
+        if !history.stays_within(depth) {
             let Deep { contact, indentation } = self.deep;
             // a fresh surface may have forgotten the largest indentation within the same step
             self.note_deep(0, if contact == 0 { reached } else { largest(reached, indentation) });
@@ -169,7 +161,7 @@ impl<S: Scene> Instance<S> {
         }
         // only with friction a single contact gets here with derivatives of its inputs
         match Self::is_simple() && !(S::Contact::HAS_FRICTION && self.clock.curved) {
-            true => self.advance_one(end, step)?,
+            true => self.advance_one(end, step).map_err(|deep| too_deep(0, deep))?,
             false => self.advance_all(end, step)?,
         }
         // the end of a step with derivatives stays known until the next step, which is not plain for this reason
@@ -188,16 +180,16 @@ impl<S: Scene> Instance<S> {
             self.clock.time = end;
             return Ok(());
         }
-        let any = self.clock.curved && !Self::is_alone() || !Self::is_plain() || S::follows_rate() && S::has_momentum();
-        // within the limits of rate and time, a law with segments can only become too wide
-        let looks_ahead = || self.clock.curved || !Self::is_plain() || S::Contact::may_refuse(&self.model(0));
-        if S::contacts() > 1 && looks_ahead() {
-            for contact in 0..S::contacts() {
-                self.moved(contact, step)?;
+        if S::contacts() > 1 {
+            // within the limits of rate and time, a law with segments cannot fail
+            let looks_ahead = self.clock.curved || !Self::is_plain() || S::Contact::may_refuse(&self.model(0));
+            if looks_ahead {
+                for contact in 0..S::contacts() {
+                    self.moved(contact, step)?;
+                }
             }
-        } else if !any {
-            self.check_width(step)?;
         }
+        let any = self.clock.curved && !Self::is_alone() || !Self::is_plain() || S::follows_rate() && S::has_momentum();
         if any {
             self.advance_any(step)?;
         } else {
@@ -245,9 +237,7 @@ impl<S: Scene> Instance<S> {
                     *guarded = Guarded::Seen;
                 }
             }
-            if (is_one || !short) && !history.stays_within(settings.depths(group()).valid) {
-                // a short step must not pass it
-                history.stays_within(settings.depths(group()).possible);
+            if (is_one || !short) && !history.stays_within(settings.valid_depth(group())) {
                 self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };
             }
             self.deep = long.unwrap_or(self.deep);
@@ -278,11 +268,9 @@ impl<S: Scene> Instance<S> {
             self.check_wiring(contact, step);
             let Moved { mut history, course, mean_force, speed, deepest } = self.moved(contact, step)?;
             self.end_step(contact, speed, mean_force, step);
-            let Depths { valid, possible } = self.depths(contact);
-            if !history.stays_within(valid) {
-                history.stays_within(possible);
-            }
-            if deepest >= valid {
+            let allowed = self.valid_depth(contact);
+            history.stays_within(allowed);
+            if deepest >= allowed {
                 self.note_deep(contact, deepest);
             }
             let Contacts { histories, forces, momenta, curves, .. } = &mut self.contacts;
@@ -307,14 +295,7 @@ impl<S: Scene> Instance<S> {
     }
 
     /// The state of `contact` after `step` \[s\].
-    fn moved(&mut self, contact: usize, step: f64) -> Result<Moved<S::Contact>, Fault> {
-        let moved = self.moved_to_any_depth(contact, step)?;
-        self.check_depth(contact, moved.deepest)?;
-        Ok(moved)
-    }
-
-    /// The same, however wide it then is.
-    fn moved_to_any_depth(&self, contact: usize, step: f64) -> Result<Moved<S::Contact>, Fault> {
+    fn moved(&self, contact: usize, step: f64) -> Result<Moved<S::Contact>, Fault> {
         let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
             return Err(Fault::StepSize { step, shortest: Self::shortest() });
         };

@@ -82,7 +82,7 @@ impl<S: Scene> Instance<S> {
             self.note(Number::Change, row, change);
             self.contacts.moments.as_mut().get_mut(row).into_iter().for_each(|slot| *slot = moment);
             if direction.is_none() {
-                self.note_normal(contact, impulse / step, step)?;
+                self.note_normal(contact, impulse / step, step);
             }
         }
         for row in 0..S::rows() {
@@ -111,22 +111,18 @@ impl<S: Scene> Instance<S> {
     }
 
     /// Notes the `mean_force` \[N\] of a `step` \[s\] of `contact`, and how deep it was.
-    ///
-    /// # Errors
-    /// [`Fault::TooWide`]; the contacts have moved then.
-    fn note_normal(&mut self, contact: usize, mean_force: f64, step: f64) -> Result<(), Fault> {
-        let Depths { valid, .. } = self.depths(contact);
+    fn note_normal(&mut self, contact: usize, mean_force: f64, step: f64) {
+        let allowed = self.valid_depth(contact);
         let Contacts { histories, momenta, works, .. } = &mut self.contacts;
         momenta.as_mut().get_mut(contact).into_iter().for_each(|momentum| momentum.add(mean_force, step));
         let (Some(history), Some(work)) = (histories.as_mut().get_mut(contact), works.as_ref().get(contact)) else {
-            return Ok(());
+            return;
         };
-        history.stays_within(valid);
+        history.stays_within(allowed);
         let deepest = largest(history.max_indentation(), work.deepest());
-        if deepest >= valid {
+        if deepest >= allowed {
             self.note_deep(contact, deepest);
         }
-        self.check_depth(contact, deepest)
     }
 
     /// Notes a number of a row in the working memory of a step.

@@ -1,9 +1,7 @@
-//! Detects that a simulation leaves the valid range of its law. The simulation continues, up to a contact that is as wide as the smaller
-//! body; other modules write the messages.
+//! Detects that a simulation leaves the valid range of its law. The simulation continues; other modules write the messages.
 
 use super::clock::Guarded;
 use super::*;
-use brinell_contact::numbers::smallest;
 use brinell_contact::validity;
 
 /// The closing speed \[m/s\] up to which elastic waves are negligible in `group`; infinite if the density is unknown.
@@ -18,24 +16,10 @@ pub(super) fn largest_rate<S: Scene>(values: &S::Values) -> f64 {
     speeds.fold(FASTEST, |least, speed| if speed < least { speed } else { least })
 }
 
-/// The size of the smaller body of `group` \[m\]: its radius, or that of a rod.
+/// The smaller radius of the bodies of `group` \[m\].
 pub(super) fn size<S: Scene>(group: usize, values: &S::Values) -> f64 {
     let radii = [Parameter::ImpactorRadius, Parameter::TargetRadius];
-    let size = validity::size_of(radii.map(|radius| S::parameter(radius, group, values)));
-    S::rod_radius(group).map_or(size, |radius| smallest(size, radius))
-}
-
-/// Part of an indentation of the order of the valid ones, below which no contact needs to be looked at.
-const SHALLOW: f64 = 0.005;
-
-/// An indentation \[m\] at which no contact of any group is wide; `radius` gives the effective radius of a group \[m\].
-pub(super) fn shallow<S: Scene>(values: &S::Values, radius: impl Fn(usize) -> f64) -> f64 {
-    let of = |group| {
-        let (radius, size) = (radius(group), size::<S>(group, values));
-        let width = smallest(radius, size);
-        SHALLOW * (width / radius * width)
-    };
-    (0..S::groups()).map(of).fold(f64::INFINITY, smallest)
+    validity::size_of(radii.map(|radius| S::parameter(radius, group, values)))
 }
 
 impl<S: Scene> Instance<S> {
@@ -50,50 +34,9 @@ impl<S: Scene> Instance<S> {
         rate > self.settings.largest_rate
     }
 
-    /// How deep the bodies of `contact` may be pressed together.
-    pub(super) fn depths(&mut self, contact: usize) -> Depths {
-        self.settings.depths(S::group(contact))
-    }
-
-    /// Rejects a step at constant rates after which a contact would be as wide as the smaller body. Looks at the law only where a contact
-    /// ends at a depth that is not shallow.
-    pub(super) fn check_width(&mut self, step: f64) -> Result<(), Fault> {
-        let shallow = self.settings.shallow;
-        for contact in 0..S::contacts() {
-            let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
-                break;
-            };
-            if history.indentation() + rate * step >= shallow {
-                self.check_width_of(contact, rate, step)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The same for one `contact` that moves at this `rate` \[m/s\].
-    #[cold]
-    #[inline(never)]
-    pub(super) fn check_width_of(&mut self, contact: usize, rate: f64, step: f64) -> Result<(), Fault> {
-        let Depths { possible, .. } = self.depths(contact);
-        let Some(history) = self.histories().get(contact) else { return Ok(()) };
-        let end = history.indentation() + rate * step;
-        if end < possible {
-            return Ok(());
-        }
-        // only on a plate, which has no derivatives, the bodies come closer than the indentation tells
-        if S::derivatives() > 0 {
-            return Err(Fault::TooWide { contact, indentation: end, possible });
-        }
-        let (mut history, model) = (*history, self.model(contact));
-        let kept = S::Contact::kept(&model);
-        history.step_held(rate, step, &kept, || model).map_err(|deep| too_deep(contact, deep))?;
-        self.check_depth(contact, history.max_indentation())
-    }
-
-    /// Rejects an `indentation` \[m\] at which `contact` is as wide as the smaller body.
-    pub(super) fn check_depth(&mut self, contact: usize, indentation: f64) -> Result<(), Fault> {
-        let Depths { possible, .. } = self.depths(contact);
-        if indentation >= possible { Err(Fault::TooWide { contact, indentation, possible }) } else { Ok(()) }
+    /// The indentation up to which the law of `contact` is valid \[m\].
+    pub(super) fn valid_depth(&mut self, contact: usize) -> f64 {
+        self.settings.valid_depth(S::group(contact))
     }
 
     /// Records that `contact` has reached `indentation` \[m\].
@@ -107,7 +50,7 @@ impl<S: Scene> Instance<S> {
         let Instance { contacts, settings, .. } = self;
         let mut contacts = contacts.histories.as_ref().iter().enumerate();
         let deep =
-            contacts.find(|(contact, history)| history.max_indentation() >= settings.depths(S::group(*contact)).valid);
+            contacts.find(|(contact, history)| history.max_indentation() >= settings.valid_depth(S::group(*contact)));
         if let Some((contact, history)) = deep {
             let indentation = history.max_indentation();
             self.note_deep(contact, indentation);
@@ -133,7 +76,7 @@ impl<S: Scene> Instance<S> {
                 _ => {}
             }
         }
-        Some(Warning::Deep { contact, indentation: self.deep.indentation, allowed: self.depths(contact).valid })
+        Some(Warning::Deep { contact, indentation: self.deep.indentation, allowed: self.valid_depth(contact) })
     }
 
     /// Whether the passivity guard has begun to act in a plain step, and that has not been [taken](Instance::take_guard) yet.

@@ -245,7 +245,6 @@ macro_rules! __value {
 /// - `contacts`: number of contacts, and of groups of equal contacts;
 /// - `tables`: for each table of the scene its name, whether its contacts are counted, and the contact after its last one;
 /// - `surface`, `density`: one for all tables, or one for each; density of the target \[kg/m^3\];
-/// - `rod_radius`: the same for the radius of the thinnest rod \[m\], if there is one;
 /// - `laws`: what is added to them, the loading law and the unloading law, or a rate-dependent law, each in a form and with its
 ///   constants;
 /// - `inverse_masses`: those of contacts that share bodies or, if they are inputs, their start values: the upper triangle row by row
@@ -264,7 +263,6 @@ macro_rules! __scene {
         tables: [$(($name:literal, $counted:literal, $end:literal)),+],
         surface: [$($surface:ident),+],
         density: [$($density:expr),+],
-        $(rod_radius: [$($rod_radius:expr),+],)?
         laws: $kind:tt { $($laws:tt)+ },
         $(guard: $guard:literal,)?
         $(impact_mass: $mass:expr,)?
@@ -424,10 +422,6 @@ macro_rules! __scene {
             fn density(group: usize) -> Option<f64> {
                 of_table(&[$($density),+], table_of(group))
             }
-
-            $(fn rod_radius(group: usize) -> Option<f64> {
-                of_table(&[$($rod_radius),+], table_of(group))
-            })?
 
             $(fn impact_mass() -> f64 {
                 $mass

@@ -254,12 +254,6 @@ pub trait Scene: Sized {
     /// Density of the target of a group \[kg/m^3\], if it is known.
     fn density(group: usize) -> Option<f64>;
 
-    /// Radius of the thinnest rod among the bodies of a group \[m\], if one is a rod.
-    #[inline(always)]
-    fn rod_radius(_group: usize) -> Option<f64> {
-        None
-    }
-
     /// Effective mass of the scene's impact \[kg\]; 0 if it names none.
     #[inline(always)]
     fn impact_mass() -> f64 {

@@ -4,7 +4,6 @@ use super::{Damped, Factors, History, Model, Regime, Sum, TooDeep, within};
 use crate::behaviour::{Contact, slopes};
 use crate::path::Course;
 use crate::regime::LARGEST_INDENTATION;
-use crate::validity::Depths;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
@@ -130,8 +129,8 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         History { indentation: Sum::new(indentation), ..*self }
     }
 
-    fn depths(model: &Model<D>, size: f64) -> Depths {
-        model.depths(size)
+    fn valid_depth(model: &Model<D>, size: f64) -> f64 {
+        model.valid_depth(size)
     }
 
     /// True: a large damping or heat may overflow.

@@ -7,7 +7,6 @@ use crate::loading::Loading;
 use crate::losses::{Loss, Model};
 use crate::path::Course;
 use crate::unloading::Unloading;
-use crate::validity::Depths;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
@@ -118,8 +117,8 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
         moved
     }
 
-    fn depths(model: &Model<L, U, K>, size: f64) -> Depths {
-        model.plastic.depths(size)
+    fn valid_depth(model: &Model<L, U, K>, size: f64) -> f64 {
+        model.plastic.valid_depth(size)
     }
 
     /// True: a heat may overflow.

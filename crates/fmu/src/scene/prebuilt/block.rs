@@ -13,7 +13,7 @@ use brinell_contact::rate::Rate;
 pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 
 /// Version of the layout.
-pub const VERSION: u64 = 8;
+pub const VERSION: u64 = 7;
 
 /// Capacity for kinds of variables of a contact.
 pub const KINDS: usize = 64;
@@ -121,30 +121,26 @@ pub struct Table {
     pub is_fresh: bool,
     /// Density of the target \[kg/m^3\]; NaN if unknown.
     pub density: f64,
-    /// Radius of the thinnest rod among its bodies \[m\]; NaN without one.
-    pub rod_radius: f64,
     /// Its name.
     pub name: Text,
 }
 
 impl Table {
     /// Words of a row.
-    pub const WORDS: usize = 6;
+    pub const WORDS: usize = 5;
 
     /// As words.
     pub fn words(&self) -> [u64; Table::WORDS] {
-        let [density, rod_radius] = [self.density, self.rod_radius].map(f64::to_bits);
-        [self.end, self.is_counted.into(), self.is_fresh.into(), density, rod_radius, self.name.word()]
+        [self.end, self.is_counted.into(), self.is_fresh.into(), self.density.to_bits(), self.name.word()]
     }
 
     /// The table with these words.
-    fn of(&[end, is_counted, is_fresh, density, rod_radius, name]: &[u64; Table::WORDS]) -> Table {
+    fn of(&[end, is_counted, is_fresh, density, name]: &[u64; Table::WORDS]) -> Table {
         Table {
             end,
             is_counted: is_counted != 0,
             is_fresh: is_fresh != 0,
             density: f64::from_bits(density),
-            rod_radius: f64::from_bits(rod_radius),
             name: Text::of(name),
         }
     }

@@ -307,10 +307,6 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
         Self::data().table(Self::table_of(group)).map(|table| table.density).filter(|density| !density.is_nan())
     }
 
-    fn rod_radius(group: usize) -> Option<f64> {
-        Self::data().table(Self::table_of(group)).map(|table| table.rod_radius).filter(|radius| !radius.is_nan())
-    }
-
     fn impact_mass() -> f64 {
         Self::data().impact_mass
     }
