@@ -40,10 +40,10 @@ fn numbers_of_adams_with_a_wrong_unit_or_twice_are_refused() {
     for wrong in ["1e5 N", "1e5 N.s/mm^1.5", "1e5 N/in^1.5", "x N/mm^1.5", "1e5 N/mm^x"] {
         refused_with(
             &adams(&format!("stiffness = §\"{wrong}\"")),
-            &[wrong, "a stiffness has a unit like N/m^1.5 or N/mm^1.5"],
+            &[wrong, "a stiffness has a unit like `N/m^1.5` or `N/mm^1.5`"],
         );
     }
-    refused_with(&adams("full_damping = §\"10 N/mm\""), &["a damping has a unit like N.s/m or N.s/mm"]);
+    refused_with(&adams("full_damping = §\"10 N/mm\""), &["a damping has a unit like `N.s/m` or `N.s/mm`"]);
     refused_with(
         &adams("stiffness = 1e9, stiffness_factor = §2.0"),
         &["stiffness_factor has no effect beside stiffness"],

@@ -29,7 +29,7 @@ use std::ops::Range;
 ///
 /// # Errors
 /// The first mistake.
-pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
+pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     let name = check_name(&file.name)?;
     let description = check_text("description", file.description.as_ref())?;
     let author = check_text("author", file.author.as_ref())?;
@@ -135,7 +135,12 @@ pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
     }
-    settle(scene, &contacts, &impact_span)
+    // an impact that can't be may be one in a wrong unit
+    let doubted = |Mistake(span, message)| {
+        let doubts = doubts.iter().map(|Mistake(_, doubt)| format!("; {doubt}"));
+        Mistake(span, message + &doubts.collect::<String>())
+    };
+    settle(scene, &contacts, &impact_span).map_err(doubted)
 }
 
 /// The parameters of all contacts, also those of the loss and the `numbers` that the scene gives for all, and the groups with their

@@ -168,7 +168,7 @@ impl Scene {
         let checked = file::SceneFile::read(text, beside).and_then(|mut file| {
             let doubts = plausible::doubts(&file);
             let alone = std::mem::take(&mut file.alone);
-            Ok((Scene { text: alone, ..checks::check(file)? }, doubts))
+            Ok((Scene { text: alone, ..checks::check(file, &doubts)? }, doubts))
         });
         let placed = |mistake: Mistake| mistake.in_file(text, path);
         let (scene, doubts) = checked.map_err(placed)?;
