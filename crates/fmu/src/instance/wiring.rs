@@ -22,6 +22,9 @@ const SAME: f64 = 1e-8;
 /// Rounding error of the importer's own sums, as a fraction of the speeds.
 const ROUNDING: f64 = 1e-13;
 
+/// Added to the speeds \[m/s\]: two bodies that fall together have a closing rate of mere rounding.
+const USUAL: f64 = 1e-5;
+
 /// Part of their sum by which two changes must differ, for the step to tell two readings apart.
 const APART: f64 = 0.5;
 
@@ -231,7 +234,7 @@ impl<S: Scene> Instance<S> {
         // a serial importer has already applied the new force, a parallel one still the old force
         let jump = if S::is_parallel() { -ending.jump } else { ending.jump };
         let left = Left { right: rate - expected, other: rate - expected - jump, none: rate - ending.free };
-        let size = rate.abs() + ending.speed.abs() + expected.abs() + ending.free.abs();
+        let size = USUAL + rate.abs() + ending.speed.abs() + expected.abs() + ending.free.abs();
         let Some(evidence) = self.contacts.evidence.as_mut().get_mut(contact) else { return };
         if let Some(share) = evidence.take(left, ROUNDING * size, step) {
             self.note_miswired(Miswired { contact: contact as u32 + 1, rate, expected, other: 0, share });
