@@ -215,7 +215,11 @@ def outcome_of(tool, name, numbers, radius, mass, speed):
     """An impact by the law of a tool, without errors of a step."""
     if (tool, name) == ("exudyn", "plastic"):
         return unloaded_steeper(numbers, mass, speed)
-    return touched(*law_of_tool(tool, name, numbers, radius, mass, speed), mass, speed)
+    force, pulls = law_of_tool(tool, name, numbers, radius, mass, speed)
+    if name == "impact":
+        # its damping falls faster than its spring, so that the surface lets go and grips again
+        return touched(lambda x, w: max(force(x, w), 0.0), True, mass, speed)
+    return touched(force, pulls, mass, speed)
 
 
 def touched(force, pulls, mass, speed):

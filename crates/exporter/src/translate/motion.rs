@@ -39,6 +39,8 @@ pub enum Stepping {
 
 /// Largest error of a step, relative to the scales of length and speed.
 const TOLERANCE: f64 = 1e-11;
+/// Part of the overlap by which a step may change it where the surface may grip again.
+const NEAR: f64 = 0.01;
 /// More steps than any impact needs.
 const MOST_STEPS: usize = 200_000;
 /// Phases of the touch within a step over which means are taken.
@@ -53,14 +55,21 @@ pub fn scale(law: &Law, mass: f64, speed: f64) -> f64 {
 /// The impact of a `mass` \[kg\] at `speed` \[m/s\] by `law`, without errors of a step; `None` if it does not end.
 pub fn exact(law: &Law, mass: f64, speed: f64) -> Option<Outcome> {
     let length = scale(law, mass, speed);
+    // a damping that falls faster than the spring lets the surface go, and grip again
+    let grips_again = matches!(law, Law::Impact { .. });
+    let ends_early = !law.pulls() && !grips_again;
     let over =
-        |deepest: f64, [x, w]: &[f64; 2]| *w < 0.0 && (*x <= 0.0 || !law.pulls() && law.force(*x, *w, deepest) <= 0.0);
+        |deepest: f64, [x, w]: &[f64; 2]| *w < 0.0 && (*x <= 0.0 || ends_early && law.force(*x, *w, deepest) <= 0.0);
+    let force = |x: f64, w: f64, deepest: f64| {
+        let force = law.force(x, w, deepest);
+        if grips_again { force.max(0.0) } else { force }
+    };
     let (mut state, mut deepest, mut time) = ([0.0, speed], 0.0_f64, 0.0);
     let mut step = 1e-5 * length / speed;
     let mut peak = Peak::default();
     peak.add(0.0, law.force(0.0, speed, 0.0));
     for _ in 0..MOST_STEPS {
-        let slope = |[x, w]: &[f64; 2]| Some([*w, -law.force(*x, *w, deepest.max(*x)) / mass]);
+        let slope = |[x, w]: &[f64; 2]| Some([*w, -force(*x, *w, deepest.max(*x)) / mass]);
         let (next, error) = runge_kutta::step(&state, step, slope)?;
         let error = (error[0].abs() / length).max(error[1].abs() / speed);
         let factor = runge_kutta::factor(TOLERANCE, error);
@@ -91,8 +100,12 @@ pub fn exact(law: &Law, mass: f64, speed: f64) -> Option<Outcome> {
         }
         (state, time) = (next, time + step);
         deepest = deepest.max(state[0]);
-        peak.add(time, law.force(state[0], state[1], deepest));
+        peak.add(time, force(state[0], state[1], deepest));
         step *= factor.min(5.0);
+        if grips_again && state[1] < 0.0 {
+            // a longer step could miss where the surface grips
+            step = step.min(NEAR * state[0].max(1e-3 * length) / -state[1]);
+        }
     }
     None
 }
