@@ -184,7 +184,7 @@ pub fn check_readable(path: &Path, kind: &Kind) -> io::Result<()> {
             let (folder, names) = (folder_of(path), names(folder_of(path)));
             let asked = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let Some(near) = nearest(&asked, names.iter().map(String::as_str)) else { return Err(error) };
-            let near = if folder == Path::new(".") { near.into() } else { shown(&folder.join(near)) };
+            let near = if folder == Path::new(".") { shown(Path::new(near)) } else { shown(&folder.join(near)) };
             Err(io::Error::new(error.kind(), format!("{error}; did you mean {near}?")))
         }
         other => other.map(drop),

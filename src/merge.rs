@@ -102,8 +102,11 @@ fn platform(name: &str) -> Option<&str> {
     Some(platform)
 }
 
+/// Name and contents of a file; equal contents are there once.
+type Part = (String, Rc<[u8]>);
+
 /// The files of all FMUs, in the order of an export.
-fn join(fmus: Vec<Fmu>) -> Result<Vec<(String, Rc<[u8]>)>, MergeError> {
+fn join(fmus: Vec<Fmu>) -> Result<Vec<Part>, MergeError> {
     for (index, other) in fmus.iter().enumerate() {
         if let Some(one) = fmus[..index].iter().find(|one| one.guid != other.guid) {
             let copy = |fmu: &Fmu| Fmu { path: fmu.path.clone(), guid: fmu.guid.clone(), files: BTreeMap::new() };

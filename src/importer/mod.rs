@@ -133,7 +133,7 @@ pub fn description_in(path: &Path) -> Result<Description, ImportError> {
 /// The scene in an archive.
 fn scene_of(archive: &mut BoundedArchive<impl io::Read + io::Seek>) -> Result<Option<String>, ImportError> {
     let Some(bytes) = archive.read(SCENE, scene_file::LARGEST)? else { return Ok(None) };
-    let wrong = |error| ImportError::Part { name: SCENE, source: io::Error::other(error) };
+    let wrong = |_| ImportError::Part { name: SCENE, source: io::Error::other("it isn't UTF-8") };
     String::from_utf8(bytes).map(Some).map_err(wrong)
 }
 

@@ -35,8 +35,8 @@ fn taplo_checks_a_new_scene_by_its_first_line() {
     };
     lint().with_status(0);
     for (from, to, said) in [
-        ("radius = 5e-3", "radius = \"5 kg\"", "\"5 kg\" does not match"),
-        ("radius = 5e-3", "radius = -5e-3", "less than the minimum"),
+        ("radius = \"5 mm\"", "radius = \"5 kg\"", "\"5 kg\" does not match"),
+        ("radius = \"5 mm\"", "radius = -5e-3", "less than the minimum"),
         ("loading = \"brinell\"", "loading = \"brinel\"", "\"brinel\" is not one of"),
         ("\n[impact] ", "\n[imapct] ", "'imapct' was unexpected"),
     ] {

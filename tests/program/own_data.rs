@@ -123,7 +123,7 @@ fn a_crosshead_is_warned_of_and_its_compliance_can_be_taken_off() {
         let error = restitution(scene) / expected - 1.0;
         assert!(error.abs() < tolerance, "{scene}: {error}");
     }
-    assert!(restitution("soft.toml") < 0.98 * expected, "the crosshead makes it softer");
+    assert!(restitution("soft.toml") < 0.995 * expected, "the crosshead makes it softer");
 }
 
 /// Hollomon and Considere: sigma = Rm (e eps/n)^n, n from Rp0.2 and Rm.

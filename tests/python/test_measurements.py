@@ -215,7 +215,7 @@ def test_a_given_name_makes_a_column_known(tmp_path):
     assert found.arguments["depth"] == pytest.approx([1e-3])
     with pytest.raises(ValueError, match="columns names `E3`, which is no heading"):
         read(tmp_path, text, columns={"E3": "depth"})
-    with pytest.raises(ValueError, match="calls `E2` `deepth .mm.`, .*did you mean `depth`. expected .*force"):
+    with pytest.raises(ValueError, match="calls `E2` `deepth .mm.`, .*did you mean `depth`. Expected .*force"):
         read(tmp_path, text, columns={"E2": "deepth [mm]", "depth": "x"})
 
 

@@ -4,7 +4,7 @@
 use crate::layout::shortened;
 use crate::measurement::{self, Choices, MeasuredColumn, Measurement};
 use crate::nearest::one_of;
-use crate::numbers::{cell, in_message, quantity};
+use crate::numbers::{cell, in_message, quantity, significant};
 use brinell_contact::hardening::PowerLaw;
 use std::f64::consts::PI;
 
@@ -186,7 +186,7 @@ impl Curve {
             }
         };
         let [slope, modulus] = [slope, youngs_modulus].map(|modulus| quantity(modulus, "Pa"));
-        let part_said = cell(part, 1.0);
+        let part_said = significant(part, 2);
         Some((
             part,
             format!("the curve begins with a slope of {slope}, {part_said} of youngs_modulus = {modulus}; {why}"),

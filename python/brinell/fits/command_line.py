@@ -8,7 +8,6 @@ from typing import Any
 
 from .fit import fit
 from .parameters import PARAMETERS
-from .quantities import QUANTITIES
 
 PICTURES = (".svg", ".png", ".pdf")
 
@@ -28,16 +27,12 @@ def _ends(text: str) -> tuple[str, tuple[str, str]]:
     return name, (first, second)
 
 
-NAMES = ", ".join(one.names[0] for one in QUANTITIES.values())
-"""The quantities of columns."""
-
-
 def _column(text: str) -> tuple[str, str]:
     # a heading may have `=` in it
     heading, equals, name = text.rpartition("=")
     if not (heading and equals and name):
         raise argparse.ArgumentTypeError(
-            f"{text!r} is not of the form HEADING=NAME [UNIT], such as 'E2=depth [mm]'; names are {NAMES}"
+            f"{text!r} is not of the form HEADING=NAME [UNIT], such as 'E2=depth [mm]'"
         )
     return heading, name
 
@@ -64,7 +59,7 @@ def add_arguments(commands: Any) -> None:
     add("--accuracy", type=_pair, action="append", default=[], metavar="NAME=DEVIATION",
         help="standard deviation of a result, such as restitution=0.01")  # fmt: skip
     add("--column", type=_column, action="append", default=[], metavar="HEADING=NAME [UNIT]",
-        help=f"what a column of the file is, such as 'E2=depth [mm]'; names are {NAMES}")  # fmt: skip
+        help="what a column of the file is, such as 'E2=depth [mm]'; an unknown name is answered with those that exist")  # fmt: skip
     add("--decimal", choices=[".", ","], help="the decimal sign, where the file leaves it open")
     add("--laws", help="laws to try beside each other, separated by commas")
     add("--mass", type=float, help="effective mass [kg], instead of the scene's")

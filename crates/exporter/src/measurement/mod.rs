@@ -15,7 +15,7 @@ use crate::measured;
 use crate::nearest::one_of;
 use crate::numbers::significant;
 use dialect::{Body, Line, MOST_BEFORE, Separator, body_of, decimal_of, is_number, lines_of, number, text_of};
-use headings::{Heading, heading, is_known, is_unit, none_known, usual};
+use headings::{Heading, heading, is_known, is_unit, nearest_name, none_known, usual};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::{self, Display, Formatter};
@@ -114,6 +114,13 @@ pub fn read(bytes: &[u8], choices: &Choices) -> Result<Measurement, Wrong> {
     if let Some((from, _)) = choices.renamed.iter().find(|(from, _)| !headings.contains(from)) {
         let all: Vec<&str> = headings.iter().map(String::as_str).collect();
         return Err(Wrong::whole(format!("columns names `{from}`, which is no heading; there is {}", one_of(&all))));
+    }
+    // a name without any likeness takes a column out
+    for (from, to) in choices.renamed.iter().filter(|(_, to)| !is_known(to)) {
+        if let Some(near) = nearest_name(to) {
+            let what = format!("columns calls `{from}` `{to}`, which is no quantity; did you mean `{near}`?");
+            return Err(Wrong::whole(format!("{what} Expected {EXAMPLES}")));
+        }
     }
     let cells = |line: &Line| body.separator.cells(&line.text);
     let is_units = |cells: &[String]| {

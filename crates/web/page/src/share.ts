@@ -56,7 +56,7 @@ export class Share {
 }
 
 async function sceneIn(file: File, engine: Engine, now: string): Promise<string> {
-  const bytes = async (): Promise<Uint8Array> => new Uint8Array(await file.arrayBuffer());
+  const bytes = async (): Promise<Uint8Array<ArrayBuffer>> => new Uint8Array(await file.arrayBuffer());
   if (/\.fmu$/i.test(file.name)) return (await engine.ask("scene_of", {}, await bytes())).ok.text;
   if (/\.(csv|tsv|txt|dat)$/i.test(file.name)) return (await engine.ask("tensile_test", { text: now }, await bytes())).ok.text;
   return file.text();
