@@ -267,7 +267,7 @@ impl<S: Scene> Instance<S> {
         Some(Warning::Miswired { contact, rate, expected, cause })
     }
 
-    /// Looks for contacts that share a body of which the FMU does not know, or with another mass than it knows: in two steps, the rate of a contact
+    /// Looks for contacts that share a body, unknown to the FMU or of another mass than it knows. In two steps, the rate of a contact
     /// differs from the expected one by the same multiple of the force of another contact, which alone pushes.
     pub(super) fn check_sharing(&mut self) {
         if S::contacts() < 2 || !S::moves() {
