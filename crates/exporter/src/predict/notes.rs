@@ -13,8 +13,8 @@ use brinell_contact::{Model, Surface};
 /// On a surface that keeps its dents, a second impact at the same place is elastic.
 const ENDLESS: &str = "The surface keeps its dent (surface = \"dented\", the default). A ball that falls into its own dent again \
                        meets it elastically, and bounces to the same height for ever. With surface = \"fresh\" under [target] \
-                       every impact meets an untouched spot, and bounces grow lower as long as they yield. To rest comes a ball \
-                       only with a loss below yield, such as elastic_restitution under [law].";
+                       every impact meets an untouched spot, and bounces grow lower as long as they yield. Only a loss below \
+                       yield, such as elastic_restitution under [law], brings the ball to rest.";
 
 /// Steel whose strength was measured slowly, in a scene that says nothing of the rate.
 const ASSUMED_RATE: &str = " The scene gives no rate; that of AISI 4340 is assumed, c = 0.014 from the 1e-3 1/s of the test. \
