@@ -22,7 +22,7 @@ from typing import Any, ClassVar, Self
 from urllib.request import url2pathname
 
 # Seconds until something that is waited for counts as missing.
-PATIENCE = 20.0
+PATIENCE = 180.0
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 
 # Before the page's own scripts: mistakes, and the files that it saves.
