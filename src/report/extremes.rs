@@ -54,8 +54,6 @@ pub struct Case {
 struct Finding {
     force_error: f64,
     energy_error: f64,
-    /// Largest contact radius by the law [m].
-    radius: f64,
     /// Whether the law itself returns more energy than it received.
     law_gains: bool,
 }
@@ -106,10 +104,23 @@ impl Case {
         self
     }
 
-    /// Judges a run. It fails if an error exceeds its tolerance, or if a warning is missing or wrong.
-    fn judged(mut self, contact: &mut Contact, bodies: &Bodies, run: Result<Finding, ImportError>) -> Case {
-        let Finding { force_error, energy_error, radius, law_gains } = match run {
+    /// Judges a run whose largest contact radius is `radius` \[m\] by the law. It fails if an error exceeds its tolerance, or if a
+    /// warning is missing or wrong. A contact as wide as its smaller body must be refused.
+    fn judged(
+        mut self,
+        contact: &mut Contact,
+        bodies: &Bodies,
+        radius: f64,
+        run: Result<Finding, ImportError>,
+    ) -> Case {
+        let Finding { force_error, energy_error, law_gains } = match run {
+            Ok(_) if radius > (1.0 + TOLERANCE) * bodies.size => {
+                return self.with(Outcome::Failed, "the contact is wider than the smaller body, and the unit goes on");
+            }
             Ok(finding) => finding,
+            Err(error) if radius > (1.0 - TOLERANCE) * bodies.size => {
+                return self.with(Outcome::Refused, &error.to_string());
+            }
             Err(error) => return self.with(Outcome::Failed, &error.to_string()),
         };
         let pair = bodies.model.pair();
@@ -253,11 +264,15 @@ fn by_steps(contact: &mut Contact, name: &str, bodies: &Bodies, prediction: &Pre
         Finding {
             force_error: (rebound.max_force / prediction.max_force - 1.0).abs(),
             energy_error: (energy - expected).abs(),
-            radius: prediction.max_contact_radius,
             law_gains: expected > 1.0 + EXACT,
         }
     });
-    Case::new(name, prediction.max_indentation, step, TOLERANCE).judged(contact, bodies, finding)
+    Case::new(name, prediction.max_indentation, step, TOLERANCE).judged(
+        contact,
+        bodies,
+        prediction.max_contact_radius,
+        finding,
+    )
 }
 
 /// An impact without a prediction. Beyond the range of the law, the FMU must report an error. A strongly damped
@@ -379,10 +394,14 @@ impl Motion {
             force_error: if largest > 0.0 { (force - left).abs() / largest } else { force.abs() },
             // the energy of a tiny indentation underflows
             energy_error: if work > 0.0 { (dissipated - (work - recovered)).abs() / work } else { dissipated.abs() },
-            radius: model.loading.contact_radius(&model.pair, depth),
             law_gains: recovered > work * (1.0 + EXACT),
         });
-        Case::new(&self.name, depth, self.step, EXACT).judged(contact, bodies, finding)
+        Case::new(&self.name, depth, self.step, EXACT).judged(
+            contact,
+            bodies,
+            model.loading.contact_radius(&model.pair, depth),
+            finding,
+        )
     }
 }
 

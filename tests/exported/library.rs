@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Largest size of a library [bytes]: that of an FMU that knows the mass, with the law `brinell`.
-const LARGEST: u64 = 80_000;
+const LARGEST: u64 = 81_000;
 
 /// The same with friction: the springs, their growth with the dent, and their merge.
 const LARGEST_WITH_FRICTION: u64 = 123_000;

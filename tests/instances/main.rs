@@ -190,26 +190,71 @@ fn a_refused_step_of_several_contacts_moves_none_of_them() {
 
 /// A ball of 5 mm on a plane, on larger and smaller balls, and in sockets that hardly differ from it.
 #[test]
-fn a_wide_contact_is_told_at_three_tenths_of_the_smaller_radius() {
+fn a_wide_contact_is_told_at_three_tenths_of_the_smaller_radius_and_refused_at_that_radius() {
     for target in [f64::INFINITY, 2e-2, 1e-3, -1.0, -6e-3, -5.1e-3] {
         for (name, choice) in some_pairings() {
             choose(Choice { target_radius: target, ..choice });
-            let mut instance = ready::<Several>();
             let effective = choice.radius / (1.0 + choice.radius / target);
-            let limit = 0.3 * effective.min(choice.radius).min(target.abs());
-            let width = |instance: &Instance<Several>| instance.real((Real::ContactRadius, 0));
-            let mut before = 0.0;
-            set_rate(&mut instance, 0, 1.0);
-            let told = (0..20_000).any(|_| {
-                before = width(&instance);
-                let time = instance.time();
-                instance.do_step(time, 1e-3 * limit).unwrap();
-                instance.take_deep().is_some()
-            });
-            let what = format!("{name} on {target} m: told between {before:e} and {:e} m", width(&instance));
-            assert!(told && before < limit && width(&instance) >= limit, "{what}, not at {limit:e} m");
+            let size = choice.radius.min(target.abs());
+            widen::<One>(&name, effective, size);
+            widen::<Several>(&name, effective, size);
+            widen::<RoughOne>(&name, effective, size);
         }
     }
+}
+
+/// Presses the first contact in, until it is refused.
+fn widen<S: Scene>(name: &str, effective: f64, size: f64) {
+    let limit = 0.3 * effective.min(size);
+    let width = |instance: &Instance<S>| instance.real((Real::ContactRadius, 0));
+    // as an importer does: warnings are taken after each step
+    let step = |instance: &mut Instance<S>, by: f64| {
+        let time = instance.time();
+        let done = instance.do_step(time, by);
+        (done, instance.take_deep())
+    };
+    let mut instance = ready::<S>();
+    let mut before = 0.0;
+    set_rate(&mut instance, 0, 1.0);
+    let told = (0..20_000).any(|_| {
+        before = width(&instance);
+        let (done, warning) = step(&mut instance, 1e-3 * limit);
+        done.unwrap();
+        warning.is_some()
+    });
+    let what = format!("{name} with {size} m: told between {before:e} and {:e} m", width(&instance));
+    assert!(told && before < limit && width(&instance) >= limit, "{what}, not at {limit:e} m");
+    let depth = instance.real((Real::Indentation, 0));
+    let refused = (0..20_000).find_map(|_| {
+        let (state, now) = (words(&instance), width(&instance));
+        match step(&mut instance, 0.02 * depth) {
+            (Ok(()), None) => {
+                before = now;
+                None
+            }
+            (Err(fault), None) => Some((state, fault)),
+            (_, warning) => panic!("{name} with {size} m: {warning:?} again"),
+        }
+    });
+    let Some((state, fault)) = refused else { panic!("{name} with {size} m: {:e} m is not refused", width(&instance)) };
+    assert_eq!(fault, Fault::TooWide { contact: 0, size }, "{name}");
+    let what = format!("{name} with {size} m: refused between {before:e} and {:e} m", width(&instance));
+    assert!(before < size && width(&instance) >= size * (1.0 - 1e-12), "{what}");
+    assert_eq!(words(&instance), state, "{name}: a refused step changes nothing");
+    // nor does a copy go on, nor the same state from its words, after the step that looks
+    let time = instance.time();
+    assert_ne!(instance.do_plain_step(time, 1e-9), Plain::Done);
+    let mut copy = ready::<S>();
+    copy.copy(&instance);
+    assert_eq!(step(&mut copy, 1e-9).0, Err(fault), "{name}: a copy");
+    let bytes: Vec<_> = state.iter().map(|word| word.to_le_bytes()).collect();
+    assert!(copy.load(&bytes) && step(&mut copy, 1e-9).1.is_some(), "{name}: warned again");
+    assert_eq!(step(&mut copy, 1e-9).0, Err(fault), "{name}: from words");
+    // a state from before goes on
+    copy.copy(&ready::<S>());
+    assert_eq!(step(&mut copy, 1e-9), (Ok(()), None), "{name}: another state");
+    instance.reset().unwrap();
+    assert_eq!(instance.phase(), Phase::Instantiated);
 }
 
 #[test]

@@ -189,8 +189,8 @@ pub trait Contact<M>: Copy {
         Sliding::Apart
     }
 
-    /// The indentation up to which the law of `model` is valid \[m\], for bodies of which the smaller one has this `size` \[m\].
-    fn valid_depth(model: &M, size: f64) -> f64;
+    /// The indentation at which the loading law of `model` has this `contact_radius` \[m\].
+    fn depth_of(model: &M, contact_radius: f64) -> f64;
 
     /// Whether a law of `model` may reject an indentation below the [limit](super::regime::LARGEST_INDENTATION). A fitted law
     /// may end earlier.

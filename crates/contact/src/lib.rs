@@ -274,7 +274,12 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The indentation up to which the loading law is valid \[m\] for bodies of which the smaller one has this `size` \[m\].
     pub fn valid_depth(&self, size: f64) -> f64 {
-        validity::largest_indentation(self.pair.radius, size, |depth| self.point_of_loading(depth).contact_radius)
+        self.depth_of(validity::largest_radius(self.pair.radius, size))
+    }
+
+    /// The indentation at which the loading law has this `contact_radius` \[m\].
+    pub fn depth_of(&self, contact_radius: f64) -> f64 {
+        validity::depth_of(contact_radius, self.pair.radius, |depth| self.point_of_loading(depth).contact_radius)
     }
 
     /// Whether the passivity guard shortens the path from `max_indentation` \[m\].

@@ -39,16 +39,21 @@ const DOUBLINGS: u32 = 8;
 /// Largest relative error of the contact area after the search.
 const AREA_TOLERANCE: f64 = 1e-12;
 
-/// The indentation up to which a law is valid \[m\]: its `contact_radius`, a function of the indentation, is [`LARGEST_RADIUS_RATIO`] of
-/// the effective `radius` \[m\], or of the smaller body, which has this `size` \[m\].
+/// The contact radius up to which a law is valid \[m\]: [`LARGEST_RADIUS_RATIO`] of the effective `radius` \[m\], or of the smaller body,
+/// which has this `size` \[m\].
+pub fn largest_radius(radius: f64, size: f64) -> f64 {
+    LARGEST_RADIUS_RATIO * smallest(radius, size)
+}
+
+/// The indentation at which a law of bodies with this effective `radius` \[m\] has the contact radius `wanted` \[m\]: `contact_radius` is a
+/// function of the indentation.
 ///
 /// The contact radius rises with the indentation for every law, and is hardly ever below that of Hertz, `sqrt(R d)`. The search uses the
 /// Illinois method.
 ///
 /// Reference: M. Dowell, P. Jarratt, *BIT* 11 (1971) 168-174.
 #[inline(never)]
-pub fn largest_indentation(radius: f64, size: f64, contact_radius: impl Fn(f64) -> f64) -> f64 {
-    let wanted = LARGEST_RADIUS_RATIO * smallest(radius, size);
+pub fn depth_of(wanted: f64, radius: f64, contact_radius: impl Fn(f64) -> f64) -> f64 {
     // ratios are squared, because the square of a small radius may underflow
     let excess = |depth: f64| {
         let ratio = contact_radius(depth) / wanted;

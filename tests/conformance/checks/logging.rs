@@ -145,8 +145,8 @@ pub fn discarded_questions(face: &Face) {
 /// importers do by themselves.
 pub fn warnings(face: &Face) {
     let leave = |i: &mut Importer| {
-        i.press(900.0);
-        i.press(-900.0);
+        i.press(300.0);
+        i.press(-300.0);
         i.messages()
     };
     let restarted = |i: &mut Importer| {
@@ -158,7 +158,7 @@ pub fn warnings(face: &Face) {
         let mut i = Importer::named(face, NAME, logging);
         i.go(Phase::StepComplete);
         let told = leave(&mut i);
-        assert!(!told.is_empty(), "900 m/s are beyond every law");
+        assert!(!told.is_empty(), "300 m/s are beyond every law");
         for message in &told {
             check(face, message);
             assert_eq!(message.status, WARNING);

@@ -7,16 +7,25 @@ use std::fs;
 
 #[test]
 fn all_cases_of_an_elastic_scene_are_right() {
-    let verdicts = rows(&ELASTIC, "extremes").iter().map(|row| row["verdict"].as_str().expect("a verdict"));
-    let wrong: Vec<_> = verdicts.filter(|verdict| *verdict != "right").collect();
-    assert!(wrong.is_empty(), "{wrong:?}");
+    let verdicts = || rows(&ELASTIC, "extremes").iter().map(|row| row["verdict"].as_str().expect("a verdict"));
+    let wrong: Vec<_> = verdicts().filter(|verdict| *verdict != "right" && !is_too_wide(verdict)).collect();
+    assert!(wrong.is_empty() && verdicts().any(|verdict| verdict == "right"), "{wrong:?}");
+}
+
+/// Whether the FMU has refused a contact as wide as its smaller body.
+fn is_too_wide(verdict: &str) -> bool {
+    verdict
+        .starts_with("rejected, correctly: fmi2DoStep returned status 3: fmi2DoStep: the contact radius has reached ")
 }
 
 #[test]
 fn all_extreme_cases_are_judged_and_pass() {
     let cases = rows(&DEFAULT.1, "extremes");
     assert!(cases.len() >= 50, "some dozens of cases, not {}", cases.len());
-    for case in cases {
+    let (wide, others): (Vec<_>, Vec<_>) =
+        cases.iter().partition(|case| is_too_wide(case["verdict"].as_str().expect("a verdict")));
+    assert!(2 * wide.len() < others.len(), "{} of {} are too wide to be judged", wide.len(), cases.len());
+    for case in others {
         assert_eq!(case["verdict"], "right", "{case}");
         for error in ["error_of_force", "error_of_energy"] {
             let (error, tolerance) = (case[error].as_f64(), case["tolerance"].as_f64());

@@ -18,8 +18,7 @@ pub use history::{History, follow};
 
 use super::laws::{Constant, LawNumbers, laws};
 use super::material::Pair;
-use super::numbers::smallest;
-use super::validity::LARGEST_RADIUS_RATIO;
+use super::validity;
 use libm::sqrt;
 
 laws! {
@@ -51,9 +50,12 @@ impl<D> Model<D> {
     /// The indentation up to which the law is valid \[m\] for bodies of which the smaller one has this `size` \[m\], with Hertz's contact
     /// radius `a^2 = R d`.
     pub fn valid_depth(&self, size: f64) -> f64 {
-        let radius = self.pair.radius;
-        let wanted = LARGEST_RADIUS_RATIO * smallest(radius, size);
-        wanted / radius * wanted
+        self.depth_of(validity::largest_radius(self.pair.radius, size))
+    }
+
+    /// The indentation at which the contact radius is `contact_radius` \[m\].
+    pub fn depth_of(&self, contact_radius: f64) -> f64 {
+        contact_radius / self.pair.radius * contact_radius
     }
 }
 

@@ -167,8 +167,8 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         moved
     }
 
-    fn valid_depth(model: &Model<L, U>, size: f64) -> f64 {
-        model.valid_depth(size)
+    fn depth_of(model: &Model<L, U>, contact_radius: f64) -> f64 {
+        model.depth_of(contact_radius)
     }
 
     fn may_refuse(model: &Model<L, U>) -> bool {

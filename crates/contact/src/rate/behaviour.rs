@@ -118,8 +118,8 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
     }
 
     /// That of the target under a slow load, which is the smaller one.
-    fn valid_depth(model: &Model<L, U>, size: f64) -> f64 {
-        model.slow.valid_depth(size)
+    fn depth_of(model: &Model<L, U>, contact_radius: f64) -> f64 {
+        model.slow.depth_of(contact_radius)
     }
 
     fn may_refuse(model: &Model<L, U>) -> bool {

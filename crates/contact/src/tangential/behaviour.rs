@@ -240,8 +240,8 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
         Rough::sliding(self)
     }
 
-    fn valid_depth(model: &RoughModel<L, U, N::Loss>, size: f64) -> f64 {
-        model.normal.valid_depth(size)
+    fn depth_of(model: &RoughModel<L, U, N::Loss>, contact_radius: f64) -> f64 {
+        model.normal.depth_of(contact_radius)
     }
 
     fn may_refuse(model: &RoughModel<L, U, N::Loss>) -> bool {

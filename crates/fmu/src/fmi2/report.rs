@@ -76,6 +76,7 @@ fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
         Fault::NoPointContact { contact, .. }
         | Fault::TooDeep { contact, .. }
         | Fault::TooLong { contact, .. }
+        | Fault::TooWide { contact, .. }
         | Fault::UnknownMass { contact } => Some(contact),
         Fault::FixedParameter { index } | Fault::OutOfRange { index, .. } => S::settable(index)?.1,
         _ => None,
@@ -204,6 +205,11 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         Fault::TooDeep { indentation, .. } => {
             numbers[0] = indentation;
             "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
+        }
+        Fault::TooWide { size, .. } => {
+            numbers[0] = size;
+            "the contact radius has reached ~ m, the radius of the smaller body: no contact law holds; is indentation_rate in m/s, and the step \
+             short enough for the mass?"
         }
         Fault::TooLong { step, .. } => {
             numbers[0] = step;

@@ -26,8 +26,8 @@ impl<S: Scene> Instance<S> {
             let (mut history, model) = (history, self.model(0));
             let moved = history.step_with_mean_force(&course, step, || model);
             let (deepest, mean) = moved.map_err(|deep| too_deep(0, deep))?;
-            history.stays_within(self.valid_depth(0));
-            if deepest >= self.valid_depth(0) {
+            history.stays_within(self.depth(0));
+            if deepest >= self.depth(0) {
                 self.note_deep(0, deepest);
             }
             self.contacts.histories.as_mut().fill(history);

@@ -110,6 +110,13 @@ pub enum Fault {
         /// The indentation \[m\].
         indentation: f64,
     },
+    /// A step after a contact has become as wide as its smaller body, where no law holds.
+    TooWide {
+        /// The contact, counted from 0.
+        contact: usize,
+        /// Radius of the smaller body \[m\].
+        size: f64,
+    },
     /// A step in which the bodies touch more often than can be computed.
     TooLong {
         /// The contact, counted from 0.

@@ -27,6 +27,7 @@ use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
 use account::{Account, Ending};
 use brinell_contact::behaviour::is_finite_at;
 use brinell_contact::shared::Work;
+use brinell_contact::validity::largest_radius;
 use brinell_contact::{Contact, TooDeep};
 use clock::Clock;
 use coupling::{Curve, Momentum};
@@ -94,6 +95,8 @@ struct Settings<S: Scene> {
     /// A hash of the scene and of all parameters: a saved state with the same hash is one of the same scene, whose parameters
     /// need not be copied.
     stamp: u64,
+    /// The limit that contacts have not reached yet.
+    limit: Limit,
     bodies: S::Groups<BodiesOf<S>>,
     values: S::Values,
 }
@@ -164,6 +167,18 @@ struct Deep {
     indentation: f64,
 }
 
+/// A limit of the width of contacts. Zero is the first one, as in memory full of zeros.
+#[derive(Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+enum Limit {
+    /// The law becomes [invalid](brinell_contact::validity): a warning.
+    Valid = 0,
+    /// A contact is as wide as its smaller body: no further step.
+    Wide = 1,
+    /// None: this contact has reached the last one.
+    None(u32) = 2,
+}
+
 /// One instance of a scene: everything that a saved state contains.
 ///
 /// Memory full of zeros is a valid instance, but must be [reset](Instance::reset) before use. An instance of many contacts is
@@ -194,13 +209,15 @@ impl<S: Scene> Settings<S> {
         model_of::<S>(group, self.bodies.as_ref().get(group).unwrap_or(&none), &self.values)
     }
 
-    /// The indentation up to which the law of `group` is valid \[m\].
-    fn valid_depth(&mut self, group: usize) -> f64 {
-        let known = self.bodies.as_ref().get(group).map_or(f64::NAN, |bodies| bodies.depth);
-        if known != 0.0 {
-            return known;
+    /// The indentation at which `group` reaches the present limit \[m\].
+    fn depth(&mut self, group: usize) -> f64 {
+        let Some(bodies) = self.bodies.as_ref().get(group) else { return f64::NAN };
+        if bodies.depth != 0.0 {
+            return bodies.depth;
         }
-        let depth = S::Contact::valid_depth(&self.model(group), validity::size::<S>(group, &self.values));
+        let size = validity::size::<S>(group, &self.values);
+        let width = if self.limit == Limit::Valid { largest_radius(bodies.radius, size) } else { size };
+        let depth = S::Contact::depth_of(&self.model(group), width);
         self.bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.depth = depth);
         depth
     }

@@ -79,6 +79,15 @@ impl<S: Scene> Instance<S> {
             put_all(own.curves.as_mut(), given.curves.as_ref());
         }
         self.clock = other.clock;
+        // what has been told remains told
+        let [present, restored] =
+            [self.settings.limit, other.settings.limit].map(|limit| matches!(limit, Limit::None(_)));
+        if present || restored {
+            self.settings.set_limit(Limit::Wide);
+        }
+        if restored {
+            self.settings.limit = other.settings.limit;
+        }
         self.forget_importer();
         if S::guard().is_some() {
             // what has been told of the other contacts is not known here
@@ -91,6 +100,7 @@ impl<S: Scene> Instance<S> {
     #[inline(never)]
     pub fn copy(&mut self, other: &Instance<S>) {
         let (own, given) = (&mut self.settings, &other.settings);
+        own.limit = given.limit;
         put_all(own.bodies.as_mut(), given.bodies.as_ref());
         put_all(own.values.as_mut(), given.values.as_ref());
         (own.largest_rate, own.stamp) = (given.largest_rate, given.stamp);
@@ -215,6 +225,7 @@ impl<S: Scene> Instance<S> {
         self.clock.curved = flags & 2 != 0;
         self.contacts.last_step.as_mut().fill(last_step);
         // the earlier warnings are not known here
+        self.settings.set_limit(Limit::Valid);
         self.look();
         self.forget_importer();
         self.note_forces();

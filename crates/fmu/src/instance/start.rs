@@ -131,7 +131,13 @@ impl<S: Scene> Instance<S> {
                 works: Store::filled(Work::new(history)),
                 numbers: core::array::from_fn(|_| Store::filled(0.0)),
             },
-            settings: Settings { largest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
+            settings: Settings {
+                largest_rate: 0.0,
+                stamp: 0,
+                limit: Limit::Valid,
+                bodies: Store::filled(Bodies::default()),
+                values,
+            },
             deep: Deep { contact: 0, indentation: 0.0 },
         };
         instance.reset()?;
@@ -156,6 +162,7 @@ impl<S: Scene> Instance<S> {
         }
         self.clock = Clock::START;
         self.deep.contact = 0;
+        self.settings.set_limit(Limit::Valid);
         self.straighten();
         self.start()
     }
@@ -171,7 +178,7 @@ impl<S: Scene> Instance<S> {
     #[cold]
     #[inline(never)]
     pub(super) fn stamp_parameters(&mut self) {
-        let Settings { largest_rate, stamp, bodies, values } = &mut self.settings;
+        let Settings { largest_rate, stamp, bodies, values, .. } = &mut self.settings;
         let sizes = bodies.as_ref().iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
         let mix = |sum: u64, value: f64| {
             let mixed = (sum ^ value.to_bits()).wrapping_mul(GOLDEN);

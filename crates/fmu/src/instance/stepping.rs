@@ -37,9 +37,10 @@ impl<S: Scene> Instance<S> {
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
-    /// [`Fault::TooLong`], [`Fault::InputOutOfRange`], [`Fault::UnknownMass`]; no contact changes then.
+    /// [`Fault::TooLong`], [`Fault::TooWide`], [`Fault::InputOutOfRange`], [`Fault::UnknownMass`]; no contact changes then.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.clock.check(time, step, Self::shortest())?;
+        self.check_width()?;
         self.check_tangential_rates(step)?;
         self.check_masses()?;
         self.advance(time + step, step)?;
@@ -143,7 +144,7 @@ impl<S: Scene> Instance<S> {
     #[cold]
     #[inline(never)]
     fn note_depth(&mut self) {
-        let depth = self.valid_depth(0);
+        let depth = self.depth(0);
         let Some(history) = self.contacts.histories.as_mut().first_mut() else { return };
         let reached = history.max_indentation();
         if !history.stays_within(depth) {
@@ -237,7 +238,7 @@ impl<S: Scene> Instance<S> {
                     *guarded = Guarded::Seen;
                 }
             }
-            if (is_one || !short) && !history.stays_within(settings.valid_depth(group())) {
+            if (is_one || !short) && !history.stays_within(settings.depth(group())) {
                 self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };
             }
             self.deep = long.unwrap_or(self.deep);
@@ -268,7 +269,7 @@ impl<S: Scene> Instance<S> {
             self.check_wiring(contact, step);
             let Moved { mut history, course, mean_force, speed, deepest } = self.moved(contact, step)?;
             self.end_step(contact, speed, mean_force, step);
-            let allowed = self.valid_depth(contact);
+            let allowed = self.depth(contact);
             history.stays_within(allowed);
             if deepest >= allowed {
                 self.note_deep(contact, deepest);

@@ -112,7 +112,7 @@ impl<S: Scene> Instance<S> {
 
     /// Notes the `mean_force` \[N\] of a `step` \[s\] of `contact`, and how deep it was.
     fn note_normal(&mut self, contact: usize, mean_force: f64, step: f64) {
-        let allowed = self.valid_depth(contact);
+        let allowed = self.depth(contact);
         let Contacts { histories, momenta, works, .. } = &mut self.contacts;
         momenta.as_mut().get_mut(contact).into_iter().for_each(|momentum| momentum.add(mean_force, step));
         let (Some(history), Some(work)) = (histories.as_mut().get_mut(contact), works.as_ref().get(contact)) else {

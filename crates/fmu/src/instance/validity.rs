@@ -22,9 +22,22 @@ pub(super) fn size<S: Scene>(group: usize, values: &S::Values) -> f64 {
     validity::size_of(radii.map(|radius| S::parameter(radius, group, values)))
 }
 
+impl<S: Scene> Settings<S> {
+    /// Sets the limit. The depths at which the groups reach it are computed when they are needed.
+    pub(super) fn set_limit(&mut self, limit: Limit) {
+        if self.limit != limit {
+            self.limit = limit;
+            self.bodies.as_mut().iter_mut().for_each(|bodies| bodies.depth = 0.0);
+        }
+    }
+}
+
 impl<S: Scene> Instance<S> {
     /// Makes the next step check every contact, so that warnings are given again.
     pub fn look(&mut self) {
+        if self.settings.limit == Limit::Wide {
+            self.settings.set_limit(Limit::Valid);
+        }
         self.clock.hold();
         self.clock.guard = Guarded::Unseen;
     }
@@ -34,9 +47,35 @@ impl<S: Scene> Instance<S> {
         rate > self.settings.largest_rate
     }
 
-    /// The indentation up to which the law of `contact` is valid \[m\].
-    pub(super) fn valid_depth(&mut self, contact: usize) -> f64 {
-        self.settings.valid_depth(S::group(contact))
+    /// The indentation at which `contact` reaches the present limit \[m\].
+    pub(super) fn depth(&mut self, contact: usize) -> f64 {
+        self.settings.depth(S::group(contact))
+    }
+
+    /// Checks that no contact has become as wide as its smaller body.
+    ///
+    /// # Errors
+    /// [`Fault::TooWide`]
+    pub(super) fn check_width(&self) -> Result<(), Fault> {
+        let Limit::None(contact) = self.settings.limit else { return Ok(()) };
+        let contact = contact as usize;
+        Err(Fault::TooWide { contact, size: size::<S>(S::group(contact), &self.settings.values) })
+    }
+
+    /// A contact has passed the present limit: the next one applies.
+    fn raise_limit(&mut self, contact: usize, indentation: f64) {
+        let Instance { contacts, settings, .. } = self;
+        settings.set_limit(Limit::Wide);
+        let mut reached = (indentation >= settings.depth(S::group(contact))).then_some(contact);
+        for (contact, history) in contacts.histories.as_mut().iter_mut().enumerate() {
+            if !history.stays_within(settings.depth(S::group(contact))) {
+                reached = Some(contact);
+            }
+        }
+        if let Some(contact) = reached {
+            settings.limit = Limit::None(contact as u32);
+            self.clock.hold();
+        }
     }
 
     /// Records that `contact` has reached `indentation` \[m\].
@@ -49,8 +88,7 @@ impl<S: Scene> Instance<S> {
     pub(super) fn find_deep(&mut self) {
         let Instance { contacts, settings, .. } = self;
         let mut contacts = contacts.histories.as_ref().iter().enumerate();
-        let deep =
-            contacts.find(|(contact, history)| history.max_indentation() >= settings.valid_depth(S::group(*contact)));
+        let deep = contacts.find(|(contact, history)| history.max_indentation() >= settings.depth(S::group(*contact)));
         if let Some((contact, history)) = deep {
             let indentation = history.max_indentation();
             self.note_deep(contact, indentation);
@@ -76,7 +114,11 @@ impl<S: Scene> Instance<S> {
                 _ => {}
             }
         }
-        Some(Warning::Deep { contact, indentation: self.deep.indentation, allowed: self.valid_depth(contact) })
+        let indentation = self.deep.indentation;
+        let is_first = self.settings.limit == Limit::Valid;
+        let warning = is_first.then(|| Warning::Deep { contact, indentation, allowed: self.depth(contact) });
+        self.raise_limit(contact, indentation);
+        warning
     }
 
     /// Whether the passivity guard has begun to act in a plain step, and that has not been [taken](Instance::take_guard) yet.

@@ -129,8 +129,8 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         History { indentation: Sum::new(indentation), ..*self }
     }
 
-    fn valid_depth(model: &Model<D>, size: f64) -> f64 {
-        model.valid_depth(size)
+    fn depth_of(model: &Model<D>, contact_radius: f64) -> f64 {
+        model.depth_of(contact_radius)
     }
 
     /// True: a large damping or heat may overflow.

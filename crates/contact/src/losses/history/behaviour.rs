@@ -117,8 +117,8 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
         moved
     }
 
-    fn valid_depth(model: &Model<L, U, K>, size: f64) -> f64 {
-        model.plastic.valid_depth(size)
+    fn depth_of(model: &Model<L, U, K>, contact_radius: f64) -> f64 {
+        model.plastic.depth_of(contact_radius)
     }
 
     /// True: a heat may overflow.
