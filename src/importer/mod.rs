@@ -89,6 +89,13 @@ pub enum ImportError {
     Endless { steps: u32 },
 }
 
+impl ImportError {
+    /// Whether the FMU has refused a step.
+    pub fn is_refused_step(&self) -> bool {
+        matches!(self, ImportError::Call { function: "fmi2DoStep", .. })
+    }
+}
+
 /// The scene of an FMU that this program has made.
 pub const SCENE: &str = "resources/scene.toml";
 

@@ -22,7 +22,7 @@ use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use brinell_exporter::accuracy::accuracy;
 use brinell_exporter::html::prose;
 use brinell_exporter::layout::{json_line, paragraph, shown};
-use brinell_exporter::master::{Needs, WAYS};
+use brinell_exporter::master::{Needs, Rebound, WAYS, Way};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::{quantity, significant};
 use brinell_exporter::plot::{Picture, View};
@@ -136,6 +136,16 @@ impl Runs<'_> {
     /// `sqrt(K/m)` for the largest stiffness `K` [1/s].
     fn frequency(&self) -> f64 {
         (self.stiffness / self.impact.mass).sqrt()
+    }
+
+    /// The rebound with steps of `step` \[s\]. Steps that are much too long may throw a body so deep that the FMU refuses to go on: it
+    /// then has no speed, as if the impact did not end.
+    fn rebound(&self, way: &Way, contact: &mut Contact, step: f64) -> Result<Rebound, ImportError> {
+        let refused = |error: ImportError| {
+            let none = Rebound { speed: f64::NAN, max_force: f64::NAN };
+            if error.is_refused_step() { Ok(none) } else { Err(error) }
+        };
+        way.impact(contact, self.impact.mass, self.impact.speed, step).or_else(refused)
     }
 }
 

@@ -87,7 +87,7 @@ fn point(runs: &Runs, contact: &mut Contact, unit: &str, way: &Way, steps: u32) 
     for gap in gaps(impact.speed, step, runs.phases) {
         contact.start_apart(gap, step)?;
         let began = Instant::now();
-        let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
+        let rebound = runs.rebound(way, contact, step)?;
         run_time = f64::min(run_time, began.elapsed().as_secs_f64());
         let dent = contact.output("residual_indentation").unwrap_or(f64::NAN);
         // the bodies have separated within the last step and fly on

@@ -62,13 +62,13 @@ pub struct Stability {
 
 /// Rebound energies of `way` for the step at this `point` of the range.
 fn energy(runs: &Runs, contact: &mut Contact, way: &Way, point: u32) -> Result<Energy, ImportError> {
-    let Impact { mass, speed } = runs.impact;
+    let Impact { speed, .. } = runs.impact;
     let relative = RANGE.0 * (RANGE.1 / RANGE.0).powf(f64::from(point) / f64::from(POINTS));
     let step = relative / runs.frequency();
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0);
     for gap in gaps(speed, step, runs.phases) {
         contact.start(&[("initial_gap", gap)])?;
-        let ratio = (way.impact(contact, mass, speed, step)?.speed / speed).powi(2);
+        let ratio = (runs.rebound(way, contact, step)?.speed / speed).powi(2);
         lowest = f64::min(lowest, ratio);
         highest = if ratio.is_nan() { f64::INFINITY } else { f64::max(highest, ratio) };
     }
@@ -114,7 +114,10 @@ fn stays(runs: &Runs, contact: &mut Contact, way: &Way, relative: f64) -> Result
     body.speed += disturbance;
     let steps = STEPS.max(2.0 * TIME / (relative * relative).ln_1p()) as u64;
     for _ in 0..steps {
-        way.advance(contact, &mut body, step)?;
+        match way.advance(contact, &mut body, step) {
+            Err(error) if error.is_refused_step() => return Ok(false),
+            other => other?,
+        }
         // with a delayed force, the speed of the body differs from that of the motion
         let speed = if way.needs == Needs::LateMass { contact.output("closing_speed")? } else { body.speed };
         if speed.is_nan() || speed.abs() > GROWTH * disturbance {

@@ -11,9 +11,9 @@ const OUTPUTS: [&str; 4] = ["force", "indentation", "dissipated_energy", "mean_f
 const STEP: f64 = 1e-5;
 
 /// The parameters that contacts of these tests have for themselves, with the ranges of their values. None of them makes the
-/// indentations of [`rate`] negligible.
+/// indentations of [`rate`] negligible, or a contact as wide as its ball.
 const OWN: [(&str, f64, f64); 5] = [
-    ("impactor.radius", 1e-4, 1e-1),
+    ("impactor.radius", 2e-3, 1e-1),
     ("target.youngs_modulus", 1e10, 1e12),
     ("target.poissons_ratio", 0.01, 0.49),
     ("target.yield_strength", 1e8, 1e9),

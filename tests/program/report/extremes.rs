@@ -47,9 +47,8 @@ fn an_fmu_may_reject_impacts_beyond_its_law_and_the_summary_warns_of_a_wide_impa
     fs::write(folder.path().join("scene.toml"), text).expect("a writable folder");
     let run = run(folder.path(), ["report", "scene.toml", "--quick", "--json"]).with_status(0);
     let data = run.json();
-    let refused = "rejected, correctly: fmi2DoStep returned status 3: fmi2DoStep: the indentation would become";
     let verdicts = || rows(&data, "extremes").iter().map(|row| row["verdict"].as_str().expect("a verdict"));
-    assert!(verdicts().any(|verdict| verdict.starts_with(refused)), "{:?}", verdicts().collect::<Vec<_>>());
+    assert!(verdicts().any(is_too_wide), "{:?}", verdicts().collect::<Vec<_>>());
     let fine = |verdict: &str| verdict == "right" || verdict.starts_with("rejected, correctly");
     assert!(verdicts().all(fine), "{:?}", verdicts().collect::<Vec<_>>());
     let summary = data["summary"].to_string();
@@ -80,7 +79,7 @@ fn impacts_that_a_plate_swallows_are_not_judged_and_the_report_ends() {
     fs::write(folder.path().join("scene.toml"), scene).unwrap();
     let data = run(folder.path(), ["report", "scene.toml", "--quick", "--json", "-o", "report"]).with_status(0).json();
     let verdicts: Vec<_> = rows(&data, "extremes").iter().filter_map(|row| row["verdict"].as_str()).collect();
-    let judged = verdicts.iter().filter(|verdict| **verdict == "right").count();
+    let judged = verdicts.iter().filter(|verdict| **verdict == "right" || is_too_wide(verdict)).count();
     assert!(judged >= 25, "{verdicts:?}");
     assert!(verdicts.iter().any(|verdict| verdict.contains("the loss leaves no rebound")), "{verdicts:?}");
 }
