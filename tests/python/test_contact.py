@@ -233,7 +233,7 @@ def test_reset_keeps_parameters_or_replaces_them():
 def test_warnings_of_the_unit_are_warnings_of_python_where_the_step_is_called():
     with contact("steel_ball") as made:
         with pytest.warns(ContactWarning, match="contact radius|wave speed") as told:
-            made.step(1e-4, 100.0)
+            made.step(1e-5, 100.0)
         assert all(Path(one.filename).name == "test_contact.py" for one in told)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -241,7 +241,7 @@ def test_warnings_of_the_unit_are_warnings_of_python_where_the_step_is_called():
     with contact("steel_ball") as made, warnings.catch_warnings():
         warnings.simplefilter("error", ContactWarning)
         with pytest.raises(ContactWarning):
-            made.step(1e-4, 100.0)
+            made.step(1e-5, 100.0)
 
 
 def test_a_mass_that_cannot_be_set_says_so():
