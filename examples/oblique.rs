@@ -4,7 +4,7 @@
 //!
 //! It needs only the physics: `cargo run --release --example oblique --no-default-features`.
 
-use brinell_contact::tangential::{Friction, Stuck, Way};
+use brinell_contact::tangential::{Friction, Motion, Stuck};
 use brinell_contact::{Body, Loading, Pair, Segment, loading};
 
 /// Steps of the leap-frog method in a contact, about.
@@ -51,19 +51,19 @@ impl Impact {
     fn rebound(&self, start: Ball) -> Ball {
         let Impact { curve, friction, mass, step, .. } = self;
         let coefficient = friction.coefficient;
-        let (mut ball, mut springs) = (start, Stuck::<12>::APART);
+        let (mut ball, mut springs) = (start, Stuck::<1, 12>::APART);
         let (mut indentation, mut lost) = (0.0, 0.0);
         while indentation > 0.0 || ball.normal > 0.0 {
             // the contact moves with the relative speeds of the two contact points; its new force acts on the ball
             let slip = (ball.tangential + ball.spin) * step;
-            let way = Way::straight(indentation, indentation + ball.normal * step, friction.scale() * slip);
+            let way = Motion::straight(indentation, indentation + ball.normal * step, [friction.scale() * slip]);
             let stored = springs.energy(curve, indentation);
-            let work = springs.mean_pull(curve, &way) * way.shift;
+            let work = springs.mean_pull(curve, &way)[0] * way.shift[0];
             springs.advance(curve, &way);
             indentation = way.to;
             lost += (work - springs.energy(curve, indentation) + stored) * coefficient / friction.scale();
             let force = if indentation > 0.0 { curve.force(indentation) } else { 0.0 };
-            let pull = coefficient * springs.pull(curve, indentation);
+            let pull = coefficient * springs.pull(curve, indentation)[0];
             ball.normal -= step * force / mass;
             ball.tangential -= step * pull / mass;
             ball.spin -= 2.5 * step * pull / mass;

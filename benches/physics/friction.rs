@@ -2,7 +2,7 @@
 //! with growth, and with merging of segments in each step. The same in two directions, along one line and while the motion turns.
 
 use brinell_contact::Segment;
-use brinell_contact::tangential::{Stuck, Way, plane};
+use brinell_contact::tangential::{Motion, Stuck};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
@@ -20,14 +20,14 @@ fn curve() -> Segment {
 /// The impact of a ball with the tangential speed `slip`; returns the final speeds.
 #[inline(always)]
 fn impact<const N: usize>(curve: &Segment, slip: Option<f64>) -> (f64, f64) {
-    let mut stuck = Stuck::<N>::APART;
+    let mut stuck = Stuck::<1, N>::APART;
     let (mut indentation, mut normal, mut tangential) = (0.0, 1.0, slip.unwrap_or(0.0));
     for _ in 0..STEPS {
         let to = indentation + STEP * normal;
         if slip.is_some() {
-            stuck.advance(curve, &Way::straight(indentation, to, SCALE * STEP * tangential));
+            stuck.advance(curve, &Motion::straight(indentation, to, [SCALE * STEP * tangential]));
             // the effective tangential mass at the contact point of a solid ball is two sevenths of its mass
-            tangential -= 3.5 * STEP * 0.1 * stuck.pull(curve, to);
+            tangential -= 3.5 * STEP * 0.1 * stuck.pull(curve, to)[0];
         }
         indentation = to;
         normal -= STEP * curve.force(indentation);
@@ -38,7 +38,7 @@ fn impact<const N: usize>(curve: &Segment, slip: Option<f64>) -> (f64, f64) {
 /// The same in two directions. The ball has this speed along a line, and one across that turns the slip.
 #[inline(always)]
 fn impact_in_a_plane(curve: &Segment, slip: [f64; 2]) -> [f64; 2] {
-    let mut stuck = plane::Stuck::<16>::APART;
+    let mut stuck = Stuck::<2, 16>::APART;
     let (mut indentation, mut normal, mut tangential) = (0.0, 1.0, slip);
     for step in 0..STEPS {
         let to = indentation + STEP * normal;
@@ -46,7 +46,7 @@ fn impact_in_a_plane(curve: &Segment, slip: [f64; 2]) -> [f64; 2] {
         let turn = if slip[1] == 0.0 { 0.0 } else { 0.01 * f64::from(step) };
         let [along, across] = tangential;
         let shift = [along * turn.cos() - across * turn.sin(), along * turn.sin() + across * turn.cos()];
-        stuck.advance(curve, &plane::Way::straight(indentation, to, shift.map(|speed| SCALE * STEP * speed)));
+        stuck.advance(curve, &Motion::straight(indentation, to, shift.map(|speed| SCALE * STEP * speed)));
         let pull = stuck.pull(curve, to);
         tangential = [along - 3.5 * STEP * 0.1 * pull[0], across - 3.5 * STEP * 0.1 * pull[1]];
         indentation = to;

@@ -3,7 +3,7 @@
 use crate::friction::{assert_close, hertz};
 use crate::physics::Random;
 use brinell_contact::Segment;
-use brinell_contact::tangential::{Friction, Sliding, Stuck, Way};
+use brinell_contact::tangential::{Friction, Motion, Sliding, Stuck};
 use std::f64::consts::PI;
 
 const MODULUS: f64 = 2e11;
@@ -39,7 +39,7 @@ fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
 /// A contact on Hertz's curve that goes from step to step.
 struct Run<const N: usize> {
     curve: Segment,
-    stuck: Stuck<N>,
+    stuck: Stuck<1, N>,
     indentation: f64,
 }
 
@@ -55,8 +55,8 @@ impl<const N: usize> Run<N> {
         for part in 1..=parts {
             let to = from + rise * (f64::from(part) / f64::from(parts));
             let shift_of_part = shift / f64::from(parts);
-            let way = Way { from: self.indentation, to, shift: shift_of_part, normal: rise, tangential: shift };
-            mean += self.stuck.mean_pull(&self.curve, &way) / f64::from(parts);
+            let way = Motion { from: self.indentation, to, shift: [shift_of_part], normal: rise, tangential: [shift] };
+            mean += self.stuck.mean_pull(&self.curve, &way)[0] / f64::from(parts);
             self.stuck.advance(&self.curve, &way);
             self.indentation = to;
         }
@@ -64,7 +64,7 @@ impl<const N: usize> Run<N> {
     }
 
     fn pull(&self) -> f64 {
-        self.stuck.pull(&self.curve, self.indentation)
+        self.stuck.pull(&self.curve, self.indentation)[0]
     }
 
     fn force(&self) -> f64 {
@@ -311,8 +311,9 @@ fn the_derivative_of_the_force_is_the_limit_of_small_steps() {
             continue;
         }
         let time = 1e-12 / rates.0.abs().max(rates.1.abs());
-        let way = Way { from: run.indentation, to: run.indentation, shift: 0.0, normal: rates.0, tangential: rates.1 };
-        let rate = run.stuck.pull_rates(&curve, &way, (0.0, 0.0)).0;
+        let (here, none) = (run.indentation, [0.0]);
+        let way = Motion { from: here, to: here, shift: none, normal: rates.0, tangential: [rates.1] };
+        let [[rate], _] = run.stuck.pull_rates(&curve, &way, (0.0, none));
         let before = run.pull();
         run.step((time * rates.0, time * rates.1), 1);
         let size = curve.stiffness(run.indentation) * rates.0.abs().max(rates.1.abs());
@@ -320,40 +321,6 @@ fn the_derivative_of_the_force_is_the_limit_of_small_steps() {
         checked += 1;
     }
     assert!(checked > 30, "{checked}");
-}
-
-#[test]
-fn restored_springs_continue_with_the_same_bits() {
-    for seed in 3000..3030 {
-        let mut run = Run::<16>::new(hertz(MODULUS, RADIUS));
-        for step in history(seed, 40) {
-            let mut words = Vec::new();
-            run.stuck.save(&mut |word| words.push(word));
-            assert_eq!(words.len(), Stuck::<16>::WORDS);
-            let stuck = Stuck::load(&mut words.iter().copied(), &run.curve).expect("words of a contact");
-            let mut other = Run::<16> { stuck, ..run };
-            run.step(step, 1);
-            other.step(step, 1);
-            assert_eq!(run.pull().to_bits(), other.pull().to_bits(), "seed {seed}");
-            assert_eq!(run.energy().to_bits(), other.energy().to_bits(), "seed {seed}");
-        }
-    }
-}
-
-#[test]
-fn damaged_words_are_rejected() {
-    let mut run = Run::<16>::new(hertz(MODULUS, RADIUS));
-    run.step((1e-6, 1e-7), 1);
-    let mut words = Vec::new();
-    run.stuck.save(&mut |word| words.push(word));
-    let load = |words: &[u64]| Stuck::<16>::load(&mut words.iter().copied(), &run.curve);
-    assert!(load(&words).is_some());
-    assert!(load(&words[1..]).is_none(), "a word is missing");
-    for (place, word) in [(0, f64::NAN.to_bits()), (2, 17), (4, f64::INFINITY.to_bits())] {
-        let mut damaged = words.clone();
-        damaged[place] = word;
-        assert!(load(&damaged).is_none(), "word {place}");
-    }
 }
 
 #[test]

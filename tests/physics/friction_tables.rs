@@ -1,7 +1,7 @@
 //! The tangential force on elastic curves compared with tables from another program: histories, and impacts in steps.
 
 use crate::friction::{self, Ball, Rebound, assert_close, hertz, table};
-use brinell_contact::tangential::{Friction, Stuck, Way};
+use brinell_contact::tangential::{Friction, Motion, Stuck};
 use brinell_contact::{Body, Pair, Segment};
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ const UNBOUNDED: usize = 512;
 fn histories_on_hertz_curve_have_the_forces_and_energies_of_the_table() {
     let curve = hertz(2e11, 5e-3);
     let kappa = RATIO / COEFFICIENT;
-    let mut stuck = Stuck::<UNBOUNDED>::APART;
+    let mut stuck = Stuck::<1, UNBOUNDED>::APART;
     let (mut case, mut indentation, mut energy) = (String::new(), 0.0, 0.0);
     let mut worst = 0.0_f64;
     for row in table("elastic") {
@@ -26,15 +26,15 @@ fn histories_on_hertz_curve_have_the_forces_and_energies_of_the_table() {
         }
         let (rise, shift) = (row.get("d_delta"), kappa * row.get("d_s"));
         // the table begins at the touch
-        let way = Way { normal: rise, ..Way::straight(indentation, indentation + rise, shift) };
-        let mean = COEFFICIENT * stuck.mean_pull(&curve, &way);
+        let way = Motion { normal: rise, ..Motion::straight(indentation, indentation + rise, [shift]) };
+        let mean = COEFFICIENT * stuck.mean_pull(&curve, &way)[0];
         stuck.advance(&curve, &way);
         indentation += rise;
         let what = format!("{case}, row {}", row.get("row"));
         let force = curve.force(indentation);
         let size = COEFFICIENT * 600.0;
         assert_close(&format!("{what}, force"), force, row.get("F"), 600.0, 1e-13);
-        let pull = COEFFICIENT * stuck.pull(&curve, indentation);
+        let pull = COEFFICIENT * stuck.pull(&curve, indentation)[0];
         assert_close(&format!("{what}, tangential force"), pull, row.get("T"), size, 1e-12);
         assert_close(&format!("{what}, mean"), mean, row.get("mean_T"), size, 1e-12);
         let stored = COEFFICIENT / kappa * stuck.energy(&curve, indentation);
@@ -50,13 +50,13 @@ fn histories_on_hertz_curve_have_the_forces_and_energies_of_the_table() {
 
 /// The impact of `ball` with an elastic contact, in steps of `step` [s].
 fn impact<const N: usize>(ball: Ball, curve: &Segment, friction: &Friction, step: f64) -> Rebound {
-    let mut stuck = Stuck::<N>::APART;
+    let mut stuck = Stuck::<1, N>::APART;
     let mut indentation = 0.0;
     let kappa = friction.scale();
     ball.impact(step, |rise, shift| {
-        stuck.advance(curve, &Way::straight(indentation, indentation + rise, kappa * shift));
+        stuck.advance(curve, &Motion::straight(indentation, indentation + rise, [kappa * shift]));
         indentation += rise;
-        let forces = (curve.force(indentation), friction.coefficient * stuck.pull(curve, indentation));
+        let forces = (curve.force(indentation), friction.coefficient * stuck.pull(curve, indentation)[0]);
         (indentation > 0.0).then_some(forces)
     })
 }

@@ -5,11 +5,9 @@ mod springs;
 
 use crate::friction::{hertz, table};
 use crate::physics::Random;
-use brinell_contact::tangential::plane::{Stuck, Way};
-use brinell_contact::tangential::{self, Friction};
+use brinell_contact::tangential::{Friction, Motion, Stuck};
 use histories::{DEEPEST, MODULUS, RADIUS, Run, Step, any_sizes, circles, distance, length, like_the_table};
 use springs::Springs;
-use std::f64::consts::PI;
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 
@@ -123,70 +121,13 @@ fn a_list_that_is_not_full_misses_the_springs_by_less_than_a_thousandth() {
 }
 
 #[test]
-fn motion_along_one_line_has_the_force_and_energy_of_one_direction() {
-    let curve = hertz(MODULUS, RADIUS);
-    let (mut worst, mut across, mut worst_energy) = (0.0_f64, 0.0_f64, 0.0_f64);
-    for seed in 0..400 {
-        let angle: f64 = [0.0, 0.5 * PI, PI, 0.3, 2.0, 4.0, 5.5, 1e-9][seed as usize % 8];
-        let direction = [angle.cos(), angle.sin()];
-        let mut run = Run::<UNBOUNDED>::new();
-        let mut line = tangential::Stuck::<UNBOUNDED>::APART;
-        let mut random = Random(seed);
-        for (rise, shift) in any_sizes(seed, 60) {
-            let way = if random.next() < 0.5 { length(shift) } else { -length(shift) };
-            let to = run.indentation + rise;
-            line.advance(&curve, &tangential::Way::straight(run.indentation, to, way));
-            run.step((rise, direction.map(|part| part * way)));
-            if to <= 1e-7 {
-                continue;
-            }
-            let (pull, expected) = (run.pull(), line.pull(&curve, to));
-            let along = pull[0] * direction[0] + pull[1] * direction[1];
-            worst = worst.max((along - expected).abs() / run.force());
-            across = across.max((pull[1] * direction[0] - pull[0] * direction[1]).abs() / run.force());
-            worst_energy = worst_energy.max((run.energy() - line.energy(&curve, to)).abs() / curve.work(to));
-            assert_eq!(run.stuck.sliding(), line.sliding(), "seed {seed} at {to:e}");
-        }
-    }
-    println!("force {worst:.1e}, across {across:.1e}, energy {worst_energy:.1e}");
-    assert!(worst <= 2e-13 && across <= 2e-13 && worst_energy <= 2e-13, "{worst:e} {across:e} {worst_energy:e}");
-}
-
-/// With touches, separations and slip that begins within a step.
-#[test]
-fn motion_along_one_line_has_the_mean_force_of_one_direction() {
-    let curve = hertz(MODULUS, RADIUS);
-    let largest = curve.force(DEEPEST);
-    let mut worst = 0.0_f64;
-    for seed in 0..400 {
-        let angle: f64 = [0.0, 0.5 * PI, PI, 0.3, 2.0, 4.0, 5.5, 1e-9][seed as usize % 8];
-        let direction = [angle.cos(), angle.sin()];
-        let mut run = Run::<UNBOUNDED>::new();
-        let mut line = tangential::Stuck::<UNBOUNDED>::APART;
-        let mut random = Random(seed);
-        for (rise, shift) in any_sizes(seed, 60) {
-            let shift = if random.next() < 0.5 { length(shift) } else { -length(shift) };
-            let way = tangential::Way::straight(run.indentation, run.indentation + rise, shift);
-            let expected = line.mean_pull(&curve, &way);
-            line.advance(&curve, &way);
-            let step = (rise, direction.map(|part| part * shift));
-            let mean = run.stuck.mean_pull(&curve, &Way::straight(run.indentation, run.indentation + rise, step.1));
-            run.step(step);
-            worst = worst.max(distance(mean, direction.map(|part| part * expected)) / largest);
-        }
-    }
-    println!("worst difference: {worst:.1e}");
-    assert!(worst <= 1e-12, "{worst:e}");
-}
-
-#[test]
 fn the_mean_force_of_a_step_at_once_is_that_of_its_parts() {
     for (name, history) in KINDS {
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
         for seed in 0..30 {
             let mut run = Run::<16>::new();
             for step in history(seed, 40) {
-                let way = Way::straight(run.indentation, run.indentation + step.0, step.1);
+                let way = Motion::straight(run.indentation, run.indentation + step.0, step.1);
                 let mean = run.stuck.mean_pull(&run.curve, &way);
                 // the same steps on the way as that of one step, in many short ones
                 let (mut sum, parts) = ([0.0; 2], 400);
@@ -305,7 +246,7 @@ fn restored_springs_continue_with_the_same_bits() {
         for step in any_sizes(seed, 40) {
             let mut words = Vec::new();
             run.stuck.save(&mut |word| words.push(word));
-            assert_eq!(words.len(), Stuck::<16>::WORDS);
+            assert_eq!(words.len(), Stuck::<2, 16>::WORDS);
             let stuck = Stuck::load(&mut words.iter().copied(), &run.curve).expect("words of a contact");
             let mut other = Run::<16> { stuck, ..run };
             run.step(step);
@@ -322,7 +263,7 @@ fn damaged_words_are_rejected() {
     run.step((1e-6, [1e-7, 2e-7]));
     let mut words = Vec::new();
     run.stuck.save(&mut |word| words.push(word));
-    let load = |words: &[u64]| Stuck::<16>::load(&mut words.iter().copied(), &run.curve);
+    let load = |words: &[u64]| Stuck::<2, 16>::load(&mut words.iter().copied(), &run.curve);
     assert!(load(&words).is_some());
     assert!(load(&words[1..]).is_none(), "a word is missing");
     for (place, word) in [(0, f64::NAN.to_bits()), (5, 17), (7, f64::INFINITY.to_bits())] {
@@ -341,7 +282,7 @@ fn forged_springs_end_their_steps() {
             let size = 10f64.powf(40.0 * random.next() - 30.0);
             if random.next() < 0.5 { size } else { -size }
         };
-        let mut words: Vec<u64> = (0..Stuck::<16>::WORDS).map(|_| any().to_bits()).collect();
+        let mut words: Vec<u64> = (0..Stuck::<2, 16>::WORDS).map(|_| any().to_bits()).collect();
         words[5] = (any().abs().to_bits() >> 7) % 17;
         let mut run = Run::<16>::new();
         run.indentation = 1e-5;

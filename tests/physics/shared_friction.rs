@@ -5,16 +5,16 @@ use crate::shared_motion::{Group, random_rows};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{AnyLoss, Fitted, History as LosingHistory};
 use brinell_contact::shared::{Refused, SharedContact};
-use brinell_contact::tangential::{Friction, Rough, RoughModel, Stuck, plane};
+use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Contact, Surface};
 
 type Model = RoughModel<AnyLoading, AnyUnloading>;
 type LosingModel = RoughModel<AnyLoading, AnyUnloading, AnyLoss>;
-type OneWay = Rough<Stuck<16>, 1, true>;
-type TwoWays = Rough<plane::Stuck<16>, 2, true>;
-type LosingOneWay = Rough<Stuck<16>, 1, true, LosingHistory<AnyLoss>>;
-type LosingTwoWays = Rough<plane::Stuck<16>, 2, true, LosingHistory<AnyLoss>>;
+type OneWay = RoughContact<16>;
+type TwoWays = PlaneContact<16>;
+type LosingOneWay = RoughContact<16, true, LosingHistory<AnyLoss>>;
+type LosingTwoWays = PlaneContact<16, true, LosingHistory<AnyLoss>>;
 
 const G: f64 = 9.81;
 

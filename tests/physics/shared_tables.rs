@@ -4,7 +4,7 @@ use crate::physics::{AnyModel, model, pair_of};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, Form, Loss};
 use brinell_contact::shared::{InverseMasses, SharedContact, Work, follow, work_of_step};
-use brinell_contact::tangential::{Friction, Rough, RoughModel, Shear, Stuck, plane};
+use brinell_contact::tangential::{Friction, Rough, RoughModel};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Contact, History, Surface};
 use brinell_testing::friction::file;
@@ -202,7 +202,7 @@ fn contacts_with_losses_end_a_step_as_in_the_table() {
 
 /// How far the motion of `contacts` with friction ends from the row, over the largest rate that the energy allows, followed in so
 /// many `parts`: the largest error of a rate, and that of the balance of work.
-fn off<K: Shear<D>, const D: usize>(row: &Row, parts: u32) -> (f64, f64) {
+fn off<const D: usize>(row: &Row, parts: u32) -> (f64, f64) {
     let (mu, kappa) = (row.get("mu"), row.get("kappa"));
     let models = row.models().into_iter().enumerate().map(|(i, normal)| RoughModel {
         normal,
@@ -213,13 +213,13 @@ fn off<K: Shear<D>, const D: usize>(row: &Row, parts: u32) -> (f64, f64) {
     let (count, depths) = (models.len(), row.get("indentation_0"));
     let entries = row.get("W");
     let masses = InverseMasses::new(count * (1 + D), &entries).expect("a triangle");
-    let start = |i: usize| Rough::<K, D, true>::start(&models[i], -depths[i]).expect("within range");
+    let start = |i: usize| Rough::<D, 16, true>::start(&models[i], -depths[i]).expect("within range");
     let mut contacts: Vec<_> = (0..count).map(start).collect();
     let (accelerations, before) = (row.get("acceleration"), row.get("rate_0"));
     let (mut rates, step) = (before.clone(), row.one("step") / f64::from(parts));
     let mut work: Vec<_> = contacts.iter().map(|&contact| Work::new(contact)).collect();
-    let taken_up = |contacts: &[Rough<K, D, true>]| -> f64 {
-        let of = |(contact, model): (&Rough<K, D, true>, &RoughModel<_, _>)| {
+    let taken_up = |contacts: &[Rough<D, 16, true>]| -> f64 {
+        let of = |(contact, model): (&Rough<D, 16, true>, &RoughModel<_, _>)| {
             contact.elastic_energy(model)
                 + contact.dissipated_energy(model)
                 + contact.tangential_energy(model)
@@ -252,8 +252,8 @@ fn contacts_with_friction_end_a_step_as_in_the_table() {
         for row in table(name) {
             for parts in [1, 17] {
                 let (error, balance) = match name {
-                    "plane" => off::<plane::Stuck<16>, 2>(&row, parts),
-                    _ => off::<Stuck<16>, 1>(&row, parts),
+                    "plane" => off::<2>(&row, parts),
+                    _ => off::<1>(&row, parts),
                 };
                 all.push((error / most, balance));
             }

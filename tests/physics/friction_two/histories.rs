@@ -3,8 +3,7 @@
 use crate::friction::hertz;
 use crate::physics::Random;
 use brinell_contact::Segment;
-use brinell_contact::tangential::Motion;
-use brinell_contact::tangential::plane::{Stuck, Way};
+use brinell_contact::tangential::{Motion, Stuck};
 use std::f64::consts::PI;
 
 pub const MODULUS: f64 = 2e11;
@@ -87,7 +86,7 @@ pub fn circles(seed: u64, length: usize) -> Vec<Step> {
 #[derive(Clone, Copy)]
 pub struct Run<const N: usize> {
     pub curve: Segment,
-    pub stuck: Stuck<N>,
+    pub stuck: Stuck<2, N>,
     pub indentation: f64,
 }
 
@@ -97,7 +96,7 @@ impl<const N: usize> Run<N> {
     }
 
     pub fn step(&mut self, (rise, shift): Step) {
-        self.stuck.advance(&self.curve, &Way::straight(self.indentation, self.indentation + rise, shift));
+        self.stuck.advance(&self.curve, &Motion::straight(self.indentation, self.indentation + rise, shift));
         self.indentation += rise;
     }
 

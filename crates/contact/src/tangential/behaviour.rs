@@ -1,7 +1,8 @@
 //! A contact with friction as a [`Contact`].
 
 use super::parts::{MOST_PARTS, ends_of_parts, next_of};
-use super::{Mean, Normal, Quantity, Rough, RoughModel, Shear, Sliding, SpringsOf};
+use super::vector::{add, dot};
+use super::{Mean, Normal, Quantity, Rough, RoughModel, Sliding, SpringsOf};
 use crate::Model;
 use crate::behaviour::{Contact, slopes};
 use crate::history::History;
@@ -14,12 +15,12 @@ use crate::unloading::Unloading;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
-impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const MEAN: bool, N: Normal>
-    Contact<RoughModel<L, U, N::Loss>> for Rough<K, D, MEAN, N>
+impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
+    Contact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
 {
     const FOLLOWS_RATE: bool = N::FOLLOWS_RATE;
     const DERIVATIVES: i32 = N::DERIVATIVES;
-    const WORDS: usize = N::WORDS + SpringsOf::<K, D, true>::WORDS + 5 * D + if MEAN { 3 * D + 3 } else { 0 };
+    const WORDS: usize = N::WORDS + SpringsOf::<D, M, true>::WORDS + 5 * D + if MEAN { 3 * D + 3 } else { 0 };
     const DIRECTIONS: usize = D;
 
     /// Where the contact begins to yield.
@@ -86,10 +87,8 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
                     moved.go_with_loss(model, (increment, slip), (force, time))?.2
                 }
             };
-            for ((impulse, mean), slip) in impulse.iter_mut().zip(mean).zip(slip) {
-                *impulse += mean * (end - start);
-                work += mean * slip;
-            }
+            impulse = add(impulse, end - start, mean);
+            work += dot(mean, slip);
             deepest = largest(moved.normal().max_indentation(), deepest);
             start = end;
         }

@@ -1,6 +1,6 @@
 //! A contact with friction: a normal contact, its springs, and the tangential rates.
 
-use super::{Normal, RoughModel, Shear, Sliding, SpringsOf, Stuck, plane};
+use super::{Normal, RoughModel, Sliding, SpringsOf};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
@@ -9,15 +9,16 @@ use crate::path::{Course, Sum};
 use crate::regime::TooDeep;
 use crate::unloading::Unloading;
 
-/// An elastoplastic contact with friction in `D` tangential directions.
+/// An elastoplastic contact with friction in `D` tangential directions, whose springs form a list of `M` segments; sixteen are
+/// recommended.
 ///
 /// The tangential rates are inputs that hold until they are set again; derivatives apply to one step. Every step follows all
 /// rates. There is no [short step](Contact::short_step). Without `MEAN`, the mean force, the impulse and the work of friction
 /// are not computed and stay zero. The normal part `N` may have a loss, for bodies that [move together](crate::shared).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rough<K, const D: usize, const MEAN: bool, N = History> {
+pub struct Rough<const D: usize, const M: usize, const MEAN: bool, N = History> {
     pub(super) normal: N,
-    pub(super) springs: SpringsOf<K, D, true>,
+    pub(super) springs: SpringsOf<D, M, true>,
     /// Tangential rates over the next step \[m/s\].
     pub(super) courses: [Course; D],
     /// Tangential rates at the end of the last step \[m/s\].
@@ -28,17 +29,17 @@ pub struct Rough<K, const D: usize, const MEAN: bool, N = History> {
     pub(super) impulse: [Sum; D],
     /// Work of the tangential force \[J\].
     pub(super) work: Sum,
-    /// Energy lost by slip before the last step that is not [exact](Shear::is_exact) \[J\].
+    /// Energy lost by slip before the last step that is not exact \[J\].
     pub(super) lost: f64,
 }
 
-/// A contact with friction in one direction, whose springs form a list of `N` segments.
-pub type RoughContact<const N: usize, const MEAN: bool = true, C = History> = Rough<Stuck<N>, 1, MEAN, C>;
+/// A contact with friction in one direction.
+pub type RoughContact<const M: usize, const MEAN: bool = true, N = History> = Rough<1, M, MEAN, N>;
 
-/// A contact with friction in two directions, whose springs form a list of `N` segments; sixteen are recommended.
-pub type PlaneContact<const N: usize, const MEAN: bool = true, C = History> = Rough<plane::Stuck<N>, 2, MEAN, C>;
+/// A contact with friction in two directions.
+pub type PlaneContact<const M: usize, const MEAN: bool = true, N = History> = Rough<2, M, MEAN, N>;
 
-impl<K: Shear<D>, const D: usize, const MEAN: bool, N: Normal> Rough<K, D, MEAN, N> {
+impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
     /// The elastoplastic normal contact.
     pub fn normal(&self) -> &History {
         self.normal.plastic()

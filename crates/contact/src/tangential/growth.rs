@@ -9,38 +9,32 @@
 //! with `x^2` linear in the largest indentation (`thornton`). It is lower if a straight line over the old heights is
 //! curved over the new ones. There is no measured reference for friction on a contact that has yielded.
 
-use super::cone::{Cone, Point};
-use super::list::Draft;
-use super::vertex::Vertex;
-use super::{List, Stuck, Way};
+use super::cut::{Cut, Point};
+use super::list::Apex;
+use super::vector::{add, difference, length};
+use super::{Motion, Stuck, Vertex};
 use crate::numbers::{largest, quotient, root};
-use crate::path::Sum;
 use crate::segment::Segment;
-use libm::{ceil, fabs};
+use libm::ceil;
 
 /// Parts of a path other than Hertz's curve whose images on a new path count as straight.
-pub(super) const PARTS: u32 = 4;
-
-/// Longest such part \[m\] of a path that is `length` \[m\] long; infinite without parts.
-pub(super) fn longest_part(parts: u32, length: f64) -> f64 {
-    quotient(length, f64::from(parts), parts > 0, f64::INFINITY)
-}
+const PARTS: u32 = 4;
 
 /// Whether `path` is Hertz's curve from its origin. The images of such paths are proportional to each other.
-pub(super) fn is_hertzian(path: &Segment) -> bool {
+fn is_hertzian(path: &Segment) -> bool {
     path.square == 0.0 && path.linear == 0.0
 }
 
 /// The part of a step's way that does not pull a core as stiff as the straight path `new`: area that a dent gains evenly over
 /// the step is pulled over half of the way. Where a dent begins, the path and its area jump at the start.
-pub(super) fn part_of_gain(old: &Segment, new: &Segment) -> f64 {
+fn part_of_gain(old: &Segment, new: &Segment) -> f64 {
     let gain = largest(new.linear - old.linear, 0.0);
     let is_gradual = old.lower > 0.0 && old.power == 0.0 && old.square == 0.0;
     quotient(0.5 * gain, new.linear, is_gradual && new.linear > 0.0, 0.0)
 }
 
 /// Height \[m\] on `path` where its stiffness is `stiffness` \[N/m\], but not below the surface.
-pub(super) fn height_with(path: &Segment, stiffness: f64) -> f64 {
+fn height_with(path: &Segment, stiffness: f64) -> f64 {
     let excess = stiffness - path.linear;
     // root of 2 c3 q^2 + 1.5 c2 q = excess, q = sqrt(z), in a form without cancellation
     let half = 1.5 * path.power;
@@ -49,157 +43,72 @@ pub(super) fn height_with(path: &Segment, stiffness: f64) -> f64 {
     largest(path.origin + q * q, path.lower)
 }
 
-impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
+impl<const D: usize, const N: usize> Stuck<D, N> {
     /// Moves the contact on its `way` along the loading curve, while its dent grows: from the end of the `old` path
     /// to the end of the `new` one.
-    pub fn grow(&mut self, old: &Segment, new: &Segment, way: &Way) {
-        if self.list.is_empty() {
-            self.touch(old);
+    ///
+    /// Springs keep their places and offsets. Their limits change evenly over the way to those of the new path.
+    pub fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<D>) {
+        if self.list.vertices().is_empty() {
+            *self = Stuck::pressed(old, way.to);
         }
-        let before = self.displacement.total();
+        let before = self.displaced();
         let pull = self.pull(old, way.from);
-        self.displacement = self.displacement.plus(way.shift);
+        self.displace(way.shift);
+        let apex = Apex { indentation: way.to, displacement: self.displaced() };
+        let mut cut = Cut::new(new, way, before, apex);
         if new.power == 0.0 && new.square == 0.0 {
-            let tension = pull / largest(old.stiffness(way.from), new.linear) - part_of_gain(old, new) * way.shift;
-            return self.grow_core(new, tension, before, way);
+            // a straight path: all springs touch at once, and act as one with the mean tension
+            let stiffness = largest(old.stiffness(way.from), new.linear);
+            let length_of = |force: f64| quotient(force, stiffness, stiffness > 0.0, 0.0);
+            let tension = add(pull.map(length_of), -part_of_gain(old, new), way.shift);
+            let from = (new.lower, difference(before, tension));
+            let from = cut.point(from, length_of(old.force(way.from)));
+            let to = cut.point((way.to, apex.displacement), 0.0);
+            cut.between(slope(&from, &to), &from, &to);
+            return self.take(cut, new);
         }
-        let mut cut = Cut::new(new, way.to, self.displacement.total());
-        let image = |(height, offset): Point| (height_with(new, old.stiffness(height)), offset);
-        let parts = if is_hertzian(old) && is_hertzian(new) { 0 } else { PARTS };
-        let longest = longest_part(parts, way.from - old.lower);
-        let mut last = None;
-        for (vertex, end) in self.segments_up_to((way.from, before)) {
-            let start = (vertex.height, vertex.offset);
-            let mut from = *last.get_or_insert(image(start));
-            let parts = ceil(quotient(end.0 - start.0, longest, longest > 0.0, 1.0));
+        let edge = self.map(&mut cut, old, new, (way.from, before));
+        let rise = way.to - edge;
+        if rise > 0.0 && length(way.shift) > rise {
+            cut.touching(edge);
+        } else if rise > 0.0 {
+            let slope = way.shift.map(|shift| quotient(shift, rise, rise > 0.0, 0.0));
+            cut.sticks = true;
+            cut.left.extend(Vertex::new(new, edge, before, slope));
+        }
+        self.take(cut, new);
+    }
+
+    /// Adds the segments up to `top` to `cut`, with their heights on the `new` path. Returns the height of the old edge.
+    fn map(&self, cut: &mut Cut<D, N>, old: &Segment, new: &Segment, top: (f64, [f64; D])) -> f64 {
+        let image = |height: f64| height_with(new, old.stiffness(height));
+        let longest = (top.0 - old.lower) / f64::from(PARTS);
+        let is_divided = longest > 0.0 && !(is_hertzian(old) && is_hertzian(new));
+        let mut edge = new.lower;
+        for (vertex, end) in self.segments_up_to(top) {
+            let parts = ceil(quotient(end.0 - vertex.height, longest, is_divided, 1.0));
+            let at =
+                |cut: &Cut<D, N>, height: f64, offset: [f64; D]| cut.point((image(height), offset), top.0 - height);
+            let mut from = at(cut, vertex.height, vertex.offset);
             let mut part = 1.0;
             while part < parts && part < f64::from(2 * PARTS) {
-                let height = start.0 + (end.0 - start.0) * (part / parts);
-                let to = image((height, vertex.offset_at(height)));
-                cut.line(from, to);
+                let height = vertex.height + (end.0 - vertex.height) * (part / parts);
+                let to = at(cut, height, vertex.offset_at(height));
+                cut.between(slope(&from, &to), &from, &to);
                 from = to;
                 part += 1.0;
             }
-            let to = image(end);
-            cut.line(from, to);
-            last = Some(to);
+            let to = at(cut, end.0, end.1);
+            cut.between(slope(&from, &to), &from, &to);
+            edge = image(end.0);
         }
-        cut.line(last.unwrap_or((new.lower, before)), (way.to, self.displacement.total()));
-        self.take(cut, new, way.to);
-    }
-
-    /// The same for a straight path. All springs touch at once, and act as one with the mean `tension` \[m\]
-    /// they would have if the whole area had been there `before` \[m\] the step.
-    fn grow_core(&mut self, path: &Segment, tension: f64, before: f64, way: &Way) {
-        let offset = before - tension;
-        let mut cut = Cut::new(path, way.to, self.displacement.total());
-        cut.line((path.lower, offset), (way.to, self.displacement.total()));
-        self.take(cut, path, way.to);
-    }
-
-    /// Whether no segment of the polyline is steeper than a cone.
-    pub fn is_within_cones(&self) -> bool {
-        self.list.is_within_cones()
-    }
-
-    /// Moves the contact on its `way` along `curve`, the path of its dent. Like [`Stuck::advance`], but for a
-    /// polyline that may be steeper than the cones: it cuts every segment.
-    pub fn settle(&mut self, curve: &Segment, way: &Way) {
-        if self.is_within_cones() || way.to <= curve.lower || !way.moves() {
-            return self.advance(curve, way);
-        }
-        let before = self.displacement.total();
-        self.displacement = self.displacement.plus(way.shift);
-        let mut cut = Cut::new(curve, way.to, self.displacement.total());
-        for (vertex, end) in self.segments_up_to((way.from, before)) {
-            cut.segment((vertex.height, vertex.offset), end, vertex.slope);
-        }
-        cut.line((way.from, before), (way.to, self.displacement.total()));
-        self.take(cut, curve, way.to);
-    }
-
-    /// The segments with their ends; the last one ends at `top`.
-    fn segments_up_to(&self, top: Point) -> impl Iterator<Item = (&Vertex, Point)> {
-        let vertices = self.list.vertices();
-        let ends = vertices.iter().skip(1).map(|next| (next.height, next.offset));
-        vertices.iter().zip(ends.chain(core::iter::once(top)))
-    }
-
-    /// Takes over the segments that `cut` has kept on `curve`, up to `indentation` \[m\].
-    fn take(&mut self, cut: Cut<N>, curve: &Segment, indentation: f64) {
-        self.list = cut.left.into_list(curve, &cut.cone);
-        if let [only] = self.list.vertices()
-            && fabs(only.slope) == 1.0
-        {
-            // from here on only the direction of sliding matters
-            let only = Vertex { offset: -only.slope * (indentation - only.height), ..*only };
-            self.displacement = Sum::new(0.0);
-            self.list = List::EMPTY;
-            self.list.push(curve, only);
-        }
+        edge
     }
 }
 
-/// The part of a polyline that the cone of a point keeps, segment by segment from the lowest one.
-struct Cut<'a, const N: usize> {
-    curve: &'a Segment,
-    cone: Cone,
-    left: Draft<N>,
-}
-
-impl<const N: usize> Cut<'_, N> {
-    fn new(curve: &Segment, indentation: f64, displacement: f64) -> Cut<'_, N> {
-        Cut { curve, cone: Cone { displacement, indentation }, left: Draft::EMPTY }
-    }
-
-    /// Adds the segment between two points.
-    fn line(&mut self, from: Point, to: Point) {
-        let rise = to.0 - from.0;
-        if rise > 0.0 {
-            self.segment(from, to, quotient(to.1 - from.1, rise, rise > 0.0, 0.0));
-        }
-    }
-
-    /// Adds the part below the present indentation of a segment of this `slope` between two points.
-    fn segment(&mut self, from: Point, to: Point, slope: f64) {
-        let to = if to.0 > self.cone.indentation {
-            (self.cone.indentation, from.1 + slope * (self.cone.indentation - from.0))
-        } else {
-            to
-        };
-        if to.0 > from.0 {
-            let sides = [1.0, -1.0].map(|sign| (sign, self.cone.distance(sign, from), self.cone.distance(sign, to)));
-            let [first, second] = sides.map(|(_, start, end)| self.crossing(start, end));
-            let (low, high) = if first < second { (first, second) } else { (second, first) };
-            for (start, end) in [(0.0, low), (low, high), (high, 1.0)] {
-                if end > start {
-                    self.part((from, to), slope, (start, end), sides);
-                }
-            }
-        }
-    }
-
-    /// Adds one part of a segment; the part is entirely inside or entirely outside the cone. Of both `sides` of the cone it has
-    /// the sign and the distances of the ends of the segment.
-    ///
-    /// Between the ends, distances are interpolated. A segment may be so short that there is no number between its heights.
-    fn part(&mut self, (from, to): (Point, Point), slope: f64, (start, end): (f64, f64), sides: [(f64, f64, f64); 2]) {
-        let height = from.0 + start * (to.0 - from.0);
-        let (mut offset, mut kept) = (from.1 + start * (to.1 - from.1), slope);
-        for (sign, at_start, at_end) in sides {
-            let middle = at_start + 0.5 * (start + end) * (at_end - at_start);
-            if self.cone.is_outside(middle) {
-                (offset, kept) = (self.cone.displacement - sign * (self.cone.indentation - height), sign);
-            }
-        }
-        self.left.extend(self.curve, &self.cone, Vertex::new(self.curve, height, offset, kept));
-    }
-
-    /// Where a segment crosses one side of the cone, as a fraction of its length; 1 without a crossing. Its ends have these
-    /// distances from the side.
-    fn crossing(&self, start: f64, end: f64) -> f64 {
-        let crosses = self.cone.is_outside(start) != self.cone.is_outside(end);
-        let part = quotient(start, start - end, crosses && start != end, 1.0);
-        if part > 0.0 && part < 1.0 { part } else { 1.0 }
-    }
+/// Slope of the straight line between two points.
+fn slope<const D: usize>(from: &Point<D>, to: &Point<D>) -> [f64; D] {
+    let rise = to.height - from.height;
+    difference(to.before, from.before).map(|shift| quotient(shift, rise, rise > 0.0, 0.0))
 }

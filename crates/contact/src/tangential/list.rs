@@ -1,121 +1,140 @@
 //! The stuck offsets of a contact as a polyline of bounded length.
 
+use super::SAME;
+use super::merge::merge;
+use super::vector::{add, difference, length};
 use super::vertex::Vertex;
 use crate::segment::Segment;
-use libm::fabs;
 
-use super::SAME;
-use super::cone::Cone;
-use super::merge::merge;
-
-/// A polyline of at most `N` segments, from the lowest height to the highest.
-///
-/// Adding a segment to a full list merges two of those below it: see `merge`.
+/// The current point: indentation and scaled tangential displacement \[m\]. It is the apex of the cone of all springs
+/// that can stick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct List<const N: usize> {
-    count: usize,
-    vertices: [Vertex; N],
+pub(super) struct Apex<const D: usize> {
+    pub indentation: f64,
+    pub displacement: [f64; D],
 }
 
-impl<const N: usize> List<N> {
+impl<const D: usize> Apex<D> {
+    /// How much a spring at `height` with this `offset` \[m\] is inside its limit \[m\]; negative outside.
+    pub(super) fn distance(&self, height: f64, offset: [f64; D]) -> f64 {
+        self.indentation - height - length(difference(self.displacement, offset))
+    }
+}
+
+/// A polyline of at most `N` segments, from the lowest height to the highest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct List<const D: usize, const N: usize> {
+    count: usize,
+    vertices: [Vertex<D>; N],
+}
+
+impl<const D: usize, const N: usize> List<D, N> {
     /// No contact.
-    pub const EMPTY: List<N> = {
-        // the shortest list in which two segments can replace three below the last one
-        assert!(N >= 4);
+    pub const EMPTY: Self = {
+        // a draft then has room for all parts of all segments
+        assert!(N >= 8);
         List { count: 0, vertices: [Vertex::NONE; N] }
     };
 
     /// The vertices in ascending order of height.
     #[inline(always)]
-    pub fn vertices(&self) -> &[Vertex] {
+    pub fn vertices(&self) -> &[Vertex<D>] {
         self.vertices.get(..self.count).unwrap_or(&[])
     }
 
-    /// Whether there is no segment.
-    #[inline(always)]
-    pub fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-
     /// The highest segment.
-    #[inline(always)]
-    pub fn last(&self) -> Option<&Vertex> {
+    pub fn last(&self) -> Option<&Vertex<D>> {
         self.vertices().last()
     }
 
     /// Replaces the slope of the highest segment.
-    pub fn set_slope(&mut self, slope: f64) {
-        if let Some(last) = self.vertices.get_mut(..self.count).and_then(<[Vertex]>::last_mut) {
+    pub(super) fn set_slope(&mut self, slope: [f64; D]) {
+        if let Some(last) = self.vertices.get_mut(..self.count).and_then(<[Vertex<D>]>::last_mut) {
             last.slope = slope;
         }
     }
 
     /// Keeps the lowest `count` segments.
     #[inline(always)]
-    pub fn truncate(&mut self, count: usize) {
+    pub(super) fn truncate(&mut self, count: usize) {
         self.count = if count < self.count { count } else { self.count };
     }
 
-    /// Adds a segment on top. In a full list it first merges two segments, along the `curve` of the normal force.
-    #[inline]
-    pub fn push(&mut self, curve: &Segment, vertex: Vertex) {
-        push(&mut self.vertices, &mut self.count, curve, None, vertex);
+    /// Adds a segment on top. A full list first merges two of its segments.
+    pub(super) fn push(&mut self, curve: &Segment, vertex: Vertex<D>) {
+        if self.count >= N {
+            self.count = merge(&mut self.vertices, &vertex, curve, None);
+        }
+        self.add(vertex);
     }
 
-    /// Whether no slope is steeper than that of slipping springs. The cone of a point then cuts the top off the
-    /// polyline and leaves the rest unchanged.
-    pub fn is_within_cones(&self) -> bool {
-        self.vertices().iter().all(|vertex| fabs(vertex.slope) <= 1.0 + SAME)
+    /// Adds a segment on top of a list that is not full.
+    pub(super) fn add(&mut self, vertex: Vertex<D>) {
+        if let Some(slot) = self.vertices.get_mut(self.count) {
+            *slot = vertex;
+            self.count += 1;
+        }
+    }
+
+    /// Moves the origin of all offsets to that of the highest springs, at `indentation` \[m\]. The offsets follow from the slopes:
+    /// after a long slide, they would be small differences of large numbers.
+    pub(super) fn rebase(&mut self, indentation: f64) {
+        let mut end = (indentation, [0.0; D]);
+        for vertex in self.vertices.iter_mut().take(self.count).rev() {
+            vertex.offset = add(end.1, vertex.height - end.0, vertex.slope);
+            end = (vertex.height, vertex.offset);
+        }
     }
 }
 
-/// Adds a segment above the `count` others in `room`; if `room` is full, it first merges two of them. A growing dent
-/// has a `cone`.
-#[inline(always)]
-fn push(room: &mut [Vertex], count: &mut usize, curve: &Segment, cone: Option<&Cone>, mut vertex: Vertex) {
-    if *count >= room.len() {
-        *count = merge(room, &vertex, curve, cone);
-    }
-    let last = count.checked_sub(1).and_then(|last| room.get(last));
-    vertex.below = last.map_or(0.0, |last| last.pull_up_to(vertex.force));
-    if let Some(slot) = room.get_mut(*count) {
-        *slot = vertex;
-        *count += 1;
-    }
-}
-
-/// A polyline under construction, with room for more segments than a [`List`] keeps.
-pub(super) struct Draft<const N: usize> {
+/// A polyline under construction, with room for all parts of the segments of a [`List`].
+pub(super) struct Draft<const D: usize, const N: usize> {
     count: usize,
-    vertices: [[Vertex; N]; 4],
+    vertices: [[Vertex<D>; N]; 8],
 }
 
-impl<const N: usize> Draft<N> {
+impl<const D: usize, const N: usize> Draft<D, N> {
     /// An empty polyline.
-    pub(super) const EMPTY: Draft<N> = Draft { count: 0, vertices: [[Vertex::NONE; N]; 4] };
+    pub(super) const EMPTY: Self = Draft { count: 0, vertices: [[Vertex::NONE; N]; 8] };
 
-    /// Adds a segment on top, unless it continues the last one in a straight line.
-    pub(super) fn extend(&mut self, curve: &Segment, cone: &Cone, vertex: Vertex) {
+    /// Whether segments may be divided further. The rest of the room is for those that follow.
+    pub(super) fn has_room(&self) -> bool {
+        self.count < 2 * N
+    }
+
+    /// Height of the lowest springs \[m\].
+    pub(super) fn lowest(&self) -> f64 {
+        self.vertices.as_flattened().first().map_or(0.0, |vertex| vertex.height)
+    }
+
+    /// Adds a segment, unless it continues the last one in a straight line.
+    pub(super) fn extend(&mut self, vertex: Vertex<D>) {
         let room = self.vertices.as_flattened_mut();
         let last = self.count.checked_sub(1).and_then(|last| room.get(last));
-        if last.is_none_or(|last| fabs(last.slope - vertex.slope) > SAME) {
-            push(room, &mut self.count, curve, Some(cone), vertex);
+        if last.is_none_or(|last| length(difference(last.slope, vertex.slope)) > SAME)
+            && let Some(slot) = room.get_mut(self.count)
+        {
+            *slot = vertex;
+            self.count += 1;
         }
     }
 
     /// The list of these segments; excess segments are merged.
-    pub(super) fn into_list(mut self, curve: &Segment, cone: &Cone) -> List<N> {
+    pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>) -> List<D, N> {
         let room = self.vertices.as_flattened_mut();
         while self.count > N
             && let Some(([rest @ .., last], _)) = room.split_at_mut_checked(self.count)
         {
             let last = *last;
-            self.count = merge(rest, &last, curve, Some(cone));
-            push(room, &mut self.count, curve, Some(cone), last);
+            let left = merge(rest, &last, curve, Some(cone));
+            if let Some(slot) = room.get_mut(left) {
+                *slot = last;
+            }
+            self.count = left + 1;
         }
         let mut list = List::EMPTY;
         for vertex in room.iter().take(self.count) {
-            list.push(curve, *vertex);
+            list.add(*vertex);
         }
         list
     }

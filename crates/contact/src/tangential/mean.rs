@@ -1,136 +1,197 @@
-//! The mean tangential force over a step, and its time derivative.
+//! The mean tangential force over a step and its time derivatives, as sums over the springs.
+//!
+//! Springs between the heights `h` and `h + dh` have the stiffness `F''(h) dh`, and those below the lowest vertex together
+//! `F'(h)`. Each spring moves exactly. On a [`Segment`], `F''(h) dh` is a polynomial of `q = sqrt(z)` times `dq`. Along one line the
+//! mean tension is a polynomial of the height between the places of [`breaks`], and Gauss's rule is exact.
 
-use super::stuck::{distance, front};
-use super::{SAME, Stuck, Vertex, Way};
-use crate::numbers::quotient;
+use super::pursuit::{FARTHEST, GAUSS, Spring};
+use super::vector::{add, difference, direction, dot, length, times};
+use super::{Motion, Stuck, Vertex};
+use crate::numbers::{largest, quotient, root};
 use crate::segment::Segment;
-use libm::fabs;
 
-impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
-    /// Mean tangential force of a step on this `way` that is yet to come, divided by the coefficient of friction
-    /// \[N\]; exact.
-    pub fn mean_pull(&self, curve: &Segment, way: &Way) -> f64 {
+/// How far inside its limit a spring may be that slips, as a part of the indentation: vertices have errors from merging and
+/// rounding.
+const AT_LIMIT: f64 = 1e-9;
+
+/// Part of the indentation over which the first derivative is compared for the second one.
+const WIDTH: f64 = 1.0 / 256.0;
+
+/// The longest trial step \[s\], for motions that are slower than any physical one.
+const LONGEST: f64 = 1e50;
+
+/// Integral of `of`, a function of the height, times the stiffness of the springs between two heights \[m\].
+fn over_springs<const D: usize>(curve: &Segment, from: f64, to: f64, of: impl Fn(f64) -> [f64; D]) -> [f64; D] {
+    let [low, high] = [from, to].map(|height| root(height - curve.origin));
+    let sum = low + high;
+    let length = quotient(to - largest(from, curve.origin), sum, sum > 0.0, 0.0);
+    GAUSS.iter().fold([0.0; D], |sum, &(node, weight)| {
+        let place = low + node * length;
+        let stiffness = (1.5 * curve.power + 4.0 * curve.square * place) * (weight * length);
+        add(sum, stiffness, of(curve.origin + place * place))
+    })
+}
+
+/// The mean tension \[m\] of the spring at this height and offset \[m\] over a `way` that begins at the displacement `start` \[m\].
+fn mean_tension<const D: usize>(way: &Motion<D>, start: [f64; D], height: f64, offset: [f64; D]) -> [f64; D] {
+    let (limit, end_limit) = (way.from - height, way.to - height);
+    if limit <= 0.0 {
+        // touches on the way, and slips
+        let part = quotient(end_limit, way.rise(), end_limit > 0.0, 0.0);
+        return times(0.5 * part * end_limit, way.direction());
+    }
+    let part = if end_limit < 0.0 { limit / (limit - end_limit) } else { 1.0 };
+    let spring = Spring { tension: difference(start, offset), limit, end_limit: largest(end_limit, 0.0) };
+    times(part, spring.mean(times(part, way.shift), way.direction()))
+}
+
+/// Places on the segment from `vertex` to `end`, as parts of it, between which the springs move alike on a `way` from the
+/// displacement `start` \[m\]: where they separate, where they just reach their limit, and where they would separate without
+/// tension. The last place is the end.
+fn breaks<const D: usize>(vertex: &Vertex<D>, end: (f64, [f64; D]), way: &Motion<D>, start: [f64; D]) -> [f64; 5] {
+    let (rise, chord) = (end.0 - vertex.height, difference(end.1, vertex.offset));
+    let fall = -way.rise();
+    let separation = quotient(way.to - vertex.height, rise, rise > 0.0, 1.0);
+    // |tension - part chord| = limit - part rise at the end of the way
+    let tension = difference(add(start, 1.0, way.shift), vertex.offset);
+    let limit = way.to - vertex.height;
+    let square = dot(chord, chord) - rise * rise;
+    let half = limit * rise - dot(tension, chord);
+    let constant = dot(tension, tension) - limit * limit;
+    let discriminant = root(half * half - square * constant);
+    let sum = -(half + if half >= 0.0 { discriminant } else { -discriminant });
+    let inside = |dividend: f64, divisor: f64| {
+        let is_inside = dividend * divisor > 0.0 && dividend * dividend < divisor * divisor;
+        quotient(dividend, divisor, is_inside, 1.0)
+    };
+    // tension at the separation of the vertex, and its change over the segment
+    let share = quotient(way.from - vertex.height, fall, fall > 0.0, 0.0);
+    let at_vertex = difference(add(start, share, way.shift), vertex.offset);
+    let change = add(times(-1.0, chord), -quotient(rise, fall, fall > 0.0, 0.0), way.shift);
+    let relaxed = if fall > 0.0 { inside(-dot(at_vertex, change), dot(change, change)) } else { 1.0 };
+    [separation, inside(sum, square), inside(constant, sum), relaxed, 1.0]
+}
+
+impl<const D: usize, const N: usize> Stuck<D, N> {
+    /// Mean tangential force of a step on this `way` that is yet to come, divided by the coefficient of friction \[N\]; exact
+    /// along one line.
+    pub fn mean_pull(&self, curve: &Segment, way: &Motion<D>) -> [f64; D] {
         let surface = curve.lower;
         if way.from <= surface && way.to <= surface || !way.moves() {
             return self.pull(curve, way.from);
         }
-        if self.list.is_empty() && way.from > surface {
-            return Stuck::<N>::pressed(curve, way.from).mean_pull(curve, way);
+        let is_new = self.list.vertices().is_empty();
+        if is_new && way.from > surface {
+            return Stuck::<D, N>::pressed(curve, way.from).mean_pull(curve, way);
         }
-        if self.list.is_empty() {
-            // all springs are new and either stick or slip
-            let slope = if way.sticks() { way.slope() } else { way.slip().unwrap_or(0.0) };
+        if is_new || length(way.shift) > FARTHEST {
+            // all springs either stick or slip: they are new, or the way is longer than any tension
+            let slope = if way.sticks() { way.slope() } else { way.direction() };
             let above = way.above(surface);
-            return way.part_above(surface) * slope * curve.mean_force(above.from, above.to);
+            return times(way.part_above(surface) * curve.mean_force(above.from, above.to), slope);
         }
         if way.sticks() {
             let gain = curve.mean_force(way.from, way.to) - curve.force(way.from);
-            return self.pull(curve, way.from) + way.slope() * gain;
+            return add(self.pull(curve, way.from), gain, way.slope());
         }
-        self.mean_pull_of_slip(curve, way)
-    }
-
-    /// The same for a step with slip. The slip front moves linearly in time between events. At an event the front
-    /// passes a vertex, or the annulus of slip closes and opens in the other direction.
-    fn mean_pull_of_slip(&self, curve: &Segment, way: &Way) -> f64 {
-        let (start, rise) = (self.displacement.total(), way.rise());
-        let displacement = |time: f64| start + time * way.shift;
-        let indentation = |time: f64| way.from + time * rise;
-        let end = way.part_above(curve.lower);
-        let mut left = self.list.vertices();
-        let mut sign = self.direction(way);
-        let (mut time, mut sum) = (0.0, 0.0);
-        // the front passes each vertex once, and changes direction once between two of them
-        for _ in 0..2 * N + 3 {
-            let here = indentation(time);
-            let Some((last, below)) = left.split_last() else { break };
-            let distance = distance(last, sign, displacement(time), here);
-            let approach = sign * way.shift - rise;
-            if distance <= SAME * here || fabs(last.slope - sign) <= SAME {
-                left = below;
-                continue;
-            }
-            let lowest = front(last, sign, distance);
-            let from = if lowest < here { lowest } else { here };
-            let speed = -approach / (1.0 - sign * last.slope);
-            let passes = time + quotient(distance, approach, approach > 0.0, f64::INFINITY);
-            let closing = speed - rise;
-            let closes = time + quotient(here - from, closing, rise < 0.0 && closing > 0.0, f64::INFINITY);
-            let first = if closes < passes { closes } else { passes };
-            let next = if first < end { first } else { end };
-            let to = from + (next - time) * speed;
-            let to = if passes <= next { last.height } else { to };
-            let stuck = curve.mean_force(from, to);
-            let whole = curve.mean_force(here, indentation(next));
-            sum += (next - time) * (last.pull_up_to(stuck) + sign * (whole - stuck));
-            time = next;
-            if next >= end {
-                return sum;
-            }
-            if closes < passes {
-                sign = -sign;
-            } else {
-                left = below;
+        if self.slips_from_edge() {
+            return self.mean_pull_from_edge(curve, way);
+        }
+        let start = self.displaced();
+        let of_spring = |height, offset| mean_tension(way, start, height, offset);
+        let mut sum = [0.0; D];
+        if let Some(lowest) = self.list.vertices().first() {
+            sum = times(curve.stiffness(lowest.height), of_spring(lowest.height, lowest.offset));
+        }
+        for (vertex, end) in self.segments_up_to((way.from, start)) {
+            let (rise, breaks) = (end.0 - vertex.height, breaks(vertex, end, way, start));
+            let mut part = 0.0;
+            for _ in 0..breaks.len() {
+                let next =
+                    breaks.iter().fold(1.0, |next, &place| if place > part && place < next { place } else { next });
+                let [from, to] = [part, next].map(|part| vertex.height + part * rise);
+                let mean = over_springs(curve, from, to, |height| of_spring(height, vertex.offset_at(height)));
+                sum = add(sum, 1.0, mean);
+                part = next;
+                if part >= 1.0 {
+                    break;
+                }
             }
         }
-        // all springs slide
-        sum + (end - time) * sign * curve.mean_force(indentation(time), indentation(end))
+        if way.to > way.from {
+            let touching = over_springs(curve, way.from, way.to, |height| of_spring(height, start));
+            sum = add(sum, 1.0, touching);
+        }
+        sum
     }
 
-    /// The direction in which springs begin to slip on a `way` without stick.
-    fn direction(&self, way: &Way) -> f64 {
-        way.slip().unwrap_or_else(|| {
-            let slope = self.list.last().map_or(0.0, |last: &Vertex| last.slope);
-            if way.tangential > slope * way.normal { 1.0 } else { -1.0 }
-        })
-    }
-
-    /// First and second time derivative of the tangential force in the direction of the motion, for the rates of a `way`
-    /// that begins at the current position and for its `accelerations` along the normal and in the (scaled) tangential
-    /// direction, divided by the coefficient of friction \[N/s, N/s^2\].
-    pub fn pull_rates(&self, curve: &Segment, way: &Way, accelerations: (f64, f64)) -> (f64, f64) {
-        let (indentation, displacement) = (way.from, self.displacement.total());
+    /// First and second time derivative of the tangential force, for the rates of a `way` that begins at the current position
+    /// and for its `accelerations` along the normal and in the (scaled) tangential directions, divided by the coefficient of
+    /// friction \[N/s, N/s^2\]. The second one is a difference of first ones.
+    pub fn pull_rates(&self, curve: &Segment, way: &Motion<D>, accelerations: (f64, [f64; D])) -> [[f64; D]; 2] {
         let (normal, tangential) = accelerations;
-        if self.list.is_empty() {
-            return (0.0, 0.0);
+        if self.list.vertices().is_empty() {
+            return [[0.0; D]; 2];
         }
         if !way.moves() {
             // the motion begins in the direction of the accelerations
-            let begun = Way { normal, tangential, ..*way };
-            return (0.0, if begun.moves() { self.pull_rates(curve, &begun, (0.0, 0.0)).0 } else { 0.0 });
+            let begun = Motion { normal, tangential, ..*way };
+            return [[0.0; D], if begun.moves() { self.pull_rate(curve, &begun) } else { [0.0; D] }];
         }
-        let stiffness = curve.stiffness(indentation);
-        let (speed, change) = (way.normal, normal);
-        if way.sticks() {
-            let stiffening = product(curve.curvature(indentation), speed);
-            return (stiffness * way.tangential, stiffening * way.tangential + stiffness * tangential);
+        if self.slips_from_edge() {
+            return self.pull_rates_from_edge(curve, way, accelerations);
         }
-        let sign = self.direction(way);
-        // of a part of the curve whose end moves with this speed and acceleration
-        let rates = |height: f64, speed: f64, change: f64| {
-            let stiffness = curve.stiffness(height);
-            (stiffness * speed, product(curve.curvature(height), speed * speed) + stiffness * change)
+        let first = self.pull_rate(curve, way);
+        let speed = length(way.tangential) + largest(way.normal, -way.normal);
+        let path = WIDTH * way.from;
+        let width = quotient(path, speed, path < LONGEST * speed, LONGEST);
+        let after = |time: f64| {
+            let of = |rate: f64, acceleration: f64| time * (rate + 0.5 * time * acceleration);
+            let to = way.from + of(way.normal, normal);
+            let shift = add(times(time, way.tangential), 0.5 * time * time, tangential);
+            let mut moved = *self;
+            moved.advance(curve, &Motion::straight(way.from, to, shift));
+            let tangential = add(way.tangential, time, tangential);
+            moved.pull_rate(curve, &Motion { from: to, to, normal: way.normal + time * normal, tangential, ..*way })
         };
-        let whole = rates(indentation, speed, change);
-        let mut left = self.list.vertices();
-        while let Some((last, below)) = left.split_last() {
-            let distance = distance(last, sign, displacement, indentation);
-            if distance > SAME * indentation && fabs(last.slope - sign) > SAME {
-                let front = front(last, sign, distance);
-                let divisor = 1.0 - sign * last.slope;
-                let front = if front < indentation { front } else { indentation };
-                let of_front = |normal: f64, tangential: f64| (normal - sign * tangential) / divisor;
-                let stuck = rates(front, of_front(speed, way.tangential), of_front(normal, tangential));
-                let less = last.slope - sign;
-                return (sign * whole.0 + less * stuck.0, sign * whole.1 + less * stuck.1);
-            }
-            left = below;
-        }
-        (sign * whole.0, sign * whole.1)
+        let rise = add(times(4.0, difference(after(width), first)), -1.0, difference(after(2.0 * width), first));
+        [first, rise.map(|rise| quotient(rise, 2.0 * width, width > 0.0, f64::NAN))]
     }
-}
 
-/// The product of a curvature, which may be infinite at the surface, and a rate.
-fn product(curvature: f64, rate: f64) -> f64 {
-    if rate == 0.0 { 0.0 } else { curvature * rate }
+    /// Time derivative of the tangential force for these rates, divided by the coefficient of friction \[N/s\].
+    fn pull_rate(&self, curve: &Segment, way: &Motion<D>) -> [f64; D] {
+        if self.slips_from_edge() {
+            let [rate, _] = self.pull_rates_from_edge(curve, way, (0.0, [0.0; D]));
+            return rate;
+        }
+        let displacement = self.displaced();
+        // a spring on its limit slips along its tension, if it would else exceed the limit
+        let of_slipping = |offset: [f64; D]| {
+            let tension = difference(displacement, offset);
+            let unit = if tension == [0.0; D] { tension } else { direction(tension) };
+            let excess = dot(unit, way.tangential) - way.normal;
+            add(way.tangential, -largest(excess, 0.0), unit)
+        };
+        let slips = |height: f64, offset: [f64; D]| {
+            way.from - height - length(difference(displacement, offset)) <= AT_LIMIT * way.from
+        };
+        let mut sum = [0.0; D];
+        if let Some(lowest) = self.list.vertices().first() {
+            let is_slipping = slips(lowest.height, lowest.offset);
+            let rate = if is_slipping { of_slipping(lowest.offset) } else { way.tangential };
+            sum = times(curve.stiffness(lowest.height), rate);
+        }
+        for (vertex, end) in self.segments_up_to((way.from, displacement)) {
+            let is_top = end.0 >= way.from;
+            let is_slipping = slips(vertex.height, vertex.offset)
+                && if is_top { length(vertex.slope) >= 1.0 - AT_LIMIT } else { slips(end.0, end.1) };
+            let rate = if is_slipping {
+                over_springs(curve, vertex.height, end.0, |height| of_slipping(vertex.offset_at(height)))
+            } else {
+                times(curve.stiffness(end.0) - curve.stiffness(vertex.height), way.tangential)
+            };
+            sum = add(sum, 1.0, rate);
+        }
+        sum
+    }
 }

@@ -13,30 +13,45 @@
 //! is `T = mu sum r [F(h_next) - F(h)]` over the segments. The stored energy is
 //! `E = (mu/kappa) sum r { [w F] + r [int F dh] }` with `w = sigma - o`. `|T| <= mu F` follows from `|r| <= 1`.
 //!
-//! On one elastic curve `F` the result is exact for any history and any division into steps, as long as the [`List`]
-//! of segments is not full.
+//! On one elastic curve `F` the result is exact for any history in one direction and any division into steps, as long as the
+//! [`List`] of segments is not full.
 //!
 //! # One direction and two
-//! [`SpringsOf`] is the contact for both: its curve, the growth of its dent, its outputs. What differs is [`Shear`], the springs
-//! themselves. Along a line ([`Stuck`]) slopes are +-1 where springs slip, cones cut the polyline in closed form, and each vertex
-//! keeps the sum below it. In a plane ([`plane`]) slipping springs follow a pursuit curve, slopes are vectors, and a motion is cut
-//! where a spring's limit is reached. Their lists and the merge of segments have one outline and the same conditions on the new
-//! slopes; they differ in which slopes are allowed, and in the sum below each vertex along a line.
+//! The number `D` of directions is a constant of one source. Displacements, offsets and slopes are vectors, and the cone is
+//! `|sigma - o(h)| <= delta - h`. A spring moves exactly on a straight way: it sticks up to its limit, and then slips on a pursuit
+//! curve (see `pursuit`). A spring that is inside the cone of the end point has not slipped on the way, because the cone is
+//! convex. The vertices of the polyline move like this; between them it stays straight (see `cut`). Where springs turn, a part of
+//! a segment is halved until it is short and almost straight. A vertex on a straight segment costs no accuracy, and without it
+//! the many small turns of a slow rotation would never be noticed. A full list merges vertices that matter least, and keeps the
+//! force.
+//!
+//! Along a line nothing turns. As long as no segment is steeper than the cones, springs slip from the edge inwards only, and the
+//! polyline, the mean force and the rates of the force have a closed form (see `edge`).
+//!
+//! # Accuracy in two directions
+//! Motion along one line has the result of one direction, to rounding. If the direction of slip turns, sixteen segments
+//! differ from many independent springs, over random histories, by at most 1.1e-3 of `mu F` if a step is taken at once or in
+//! eight parts, and by 2.9e-3 in 512 parts; over circles by 2.2e-3 and 5.4e-3. The root mean square is a fifth of this. With an
+//! unbounded list the error is below 1e-3 and does not grow with the parts. Coulomb's bound holds to rounding, and friction
+//! seems to do work of at most 2e-5 of the normal energy, from the integration of the test.
 //!
 //! # Limits
 //! Quasi-static. No coupling of normal and tangential displacements: exact for equal bodies, an approximation
 //! otherwise. One coefficient of friction. A circular contact area whose springs belong to the area: steady rolling
-//! has no creep. The normal force does not depend on the tangential force.
+//! has no creep. The directions lie still in the area, which does not spin. The normal force does not depend on the tangential
+//! force.
 //!
 //! # References
 //! - R. D. Mindlin, H. Deresiewicz, *J. Appl. Mech.* 20 (1953) 327-344.
-//! - J. Jaeger, *Arch. Appl. Mech.* 63 (1993) 510-524; M. Ciavarella, *Int. J. Solids Struct.* 35 (1998) 2349-2362.
+//! - J. Jaeger, *Arch. Appl. Mech.* 63 (1993) 510-524; M. Ciavarella, *Int. J. Solids Struct.* 35 (1998) 2349-2362: the
+//!   springs. They slip against their tension, as in Coulomb's law for a body on a moving plane.
 //! - V. L. Popov, M. Hess, *Facta Univ. Mech. Eng.* 12 (2014) 1-18.
 //! - M. A. Krasnosel'skii, A. V. Pokrovskii, *Systems with Hysteresis*, 1989: the play operator.
 
 mod behaviour;
-mod cone;
 mod contact;
+mod cut;
+mod edge;
 mod growth;
 mod growth_steps;
 pub mod impact;
@@ -47,15 +62,15 @@ mod motion;
 mod normal;
 mod outputs;
 mod parts;
-pub mod plane;
+mod pursuit;
 mod rates;
 mod rough;
 mod saved;
 mod shared;
-mod shear;
 mod stuck;
+mod trial;
+mod vector;
 mod vertex;
-mod way;
 
 pub use contact::{PlaneContact, Rough, RoughContact};
 pub use list::List;
@@ -63,10 +78,8 @@ pub use motion::Motion;
 pub use normal::Normal;
 pub use outputs::{Quantity, Sliding};
 pub use rough::{Mean, PlaneSprings, RoughModel, Springs, SpringsOf};
-pub use shear::Shear;
 pub use stuck::Stuck;
 pub use vertex::Vertex;
-pub use way::Way;
 
 use super::material::Body;
 use super::numbers::{largest, quotient};

@@ -1,6 +1,6 @@
 //! Time derivatives of the quantities of friction.
 
-use super::{Normal, Quantity, Rough, RoughModel, Shear};
+use super::{Normal, Quantity, Rough, RoughModel};
 use crate::behaviour::Contact;
 use crate::loading::Loading;
 use crate::numbers::quotient;
@@ -15,7 +15,7 @@ const WIDTH: f64 = 1.0 / 8192.0;
 /// The longest trial step \[s\], for motions that are slower than any physical one.
 const LONGEST: f64 = 1e50;
 
-impl<K: Shear<D>, const D: usize, const MEAN: bool, N: Normal> Rough<K, D, MEAN, N> {
+impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
     /// First and second time derivative of `quantity`, for motions that continue on these courses along the normal and in
     /// the tangential directions.
     ///
@@ -34,7 +34,7 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool, N: Normal> Rough<K, D, MEAN,
         let indentation = self.normal().indentation();
         let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
         let force = |direction| match self.springs.force_rates(&model.friction, indentation, rates, accelerations) {
-            Some((first, second)) => (of(first, direction), of(second, direction)),
+            Some([first, second]) => (of(first, direction), of(second, direction)),
             None => self.by_trial(model, Quantity::Force(direction), normal, tangential),
         };
         match quantity {

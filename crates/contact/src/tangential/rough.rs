@@ -1,8 +1,9 @@
 //! An elastoplastic contact with friction.
 
 use super::growth_steps::next_of_lattice;
-use super::shear::{Rates, Shear, TOLERANCE, mean_over};
-use super::{Friction, Motion, Sliding, Stuck, growth, plane};
+use super::trial::{TOLERANCE, mean_over};
+use super::vector::{add, times};
+use super::{Friction, Motion, Sliding, Stuck};
 use crate::history::History;
 use crate::loading::Loading;
 use crate::numbers::{largest, quotient, smallest};
@@ -28,9 +29,7 @@ pub enum Mean {
 
 /// The mean of two vectors.
 fn middle<const D: usize>(one: [f64; D], other: [f64; D]) -> [f64; D] {
-    let mut mean = one;
-    mean.iter_mut().zip(other).for_each(|(mean, other)| *mean = 0.5 * (*mean + other));
-    mean
+    times(0.5, add(one, 1.0, other))
 }
 
 /// The parameters of a contact with friction.
@@ -49,19 +48,18 @@ pub struct RoughModel<L, U, X = ()> {
 ///
 /// With `LATTICE`, a growing dent is divided at fixed depths. The result then hardly depends on the time steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpringsOf<K, const D: usize, const LATTICE: bool> {
-    stuck: K,
+pub struct SpringsOf<const D: usize, const N: usize, const LATTICE: bool> {
+    stuck: Stuck<D, N>,
     /// The unloading path of the current dent, up to its largest indentation. Before yield: Hertz's curve up to the
     /// yield point.
     curve: Segment,
 }
 
-/// The springs of a contact in one direction, in a list of `N` segments; see [`Stuck`] for the `PARTS`.
-pub type Springs<const N: usize, const LATTICE: bool = true, const PARTS: u32 = { growth::PARTS }> =
-    SpringsOf<Stuck<N, PARTS>, 1, LATTICE>;
+/// The springs of a contact in one direction, in a list of `N` segments.
+pub type Springs<const N: usize, const LATTICE: bool = true> = SpringsOf<1, N, LATTICE>;
 
 /// The springs of a contact in two directions, in a list of `N` segments.
-pub type PlaneSprings<const N: usize, const LATTICE: bool = true> = SpringsOf<plane::Stuck<N>, 2, LATTICE>;
+pub type PlaneSprings<const N: usize, const LATTICE: bool = true> = SpringsOf<2, N, LATTICE>;
 
 impl<L: Loading, U: Unloading, X> RoughModel<L, U, X> {
     /// The unloading curve of a contact whose largest indentation was `largest` \[m\].
@@ -74,7 +72,7 @@ impl<L: Loading, U: Unloading, X> RoughModel<L, U, X> {
     }
 }
 
-impl<const N: usize, const LATTICE: bool, const PARTS: u32> Springs<N, LATTICE, PARTS> {
+impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
     /// [`SpringsOf::advance_along`] in one direction. Returns the mean tangential force \[N\] as
     /// `asked` for.
     ///
@@ -100,11 +98,11 @@ impl<const N: usize, const LATTICE: bool, const PARTS: u32> Springs<N, LATTICE, 
     }
 }
 
-impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> {
+impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTICE> {
     /// The springs of a `contact` that has just started: no tangential displacement.
     pub fn start<L: Loading, U: Unloading, X>(model: &RoughModel<L, U, X>, contact: &History) -> Self {
         let curve = model.curve_below(contact.max_indentation());
-        SpringsOf { stuck: K::pressed(&curve, contact.indentation()), curve }
+        SpringsOf { stuck: Stuck::pressed(&curve, contact.indentation()), curve }
     }
 
     /// Moves a `contact` and its springs by `increment` along the normal and by `slip` in the tangential directions
@@ -125,14 +123,14 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         contact.advance(&model.normal, increment)?;
         let to = contact.indentation();
         let scale = model.friction.scale();
-        let scaled = |lengths: [f64; D]| lengths.map(|length| scale * length);
+        let scaled = |lengths| times(scale, lengths);
         let way = Motion { from, to, shift: scaled(slip), normal: rates.0, tangential: scaled(rates.1) };
         let pull = self.follow(model, &way, asked);
         // a fresh surface forgets the dent once the bodies separate beyond the original surface
         if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
             self.curve = model.curve_below(0.0);
         }
-        Ok(pull.map(|pull| model.friction.coefficient * pull))
+        Ok(times(model.friction.coefficient, pull))
     }
 
     /// Moves the springs along a `way` that the contact has completed: up to the growth of its dent, then over the
@@ -155,11 +153,9 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
             let grows = here >= self.curve.upper;
             let end = if grows { smallest(self.next_border(model, here), way.to) } else { self.curve.upper };
             let part = (end - here) / rise;
-            let piece = Motion { from: here, to: end, shift: way.shift.map(|shift| part * shift), ..*way };
+            let piece = Motion { from: here, to: end, shift: times(part, way.shift), ..*way };
             let mean = if grows { self.grow(model, &piece, asked) } else { self.move_on_curve(&piece, asked) };
-            for (sum, mean) in sum.iter_mut().zip(mean) {
-                *sum += part * mean;
-            }
+            sum = add(sum, part, mean);
             here = end;
         }
         sum
@@ -179,10 +175,10 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
     #[inline]
     fn move_on_curve(&mut self, way: &Motion<D>, asked: Mean) -> [f64; D] {
         let curve = self.curve;
-        let exact = asked == Mean::Exact || asked == Mean::OfEnds && self.stuck.has_closed_mean();
+        let exact = asked == Mean::Exact || asked == Mean::OfEnds && self.stuck.slips_from_edge();
         let mean = if exact { self.stuck.mean_pull(&curve, way) } else { [0.0; D] };
         let before = self.stuck;
-        self.stuck.settle(&curve, way);
+        self.stuck.advance(&curve, way);
         if asked == Mean::OfEnds && !exact {
             return middle(before.pull(&curve, way.from), self.stuck.pull(&curve, way.to));
         }
@@ -233,7 +229,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
 
     /// Tangential force \[N\] at the current `indentation` \[m\].
     pub fn forces(&self, friction: &Friction, indentation: f64) -> [f64; D] {
-        self.pull(indentation).map(|pull| friction.coefficient * pull)
+        times(friction.coefficient, self.pull(indentation))
     }
 
     /// First and second time derivative of the tangential force \[N/s, N/s^2\] for these `rates` \[m/s\] and
@@ -245,18 +241,17 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         indentation: f64,
         rates: (f64, [f64; D]),
         accelerations: (f64, [f64; D]),
-    ) -> Option<Rates<D>> {
+    ) -> Option<[[f64; D]; 2]> {
         if rates.0 > 0.0 && indentation >= self.curve.upper {
             return None;
         }
         let scale = friction.scale();
-        let scaled = |lengths: [f64; D]| lengths.map(|length| scale * length);
+        let scaled = |lengths| times(scale, lengths);
         let tangential = scaled(rates.1);
         let way = Motion { from: indentation, to: indentation, shift: [0.0; D], normal: rates.0, tangential };
         let accelerations = (accelerations.0, scaled(accelerations.1));
-        let (first, second) = self.stuck.pull_rates(&self.curve, &way, accelerations);
-        let force = |rates: [f64; D]| rates.map(|rate| friction.coefficient * rate);
-        Some((force(first), force(second)))
+        let rates = self.stuck.pull_rates(&self.curve, &way, accelerations);
+        Some(rates.map(|pull| times(friction.coefficient, pull)))
     }
 
     /// Stored tangential energy \[J\] at `indentation` \[m\].
@@ -279,7 +274,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
     /// the indentation where those at the edge slip, divided by the coefficient of friction \[N/m\].
     pub(super) fn stiffnesses(&self, indentation: f64) -> (f64, [f64; D]) {
         let [stick, whole] = [self.stuck.stick_height(indentation), indentation].map(|h| self.curve.stiffness(h));
-        (stick, self.stuck.edge().map(|slope| slope * (whole - stick)))
+        (stick, times(whole - stick, self.stuck.edge()))
     }
 
     /// Slip state of the contact.
@@ -293,7 +288,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
     }
 
     /// Number of words in the saved springs.
-    pub const WORDS: usize = K::WORDS;
+    pub const WORDS: usize = Stuck::<D, N>::WORDS;
 
     /// Passes [`SpringsOf::WORDS`] words to `store`.
     pub fn save(&self, store: &mut impl FnMut(u64)) {
@@ -307,6 +302,6 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         contact: &History,
     ) -> Option<Self> {
         let curve = model.curve_below(contact.max_indentation());
-        Some(SpringsOf { stuck: K::load(words, &curve)?, curve })
+        Some(SpringsOf { stuck: Stuck::load(words, &curve)?, curve })
     }
 }

@@ -1,20 +1,21 @@
 //! A contact with friction that shares bodies with others.
 
 use super::normal::Straight;
-use super::{Mean, Normal, Rough, RoughModel, Shear};
+use super::vector::{add, length, times};
+use super::{Mean, Normal, Rough, RoughModel};
 use crate::Model;
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
-use crate::numbers::{largest, quotient, root};
+use crate::numbers::{largest, quotient};
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::shared::{Row, SharedContact};
 use crate::unloading::Unloading;
 
-impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const MEAN: bool, N: Normal>
-    SharedContact<RoughModel<L, U, N::Loss>> for Rough<K, D, MEAN, N>
+impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
+    SharedContact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
 {
     type Loading = L;
     type Unloading = U;
@@ -81,8 +82,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
         tangential.iter_mut().zip(&*tangents).for_each(|(mean, row)| *mean -= row.beside);
         // on the curved way the normal force differs as much
         let most = largest(model.friction.coefficient * (elastic + (normal.force() - mean)), 0.0);
-        within(&mut tangential, most);
-        for ((row, mean), slip) in tangents.iter_mut().zip(tangential).zip(slip) {
+        for ((row, mean), slip) in tangents.iter_mut().zip(within(tangential, most)).zip(slip) {
             (row.found, row.most) = (mean, most);
             self.work = self.work.plus(mean * slip);
         }
@@ -98,7 +98,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, K: Shear<D>, const D: usize, const 
     }
 }
 
-impl<K: Shear<D>, const D: usize, const MEAN: bool, N: Normal> Rough<K, D, MEAN, N> {
+impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
     /// Moves the contact on a short straight way: the bodies close by the first length and slip by the others \[m\], in a
     /// `time` \[s\] and under a mean normal `force` \[N\] that matters to a target that gives way. Returns the mean normal force,
     /// its part without a loss, and the mean tangential forces \[N\].
@@ -123,17 +123,15 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool, N: Normal> Rough<K, D, MEAN,
             let (swiftest, heat) = straight.lost(normal, elastic);
             self.normal.lose(&model.normal, &model.loss, swiftest, heat)?;
             let damping = model.friction.stiffness_ratio * straight.tangential(elastic);
-            mean.iter_mut().zip(slip).for_each(|(mean, slip)| *mean += damping * (slip / time));
+            mean = add(mean, damping, slip.map(|slip| slip / time));
         }
         // the mean of both ends may be beyond the bound
-        within(&mut mean, model.friction.coefficient * elastic);
-        Ok((normal, elastic, mean))
+        Ok((normal, elastic, within(mean, model.friction.coefficient * elastic)))
     }
 }
 
-/// Shortens a vector to this `limit`, if it is longer.
-fn within<const D: usize>(vector: &mut [f64; D], limit: f64) {
-    let (limit, size) = (largest(limit, 0.0), root(vector.iter().map(|part| part * part).sum()));
-    let part = quotient(limit, size, size > limit, 1.0);
-    vector.iter_mut().for_each(|number| *number *= part);
+/// `vector`, shortened to this `limit` if it is longer.
+fn within<const D: usize>(vector: [f64; D], limit: f64) -> [f64; D] {
+    let (limit, size) = (largest(limit, 0.0), length(vector));
+    times(quotient(limit, size, size > limit, 1.0), vector)
 }

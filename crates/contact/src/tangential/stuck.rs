@@ -1,49 +1,58 @@
 //! The tangential state of a contact, and its step along one elastic curve: partial slip within Coulomb's bound.
 
-use super::{List, SAME, Vertex, Way, growth};
+use super::cut::Cut;
+use super::list::{Apex, List};
+use super::vector::{add, difference, dot, length};
+use super::{Motion, SAME, Sliding, Vertex};
+use crate::numbers::{largest, next_above, smallest};
 use crate::path::Sum;
 use crate::segment::Segment;
-use libm::fabs;
 
-/// The springs of a contact: the tangential displacement, and the polyline of their stuck offsets.
+/// Lowest height of springs that slip if none do \[m\].
+const NONE: f64 = f64::MAX;
+
+/// The springs of a contact in `D` tangential directions: the displacement, and the polyline of their stuck offsets, of at most
+/// `N` segments (sixteen are recommended, eight or more are allowed).
 ///
-/// A segment is divided if it is longer than a path over `PARTS`, before it moves to a path of a deeper dent; with 0 it is
-/// not divided.
-///
-/// The methods take the elastic normal force over the indentation as `curve`, from the surface (its lower end):
-/// Hertz's law, or the unloading path of a dent. It has to be the same in all calls until the contact separates.
+/// The methods take the elastic normal force over the indentation as `curve`, from the surface (its lower end): Hertz's law, or
+/// the unloading path of a dent. It has to be the same in all calls until the contact separates or its dent grows. Its stiffness
+/// must not fall with the indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stuck<const N: usize, const PARTS: u32 = { growth::PARTS }> {
-    /// Scaled tangential displacement \[m\] since the first touch or since the last slide of the whole contact.
-    pub(super) displacement: Sum,
-    pub(super) list: List<N>,
+pub struct Stuck<const D: usize, const N: usize> {
+    /// Scaled tangential displacement \[m\] since the first touch or since the whole contact last slipped.
+    pub(super) displacement: [Sum; D],
+    pub(super) list: List<D, N>,
+    /// Height of the lowest springs that slipped on the last way \[m\]; not along a line, where slopes tell.
+    pub(super) slips_from: f64,
 }
 
-impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
+impl<const D: usize, const N: usize> Stuck<D, N> {
     /// No contact.
-    pub const APART: Self = Stuck { displacement: Sum::new(0.0), list: List::EMPTY };
+    pub const APART: Self = Stuck { displacement: [Sum::new(0.0); D], list: List::EMPTY, slips_from: NONE };
 
     /// A contact that is pressed in without tangential displacement, at `indentation` \[m\].
     pub fn pressed(curve: &Segment, indentation: f64) -> Self {
         let mut stuck = Stuck::APART;
         if indentation > curve.lower {
-            stuck.touch(curve);
+            stuck.list.add(Vertex::new(curve, curve.lower, [0.0; D], [0.0; D]));
         }
         stuck
     }
 
-    /// Lets the first spring touch.
-    pub(super) fn touch(&mut self, curve: &Segment) {
-        *self = Stuck::APART;
-        self.list.push(curve, Vertex::new(curve, curve.lower, 0.0, 0.0));
+    /// Scaled displacement \[m\].
+    pub(super) fn displaced(&self) -> [f64; D] {
+        self.displacement.map(Sum::total)
+    }
+
+    /// Adds this `shift` \[m\] to the displacement.
+    pub(super) fn displace(&mut self, shift: [f64; D]) {
+        for (sum, shift) in self.displacement.iter_mut().zip(shift) {
+            *sum = sum.plus(shift);
+        }
     }
 
     /// Moves the contact on its way along `curve`.
-    ///
-    /// Only the end point matters: on a straight way its cone cuts off as much of the polyline as the cones of all
-    /// points on the way together.
-    #[inline]
-    pub fn advance(&mut self, curve: &Segment, way: &Way) {
+    pub fn advance(&mut self, curve: &Segment, way: &Motion<D>) {
         if way.to <= curve.lower {
             *self = Stuck::APART;
             return;
@@ -51,18 +60,23 @@ impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
         if !way.moves() {
             return;
         }
-        let is_new = self.list.is_empty();
+        let is_new = self.list.vertices().is_empty();
         if is_new {
-            self.touch(curve);
+            *self = Stuck::pressed(curve, way.to);
         }
         // a contact that starts with an indentation already has springs
         let is_fresh = is_new && way.from <= curve.lower;
         let way = if is_fresh { way.above(curve.lower) } else { *way };
-        let before = self.displacement.total();
-        self.displacement = self.displacement.plus(way.shift);
+        let before = self.displaced();
+        self.displace(way.shift);
         if !way.sticks() {
-            self.slip(curve, &way, is_fresh);
-        } else if is_fresh {
+            return match self.slips_from_edge() {
+                true => self.cut_edge(curve, &way, is_fresh),
+                false => self.slip(curve, &way, before, is_fresh),
+            };
+        }
+        self.slips_from = NONE;
+        if is_fresh {
             self.list.set_slope(way.slope());
         } else if way.to > way.from && self.turns(way.slope()) {
             self.list.push(curve, Vertex::new(curve, way.from, before, way.slope()));
@@ -70,58 +84,140 @@ impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
     }
 
     /// Whether the last segment has another slope than `slope`.
-    fn turns(&self, slope: f64) -> bool {
-        self.list.last().is_none_or(|last| fabs(last.slope - slope) > SAME)
+    fn turns(&self, slope: [f64; D]) -> bool {
+        self.list.last().is_none_or(|last| length(difference(last.slope, slope)) > SAME)
     }
 
-    /// Cuts the polyline with the cone of the current point.
-    fn slip(&mut self, curve: &Segment, way: &Way, is_fresh: bool) {
-        let (displacement, indentation) = (self.displacement.total(), way.to);
-        let mut left = self.list.vertices();
-        let sign = way.slip().unwrap_or_else(|| {
-            while let Some((last, below)) = left.split_last()
-                && !below.is_empty()
-                && last.height >= indentation
-            {
-                left = below;
+    /// Whether springs slip only from the edge inwards, however the contact moves: along a line, and no segment is steeper than
+    /// the cones. They then move in [closed form](super::edge).
+    #[inline(always)]
+    pub(super) fn slips_from_edge(&self) -> bool {
+        D == 1 && self.list.vertices().iter().all(|vertex| length(vertex.slope) <= 1.0 + SAME)
+    }
+
+    /// Whether the next step along the curve has an exact result: it merges no segments, and springs slip only from the edge.
+    pub(super) fn is_exact(&self) -> bool {
+        self.segments() < N && self.slips_from_edge()
+    }
+
+    /// Moves all springs that leave the cone of the current point.
+    fn slip(&mut self, curve: &Segment, way: &Motion<D>, before: [f64; D], is_fresh: bool) {
+        let apex = Apex { indentation: way.to, displacement: self.displaced() };
+        let mut cut = Cut::new(curve, way, before, apex);
+        if is_fresh {
+            cut.touching(curve.lower);
+        } else {
+            let mut last = None;
+            for (vertex, end) in self.segments_up_to((way.from, before)) {
+                // unloading leaves no segment above the contact
+                let height = smallest(end.0, way.to);
+                let end = if height < end.0 { (height, vertex.offset_at(height)) } else { end };
+                last = Some(cut.segment(vertex, last, end));
             }
-            let line = left.last().map_or(0.0, |last| last.offset_at(indentation));
-            if displacement > line { 1.0 } else { -1.0 }
-        });
-        while let Some((last, below)) = left.split_last()
-            && distance(last, sign, displacement, indentation) <= SAME * indentation
-        {
-            left = below;
+            if way.to > way.from {
+                cut.touching(way.from);
+            }
         }
-        let count = if is_fresh { 0 } else { left.len() };
-        self.list.truncate(count);
-        let Some(last) = self.list.last() else {
-            // from here on only the direction of sliding matters
-            self.displacement = Sum::new(0.0);
-            let offset = -sign * (indentation - curve.lower);
-            self.list.push(curve, Vertex::new(curve, curve.lower, offset, sign));
-            return;
+        self.take(cut, curve);
+    }
+
+    /// The segments with the height and offset of their ends \[m\]; the last one ends at `top`.
+    pub(super) fn segments_up_to(&self, top: (f64, [f64; D])) -> impl Iterator<Item = (&Vertex<D>, (f64, [f64; D]))> {
+        let vertices = self.list.vertices();
+        let ends = vertices.iter().skip(1).map(|next| (next.height, next.offset));
+        vertices.iter().zip(ends.chain(core::iter::once(top)))
+    }
+
+    /// Takes over the segments of `cut` on `curve`.
+    pub(super) fn take(&mut self, cut: Cut<D, N>, curve: &Segment) {
+        let lowest = cut.left.lowest();
+        self.slips_from = match cut.slips_from {
+            // springs above it stick
+            Some(height) if cut.sticks && height <= lowest => next_above(lowest),
+            Some(height) => height,
+            None => NONE,
         };
-        if fabs(last.slope - sign) > SAME {
-            let front = front(last, sign, distance(last, sign, displacement, indentation));
-            if front < indentation {
-                let offset = last.offset_at(front);
-                self.list.push(curve, Vertex::new(curve, front, offset, sign));
-            }
+        let indentation = cut.apex.indentation;
+        self.list = cut.left.into_list(curve, &cut.apex);
+        if self.sliding() == Sliding::Sliding {
+            // from here on only the tension of the springs matters
+            self.list.rebase(indentation);
+            self.displacement = [Sum::new(0.0); D];
         }
+    }
+
+    /// Tangential force at the current `indentation` \[m\], divided by the coefficient of friction \[N\]. It opposes
+    /// the motion: a positive rate leads to a positive force.
+    #[inline]
+    pub fn pull(&self, curve: &Segment, indentation: f64) -> [f64; D] {
+        match self.list.vertices() {
+            [] => [0.0; D],
+            vertices => pull(vertices, curve.force(indentation)),
+        }
+    }
+
+    /// Stored tangential energy at `indentation` \[m\], times `kappa/mu` \[J\].
+    pub fn energy(&self, curve: &Segment, indentation: f64) -> f64 {
+        let displacement = self.displaced();
+        let vertices = self.list.vertices();
+        let ends = vertices.iter().skip(1).map(|next| (next.force, next.height));
+        let ends = ends.chain(core::iter::once((curve.force(indentation), indentation)));
+        let energy = vertices.iter().zip(ends).fold(0.0, |sum, (vertex, (force, height))| {
+            // r {[w F] + r [int F dh]}, in a form without cancellation on a short segment
+            let tension = difference(displacement, vertex.offset);
+            let shortfall = (height - vertex.height) * (force - curve.mean_force(vertex.height, height));
+            let pull = dot(vertex.slope, tension) * (force - vertex.force);
+            sum + pull - dot(vertex.slope, vertex.slope) * shortfall
+        });
+        // relaxed springs have rounding errors of either sign
+        largest(0.0, energy)
+    }
+
+    /// Height \[m\] of the lowest springs that slip.
+    fn slips_from(&self) -> f64 {
+        match self.list.last() {
+            Some(last) if D == 1 => {
+                if length(last.slope) >= 1.0 - SAME {
+                    last.height
+                } else {
+                    NONE
+                }
+            }
+            _ => self.slips_from,
+        }
+    }
+
+    /// Slip state of the contact, from its last way.
+    pub fn sliding(&self) -> Sliding {
+        let slips_from = self.slips_from();
+        match self.list.vertices() {
+            [] => Sliding::Apart,
+            [lowest, ..] if slips_from <= lowest.height => Sliding::Sliding,
+            _ if slips_from < NONE => Sliding::PartialSlip,
+            _ => Sliding::Stick,
+        }
+    }
+
+    /// The slope of the offsets at the edge: a unit vector where springs slip there.
+    pub fn edge(&self) -> [f64; D] {
+        self.list.last().map_or([0.0; D], |last| last.slope)
+    }
+
+    /// Height \[m\] of the highest spring that sticks, for a contact at `indentation` \[m\].
+    pub fn stick_height(&self, indentation: f64) -> f64 {
+        smallest(self.slips_from(), indentation)
+    }
+
+    /// Number of segments of the polyline.
+    pub fn segments(&self) -> usize {
+        self.list.vertices().len()
     }
 }
 
-/// Distance \[m\] of `vertex` from the side of the cone of `displacement` and `indentation` \[m\] that slips in the
-/// direction `sign`; positive inside the cone.
-#[inline(always)]
-pub(super) fn distance(vertex: &Vertex, sign: f64, displacement: f64, indentation: f64) -> f64 {
-    sign * (vertex.offset - displacement) + indentation - vertex.height
-}
-
-/// Height \[m\] of the slip front in the direction `sign` on the segment of `vertex`, at this `distance` \[m\] from
-/// the side of the cone. The slope of the segment differs from `sign`.
-#[inline(always)]
-pub(super) fn front(vertex: &Vertex, sign: f64, distance: f64) -> f64 {
-    vertex.height + distance / (1.0 - sign * vertex.slope)
+/// Tangential force of segments whose last one ends at the normal force `force` \[N\], divided by the coefficient of friction
+/// \[N\].
+#[inline]
+pub(super) fn pull<const D: usize>(vertices: &[Vertex<D>], force: f64) -> [f64; D] {
+    let ends = vertices.iter().skip(1).map(|next| next.force).chain(core::iter::once(force));
+    vertices.iter().zip(ends).fold([0.0; D], |sum, (vertex, end)| add(sum, end - vertex.force, vertex.slope))
 }

@@ -2,31 +2,40 @@
 
 use super::list::{Apex, Draft};
 use super::pursuit::Spring;
-use super::vector::{Vector, add, cross, difference, dot, length, times};
+use super::vector::{across, add, difference, dot, length, times};
 use super::vertex::Vertex;
-use super::{BEND, NEAR, SPACING, Way};
+use super::{Motion, SAME};
 use crate::numbers::{largest, quotient, root, smallest};
 use crate::segment::Segment;
-use crate::tangential::SAME;
-use libm::fabs;
+
+/// A distance smaller than this part of another one is zero.
+const NEAR: f64 = 1e-12;
+
+/// A part of a segment whose springs slip gets a vertex in its middle if the tangential force would else be off by about more
+/// than this part of Coulomb's limit.
+const BEND: f64 = 1e-4;
+
+/// Such a part also gets one if its springs turn, and its length times the difference of its stiffnesses is more than this
+/// part of the force. Springs are then close enough whenever they turn, in however small steps.
+const SPACING: f64 = 1e-2;
 
 /// How often a part of a segment may be halved.
 const HALVINGS: u32 = 6;
 
 /// Height and offset of a point of the polyline \[m\].
-pub(super) type Place = (f64, Vector);
+pub(super) type Place<const D: usize> = (f64, [f64; D]);
 
 /// A point of the polyline before and after the way.
 #[derive(Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct Point<const D: usize> {
     /// \[m\]
     pub height: f64,
     /// Largest tension of the springs before the way \[m\].
     limit: f64,
     /// Stuck offset before the way \[m\].
-    pub before: Vector,
+    pub before: [f64; D],
     /// Stuck offset after the way \[m\].
-    after: Vector,
+    after: [f64; D],
     /// Whether the springs at the point slip, at least in the end.
     slips: bool,
     /// Their tension then along the way \[m\], if it has no other component; negative against the way, where limits fall faster
@@ -35,28 +44,28 @@ pub(super) struct Point {
 }
 
 /// A polyline that follows a way.
-pub(super) struct Cut<'a, const N: usize> {
+pub(super) struct Cut<'a, const D: usize, const N: usize> {
     curve: &'a Segment,
-    way: &'a Way,
+    way: &'a Motion<D>,
     /// Displacement at the start of the way \[m\].
-    start: Vector,
+    start: [f64; D],
     /// Direction of the way.
-    direction: Vector,
+    direction: [f64; D],
     /// The end of the way.
-    pub apex: Apex,
+    pub apex: Apex<D>,
     /// Force at the end of the way \[N\].
     force: f64,
     /// The result.
-    pub left: Draft<N>,
+    pub left: Draft<D, N>,
     /// Height of the lowest springs that slip \[m\].
     pub slips_from: Option<f64>,
     /// Whether some springs don't.
     pub sticks: bool,
 }
 
-impl<'a, const N: usize> Cut<'a, N> {
+impl<'a, const D: usize, const N: usize> Cut<'a, D, N> {
     /// Nothing yet of a polyline, for a `way` from the displacement `start` to `apex`.
-    pub(super) fn new(curve: &'a Segment, way: &'a Way, start: Vector, apex: Apex) -> Self {
+    pub(super) fn new(curve: &'a Segment, way: &'a Motion<D>, start: [f64; D], apex: Apex<D>) -> Self {
         let force = curve.force(apex.indentation);
         Cut {
             curve,
@@ -73,7 +82,7 @@ impl<'a, const N: usize> Cut<'a, N> {
 
     /// Adds the segment of this `vertex` up to the point `end`, which is not above the contact. `start` is the point at the
     /// vertex, if it is known. Returns that at the end.
-    pub(super) fn segment(&mut self, vertex: &Vertex, start: Option<Point>, end: Place) -> Point {
+    pub(super) fn segment(&mut self, vertex: &Vertex<D>, start: Option<Point<D>>, end: Place<D>) -> Point<D> {
         let from = match start {
             Some(point) => point,
             None => self.point((vertex.height, vertex.offset), self.way.from - vertex.height),
@@ -84,7 +93,7 @@ impl<'a, const N: usize> Cut<'a, N> {
     }
 
     /// Adds the segment of this `slope` between two points, up to the indentation: a dent that grows may become narrower.
-    pub(super) fn between(&mut self, slope: Vector, from: &Point, to: &Point) {
+    pub(super) fn between(&mut self, slope: [f64; D], from: &Point<D>, to: &Point<D>) {
         let height = smallest(to.height, self.apex.indentation);
         if height <= from.height {
             return;
@@ -101,7 +110,7 @@ impl<'a, const N: usize> Cut<'a, N> {
     }
 
     /// Adds a segment of this `slope` that crosses the cone at most once.
-    fn part(&mut self, slope: Vector, from: &Point, to: &Point) {
+    fn part(&mut self, slope: [f64; D], from: &Point<D>, to: &Point<D>) {
         match (from.slips, to.slips) {
             (false, false) => self.stick(slope, from, to),
             (false, true) => {
@@ -126,7 +135,7 @@ impl<'a, const N: usize> Cut<'a, N> {
     }
 
     /// The point at this height and offset \[m\], whose springs had this `limit` before the way \[m\].
-    pub(super) fn point(&self, (height, before): Place, limit: f64) -> Point {
+    pub(super) fn point(&self, (height, before): Place<D>, limit: f64) -> Point<D> {
         let slips = self.apex.distance(height, before) <= SAME * self.apex.indentation;
         let mut point = Point { height, limit, before, after: before, slips, aligned: None };
         if slips {
@@ -143,13 +152,13 @@ impl<'a, const N: usize> Cut<'a, N> {
     }
 
     /// The size of a `tension` \[m\] along the way, if it has no other component.
-    fn aligned(&self, tension: Vector) -> Option<f64> {
-        let is_aligned = fabs(cross(tension, self.direction)) <= SAME * self.apex.indentation;
+    fn aligned(&self, tension: [f64; D]) -> Option<f64> {
+        let is_aligned = across(tension, self.direction) <= SAME * self.apex.indentation;
         is_aligned.then_some(dot(tension, self.direction))
     }
 
     /// The point at this `height` \[m\] of a segment of this `slope` between two points.
-    fn on_segment(&self, slope: Vector, (from, to): (&Point, &Point), height: f64) -> Point {
+    fn on_segment(&self, slope: [f64; D], (from, to): (&Point<D>, &Point<D>), height: f64) -> Point<D> {
         let (rise, whole) = (height - from.height, to.height - from.height);
         let part = quotient(rise, whole, whole > 0.0, 1.0);
         self.point((height, add(from.before, rise, slope)), from.limit + part * (to.limit - from.limit))
@@ -157,7 +166,7 @@ impl<'a, const N: usize> Cut<'a, N> {
 
     /// Height \[m\] on a segment of this `slope` where springs are farthest inside their limits, if those at both ends slip. Only a
     /// segment that is steeper than the cone can cross it twice: on a dent that has grown.
-    fn farthest_inside(&self, slope: Vector, from: &Point, to: &Point) -> Option<f64> {
+    fn farthest_inside(&self, slope: [f64; D], from: &Point<D>, to: &Point<D>) -> Option<f64> {
         let square = dot(slope, slope) - 1.0;
         if !(from.slips && to.slips && square > 0.0) {
             return None;
@@ -169,7 +178,7 @@ impl<'a, const N: usize> Cut<'a, N> {
     }
 
     /// The point on a segment of this `slope` between `stuck` springs and slipping ones that just reaches its limit.
-    fn front(&self, slope: Vector, stuck: &Point, slipping: &Point) -> Point {
+    fn front(&self, slope: [f64; D], stuck: &Point<D>, slipping: &Point<D>) -> Point<D> {
         let rise = slipping.height - stuck.height;
         let part = self.crossing(stuck, slope, rise);
         let before = add(stuck.before, part * rise, slope);
@@ -180,7 +189,7 @@ impl<'a, const N: usize> Cut<'a, N> {
 
     /// Where a segment of this `slope` leaves the cone, on its way from the `stuck` point over `rise` \[m\], as a part of
     /// this way: the first positive root of `|tension - t shift| = limit - t rise`.
-    fn crossing(&self, stuck: &Point, slope: Vector, rise: f64) -> f64 {
+    fn crossing(&self, stuck: &Point<D>, slope: [f64; D], rise: f64) -> f64 {
         let tension = difference(self.apex.displacement, stuck.before);
         let limit = self.apex.indentation - stuck.height;
         let shift = times(rise, slope);
@@ -188,7 +197,7 @@ impl<'a, const N: usize> Cut<'a, N> {
         // square t^2 + 2 half t + constant = 0, and constant <= 0 inside the cone
         let (square, inside) = ((way - rise) * (way + rise), largest(limit - size, 0.0));
         let constant = -inside * (limit + size);
-        let (scalar, across) = (dot(tension, shift), fabs(cross(tension, shift)));
+        let (scalar, across) = (dot(tension, shift), across(tension, shift));
         // size way - scalar, and limit rise - scalar, without cancellation
         let sum = size * way + scalar;
         let behind = if scalar > 0.0 { quotient(across * across, sum, sum > 0.0, 0.0) } else { size * way - scalar };
@@ -207,21 +216,21 @@ impl<'a, const N: usize> Cut<'a, N> {
     }
 
     /// Adds a part of a segment that is straight in the end.
-    fn line(&mut self, slope: Vector, from: &Point, to: &Point) {
+    fn line(&mut self, slope: [f64; D], from: &Point<D>, to: &Point<D>) {
         if to.height > from.height {
             self.left.extend(Vertex::new(self.curve, from.height, from.after, slope));
         }
     }
 
     /// Adds a part of a segment whose springs stick.
-    pub(super) fn stick(&mut self, slope: Vector, from: &Point, to: &Point) {
+    pub(super) fn stick(&mut self, slope: [f64; D], from: &Point<D>, to: &Point<D>) {
         self.sticks |= to.height > from.height;
         self.line(slope, from, to);
     }
 
     /// Adds a part of a segment whose springs slip. It is halved where its springs turn and it is long, or its middle is
     /// off the straight line.
-    fn slip(&mut self, from: &Point, to: &Point, halvings: u32) {
+    fn slip(&mut self, from: &Point<D>, to: &Point<D>, halvings: u32) {
         let rise = to.height - from.height;
         if rise <= 0.0 {
             return;

@@ -1,8 +1,8 @@
 //! The exact motion of one spring on a straight way.
 
-use super::vector::{Vector, add, cross, dot, length, times};
+use super::SAME;
+use super::vector::{self, across, add, dot, length, times, turned};
 use crate::numbers::{largest, quotient, root, smallest};
-use crate::tangential::SAME;
 use libm::{exp, fabs, log1p};
 
 /// Relative change of a limit below which the limit counts as constant.
@@ -19,16 +19,16 @@ pub(super) const GAUSS: [(f64, f64); 3] =
 pub(super) const FARTHEST: f64 = 1e60;
 
 /// A spring before a straight way: its tension, and its limit before and after.
-pub(super) struct Spring {
+pub(super) struct Spring<const D: usize> {
     /// Scaled displacement of the contact from the stuck offset \[m\].
-    pub tension: Vector,
+    pub tension: [f64; D],
     /// Largest tension at the start \[m\].
     pub limit: f64,
     /// Largest tension at the end \[m\].
     pub end_limit: f64,
 }
 
-impl Spring {
+impl<const D: usize> Spring<D> {
     /// Tension \[m\] at the end of a way with this `shift` \[m\] of a given `direction`, for a spring that would exceed
     /// its limit if it stuck.
     ///
@@ -38,9 +38,9 @@ impl Spring {
     /// `tan(angle1/2) = tan(angle0/2) exp(-L ln(p1/p0)/(p1 - p0))` over the length `L`.
     ///
     /// Reference: the pursuit curve of P. Bouguer (1732).
-    pub(super) fn moved(&self, shift: Vector, direction: Vector) -> Vector {
+    pub(super) fn moved(&self, shift: [f64; D], direction: [f64; D]) -> [f64; D] {
         if self.end_limit <= 0.0 {
-            return [0.0; 2];
+            return [0.0; D];
         }
         if length(shift) > FARTHEST {
             return times(self.end_limit, direction);
@@ -52,7 +52,7 @@ impl Spring {
 
     /// Mean tension \[m\] over such a way, also of a spring that never slips. Between stick and the end of the turn, it is an
     /// integral by Gauss; exact if the spring doesn't turn.
-    pub(super) fn mean(&self, shift: Vector, direction: Vector) -> Vector {
+    pub(super) fn mean(&self, shift: [f64; D], direction: [f64; D]) -> [f64; D] {
         let whole = length(shift);
         if whole > FARTHEST {
             return times(0.5 * (self.limit + self.end_limit), direction);
@@ -63,7 +63,7 @@ impl Spring {
         let mut time = stuck;
         for panel in 0..PANELS {
             let limit = self.limit_after(time);
-            if time >= 1.0 || panel + 1 == PANELS || fabs(cross(tension, direction)) <= SAME * limit {
+            if time >= 1.0 || panel + 1 == PANELS || across(tension, direction) <= SAME * limit {
                 break;
             }
             // as far as the limit is long, or as it falls to about a half
@@ -79,9 +79,7 @@ impl Spring {
         }
         // from here on the spring doesn't turn
         let (limit, rest) = (self.limit_after(time), 1.0 - time);
-        let size = length(tension);
-        let unit = tension.map(|part| quotient(part, size, size > 0.0, 0.0));
-        let unit = if size > 0.0 { unit } else { direction };
+        let unit = if length(tension) > 0.0 { vector::direction(tension) } else { direction };
         add(sum, 0.5 * rest * (limit + self.end_limit), unit)
     }
 
@@ -92,7 +90,7 @@ impl Spring {
 
     /// The part of the way on which the spring sticks: up to `|tension + t shift| = limit + t (change of the limit)`.
     /// A spring on its limit that first moves inwards reaches it again later.
-    fn stuck_part(&self, shift: Vector) -> f64 {
+    fn stuck_part(&self, shift: [f64; D]) -> f64 {
         let change = self.end_limit - self.limit;
         let way = length(shift);
         let square = (way - change) * (way + change);
@@ -111,9 +109,18 @@ impl Spring {
 
 /// `tension` \[m\] of a spring on its limit after it has slipped over the length `way` \[m\] of a motion in this `direction`, during
 /// which its limit changed evenly between these limits \[m\].
-fn slipped(tension: Vector, way: f64, (limit, end_limit): (f64, f64), direction: Vector) -> Vector {
-    let [along, across] = direction;
-    let (ahead, aside) = (dot(tension, direction), dot(tension, [-across, along]));
+fn slipped<const D: usize>(
+    tension: [f64; D],
+    way: f64,
+    (limit, end_limit): (f64, f64),
+    direction: [f64; D],
+) -> [f64; D] {
+    let side = turned(direction);
+    let (ahead, aside) = (dot(tension, direction), dot(tension, side));
+    if aside == 0.0 || limit <= 0.0 {
+        let sign = if ahead < 0.0 && limit > 0.0 { -1.0 } else { 1.0 };
+        return times(sign * end_limit, direction);
+    }
     // divisor and dividend of tan(angle0/2), without cancellation
     let (divisor, dividend) = if ahead >= 0.0 {
         (length(tension) + ahead, aside)
@@ -124,9 +131,7 @@ fn slipped(tension: Vector, way: f64, (limit, end_limit): (f64, f64), direction:
     let size = length([divisor, dividend]);
     let [cosine, sine] = [divisor, dividend].map(|part| quotient(part, size, size > 0.0, 0.0));
     let (ahead, aside) = ((cosine - sine) * (cosine + sine), 2.0 * sine * cosine);
-    let unit = if size > 0.0 && limit > 0.0 { [ahead, aside] } else { [1.0, 0.0] };
-    let [ahead, aside] = times(end_limit, unit);
-    [ahead * along - aside * across, ahead * across + aside * along]
+    times(end_limit, add(times(ahead, direction), aside, side))
 }
 
 /// `exp(-L ln(p1/p0)/(p1 - p0))` over the length `way` \[m\], with the limits `p0` and `p1` \[m\]; 0 if `p0` is 0.
