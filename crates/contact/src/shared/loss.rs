@@ -5,6 +5,9 @@ use crate::losses::{Damping, Form};
 use crate::numbers::{largest, quotient};
 use libm::fabs;
 
+/// A jump of the force that is rounding, as a part of it.
+const JUMP: f64 = 1e-9;
+
 /// The loss of a contact. Its force is continuous at every event, so that none can hold the motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Loss {
@@ -12,8 +15,10 @@ pub struct Loss {
     pub damping: Damping,
     /// The direction in which the rate itself leads, so that it is `v0`; 0 if it does not.
     pub leads: f64,
-    /// Whether the surface would have to pull, so that there is no force.
+    /// Whether the surface would have to pull, so that there is no force; of a target that gives way, whether it [holds](Loss::hold).
     pub slack: bool,
+    /// The largest force of a target that holds \[N\].
+    pub most: f64,
     /// Elastic energy and plastic work of the contact at the start of the step \[J\].
     pub before: f64,
 }
@@ -25,7 +30,10 @@ impl Loss {
     pub fn force_and_approach(&self, elastic: f64, stiffness: f64, rate: f64) -> (f64, f64) {
         let Loss { damping, leads, slack, .. } = self;
         match damping.form {
-            Form::Mobility => (elastic, rate - damping.factor * elastic),
+            Form::Mobility => {
+                let force = if *slack { self.held_force(elastic, rate) } else { elastic };
+                (force, rate - damping.factor * force)
+            }
             _ if *slack => (0.0, rate),
             Form::Proportional if *leads != 0.0 => (elastic * (1.0 + leads * damping.factor), rate),
             _ => (damping.pull(elastic, || stiffness, rate), rate),
@@ -56,7 +64,7 @@ impl Loss {
         let Damping { form, factor, swiftest } = self.damping;
         let rate = |event, threshold, sign| Some(Watched::Rate { event, threshold, sign });
         match form {
-            Form::Mobility => [None; 3],
+            Form::Mobility => [self.slack.then_some(Watched::Pull { event: Event::Grip, sign: 1.0 }), None, None],
             Form::Radiation => {
                 let (event, sign) = if self.slack { (Event::Grip, -1.0) } else { (Event::Slack, 1.0) };
                 [Some(Watched::Pull { event, sign }), None, None]
@@ -92,15 +100,30 @@ impl Loss {
                 self.damping.swiftest = 0.0;
                 (self.leads, self.slack) = (0.0, false);
             }
-            Event::Lead => self.leads = sign,
+            // a step may begin where the surface lags behind bodies that leave faster than ever
+            Event::Lead => (self.leads, self.slack) = (sign, self.slack || sign < 0.0 && self.damping.factor > 1.0),
             Event::Peak => {
                 self.damping.swiftest = largest(self.damping.swiftest, fabs(approach));
                 self.leads = 0.0;
             }
             Event::Slack => self.slack = true,
-            Event::Grip => self.slack = false,
-            Event::Turn | Event::Corner | Event::End | Event::Forget => (),
+            Event::Grip | Event::End => self.slack = false,
+            Event::Turn | Event::Corner | Event::Forget => (),
         }
+    }
+
+    /// Holds a target that gives way where the indentation has turned, if the force jumps there: on the `loading` curve \[N\] the target
+    /// would give way faster than the bodies come at `rate` \[m/s\], on the `path` back \[N\] slower. In between it gives way just as
+    /// fast.
+    pub fn hold(&mut self, loading: f64, path: f64, rate: f64) {
+        let jumps = self.damping.form == Form::Mobility && rate > (1.0 + JUMP) * self.easing(path);
+        (self.slack, self.most) = (self.slack || jumps, loading);
+    }
+
+    /// The force \[N\] of a target that holds, not below that of the path.
+    fn held_force(&self, path: f64, rate: f64) -> f64 {
+        let (slow, swift) = (rate <= self.easing(path), rate >= self.easing(self.most));
+        quotient(rate, self.damping.factor, !slow && !swift, if slow { path } else { self.most })
     }
 
     /// The largest rate since the touch \[m/s\], at the rate of indentation `approach` \[m/s\].
@@ -110,7 +133,11 @@ impl Loss {
 
     /// A number with the sign of the force before it is cut at zero, for a force that follows the stiffness \[m/s\]. It is
     /// `F_s/K^2 + kappa v`, which also at the surface does not touch zero.
+    /// For a target that holds it is the rate of indentation.
     pub fn pull(&self, elastic: f64, stiffness: f64, approach: f64) -> f64 {
+        if self.damping.form == Form::Mobility {
+            return approach;
+        }
         let square = stiffness * stiffness;
         quotient(elastic, square, square > 1e-100 * fabs(elastic), 0.0) + self.damping.factor * approach
     }

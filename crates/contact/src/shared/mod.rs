@@ -30,7 +30,12 @@
 //! Rates and indentations are off by about 1e-12 of their scale after an event: `sqrt(2 E W_ii)` for the energy `E` of the
 //! motion, and that times the shortest time of an oscillation. The largest indentation of a contact that does not yield is
 //! off by up to 1e-9 of itself. Rest drops 1e-12 of the elastic energy of the load. Bodies that rattle between redundant
-//! contacts amplify rounding as the motion itself does.
+//! contacts amplify rounding as the motion itself does. The work of a contact with a loss is right to 1e-6 of itself where it is far
+//! below the energy of the motion.
+//!
+//! # Evaluations
+//! An impact of one contact takes some hundred evaluations in a step, and at most 3,000 if its laws have segments. A longer step takes
+//! as many for each touch, and some hundred for each oscillation of a contact that is pressed.
 //!
 //! With friction, rates are off by some 1e-6, on growing dents 1e-4, in two directions 2e-4 of that scale after an event
 //! (`chords`); the balance of work is exact, and Coulomb's bound holds to 1e-9.

@@ -1,7 +1,5 @@
 //! One step of the integration: the forces at an instant, the stages, the error.
 
-use super::Refused;
-use super::SharedContact;
 use super::block::Block;
 use super::branch::Kind;
 use super::clock::Clock;
@@ -9,6 +7,7 @@ use super::curve::Curve;
 use super::dop853::{self, STAGES};
 use super::inverse_masses::InverseMasses;
 use super::work::{Instant, Work};
+use super::{Refused, SharedContact};
 use crate::motion::COSTLY;
 use crate::numbers::{largest, quotient};
 use core::borrow::Borrow;
@@ -19,6 +18,12 @@ const TOLERANCE: f64 = 2e-13;
 
 /// Errors below this part of a number do not count: they are rounding.
 const ROUNDING: f64 = 2e-15;
+
+/// The largest error of the work of a contact with a loss as a part of itself: it may be far below the scales of the motion.
+const OWN_TOLERANCE: f64 = 1e-6;
+
+/// The same for the heat of a target that gives way to bodies at a given rate.
+const HELD_TOLERANCE: f64 = 1e-11;
 
 /// The place of no contact.
 const NO_CLOCK: usize = usize::MAX;
@@ -107,7 +112,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                 let Instant { numbers: [_, rate, impulse, _], force, net, approach, .. } = member.trial;
                 member.slopes.set(stage, [pace * approach, pace * net, pace * force, pace * impulse]);
                 if member.loss.is_some() {
-                    member.power.set(stage, [pace * force * rate]);
+                    member.power.set(stage, [pace * force * if member.is_held { rate - approach } else { rate }]);
                 }
                 if clock.is_some_and(|clock| clock.place == place) {
                     rate_of_clock = approach;
@@ -132,13 +137,17 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
             member.trial.numbers = member.slopes.at_end(&member.now.numbers, length);
             if member.loss.is_some() {
                 let [work] = member.power.at_end(&[member.now.work], length);
+                let ([work5], [work3]) = member.power.differences();
+                let least = member.unresolved_part(&scales) * scales.root_energy * scales.root_energy;
+                let own = if member.is_held { HELD_TOLERANCE } else { OWN_TOLERANCE };
+                note(work5, work3, 0.0, own * largest(fabs(work), least));
                 member.trial.work = work;
             }
             let ([way5, rate5, ..], [way3, rate3, ..]) = member.slopes.differences();
             let [indentation, rate, ..] = member.trial.numbers;
             let unit = TOLERANCE * member.speed(&scales);
             note(way5, way3, indentation, unit * scales.time);
-            note(rate5, rate3, rate, unit);
+            note(rate5, rate3, fabs(rate) + time * member.rounded_acceleration(), unit);
         }
         if clock.is_some() {
             let ([time5, _], [time3, _]) = self.ticks.differences();

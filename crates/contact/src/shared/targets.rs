@@ -99,6 +99,9 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                 }
                 let (now, trial) = (&member.now, &member.trial);
                 let mut near = member.near(&watched, &self.scales);
+                if member.rises_in_the_curve_only(&watched, near) {
+                    continue;
+                }
                 let curve = match watched {
                     Watched::Indentation { threshold, sign, .. } => {
                         indentation_over(member, &paces, length).below(threshold, sign)

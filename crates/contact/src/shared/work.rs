@@ -5,6 +5,7 @@ use super::dop853::{Numbers, Slopes};
 use super::gradients::Unknown;
 use super::loss::Loss;
 use super::scales::Scales;
+use crate::losses::Form;
 use crate::numbers::{largest, quotient, root, smallest};
 use libm::{fabs, sqrt};
 
@@ -23,6 +24,8 @@ pub struct Work<C> {
     pub(super) branch: Branch,
     /// `W_ii` \[1/kg\].
     pub(super) inverse_mass: f64,
+    /// Whether the bodies close at a given rate; the inverse mass is then a scale only.
+    pub(super) is_held: bool,
     /// Closing acceleration by all other forces \[m/s^2\].
     pub(super) acceleration: f64,
     pub(super) now: Instant,
@@ -142,7 +145,7 @@ pub(super) struct Instant {
     pub approach: f64,
     /// The rate at which a target gives way per rate of indentation \[1/s\].
     pub easing: f64,
-    /// Work of the force of a contact with a loss \[J\].
+    /// Work of the force of a contact with a loss \[J\]; at a given rate, the heat.
     pub work: f64,
 }
 
@@ -193,6 +196,7 @@ impl<C: Copy> Work<C> {
             active: false,
             branch: Branch::NOTHING,
             inverse_mass: 0.0,
+            is_held: false,
             acceleration: 0.0,
             now: Instant::NOTHING,
             trial: Instant::NOTHING,
@@ -274,6 +278,12 @@ impl<C> Work<C> {
 /// Rounding of an acceleration, relative to the forces that make it up.
 const BALANCE: f64 = 1e-13;
 
+/// Last digits by which a sum of opposite forces may be off.
+const DIGITS: f64 = 16.0;
+
+/// Last digits of the indentation over which the work of a contact is not known to the part that counts.
+const UNRESOLVED: f64 = 1e7;
+
 /// A distance from a threshold, relative to the scale, at which the contact counts as there, and a rate at which it counts
 /// as at rest: then its acceleration decides where it goes.
 const NEAR: f64 = 1e-13;
@@ -291,7 +301,10 @@ impl<C> Work<C> {
             Watched::Indentation { threshold, .. } => speed * scales.time + 4.0 * f64::EPSILON * fabs(*threshold),
             Watched::Rate { .. } => speed + self.rounding_of_approach(),
             Watched::Bend { .. } => self.rounding_of_net(scales),
-            Watched::Pull { .. } => speed * self.loss.map_or(0.0, |loss| loss.damping.factor),
+            Watched::Pull { .. } => self.loss.map_or(0.0, |loss| match loss.damping.form {
+                Form::Mobility => speed + self.rounding_of_approach(),
+                _ => speed * loss.damping.factor,
+            }),
         }
     }
 
@@ -302,10 +315,27 @@ impl<C> Work<C> {
         if given > 0.0 { BALANCE * (fabs(self.now.rate()) + given) } else { 0.0 }
     }
 
+    /// The acceleration \[m/s^2\] whose last digits are rounding: in a deep dent, the last digit of the indentation is a larger part of
+    /// the height above the surface.
+    pub(super) fn rounded_acceleration(&self) -> f64 {
+        let (indentation, force) = (self.now.indentation(), fabs(self.now.force));
+        let height = if self.branch.kind == Kind::Path { indentation - self.branch.surface() } else { indentation };
+        let digits = quotient(2.0 * fabs(indentation), height, height > 1e-100 * fabs(indentation), 1.0);
+        fabs(self.acceleration) + self.inverse_mass * force * (1.0 + digits)
+    }
+
     /// An acceleration that is rounding \[m/s^2\].
     fn rounding_of_net(&self, scales: &Scales) -> f64 {
         let swing = quotient(self.speed(scales), scales.time, scales.time > 0.0, 0.0);
         BALANCE * (fabs(self.acceleration) + self.inverse_mass * fabs(self.now.force) + swing)
+            + DIGITS * f64::EPSILON * self.rounded_acceleration()
+    }
+
+    /// A work that counts as none, as a part of twice the energy. In a deep dent, the height above the surface has fewer digits.
+    pub(super) fn unresolved_part(&self, scales: &Scales) -> f64 {
+        let (digit, height) = (f64::EPSILON * fabs(self.now.indentation()), self.speed(scales) * scales.time);
+        let part = UNRESOLVED * quotient(digit, height, digit < height, 1.0);
+        1e-18 + part * part
     }
 
     /// Whether the rate of indentation is that of a contact at rest.
@@ -346,6 +376,14 @@ impl<C> Work<C> {
             }
             Watched::Bend { .. } | Watched::Pull { .. } => value < -near,
         }
+    }
+
+    /// Whether a rate that is at the largest one and falls seems to rise above it: after a touch it falls with a high power of the
+    /// clock, between whose ends a cubic rises.
+    pub(super) fn rises_in_the_curve_only(&self, watched: &Watched, near: f64) -> bool {
+        let Watched::Rate { event: Event::Lead, sign, .. } = *watched else { return false };
+        let [now, trial] = [&self.now, &self.trial].map(|instant| self.value(watched, instant));
+        now <= near && sign * self.now.bend() <= 0.0 && trial > near
     }
 
     /// Tries the flight over `time` \[s\] of a contact that no force acts on.
