@@ -62,9 +62,14 @@ fn only_one_in(folder: &Path) -> PathBuf {
 
 /// Exports the scene `text`, in a file of this `name`.
 pub fn export_text(name: &str, text: &str, folder: &Path) -> Exported {
+    export(&write_text(name, text, folder), folder)
+}
+
+/// Writes the scene `text` to a file of this `name`, and returns its path.
+pub fn write_text(name: &str, text: &str, folder: &Path) -> PathBuf {
     let path = folder.join(name).with_extension("toml");
     fs::write(&path, text).expect("the folder can be written to");
-    export(&path, folder)
+    path
 }
 
 /// Compiles `units/<name>.c` for this number of contacts with the GUID of `exported`; returns the path of the library.

@@ -1,4 +1,4 @@
-//! The three FMUs that are compared: the export of the default scene, and two in C.
+//! The FMUs that are compared: exports of one contact with several laws, and two in C.
 
 use super::build::{Exported, compile, export, export_text};
 use super::instructions::{self, Work};
@@ -6,11 +6,29 @@ use super::paths::{self, CYCLE_STEP, STEP, STEPS_PER_CYCLE};
 use super::unit::{FORCE, INPUT, Instance, Unit, ok};
 use std::path::{Path, PathBuf};
 
+/// The scene that is written by hand in C.
+pub const SCENE: &str = include_str!("../../scenes/steel_ball.toml");
+
+/// The same bodies with the law of a scene that names none.
+pub fn default_law() -> String {
+    let (before, law) = SCENE.split_once("[law]").expect("a table of laws");
+    let (_, after) = law.split_once("\n\n").expect("a table behind it");
+    format!("{before}{after}")
+}
+
+/// The same where the ball is elastic and can yield, a little later than the block.
+pub fn both_yield() -> String {
+    let ball = "[impactor]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 310e6\n";
+    default_law().replacen("[impactor]\n", ball, 1)
+}
+
 pub struct Trio {
     /// Brinell's FMU, the contact written by hand in C, and the FMU without physics.
     pub units: [Unit; 3],
     pub libraries: [PathBuf; 3],
     pub exported: Exported,
+    /// FMUs of the same contact with the default law: a rigid ball, and one that can yield, too.
+    pub by_default: [(Unit, Exported); 2],
     /// Brinell's FMU with the output `regime`, which the default scene does not have, and its reference.
     pub with_regime: (Unit, u32),
     pub folder: PathBuf,
@@ -24,10 +42,14 @@ impl Trio {
         let [contact, empty] = c;
         let libraries = [exported.library.clone(), contact, empty];
         let units = libraries.each_ref().map(|library| Unit::open(library, &exported.guid));
-        let text = include_str!("../../scenes/steel_ball.toml").replacen("outputs = [", "outputs = [\"regime\", ", 1);
+        let text = SCENE.replacen("outputs = [", "outputs = [\"regime\", ", 1);
         let regime = export_text("with_regime", &text, folder);
+        let by_default = [("by_default", default_law()), ("both_yield", both_yield())].map(|(name, text)| {
+            let exported = export_text(name, &text, folder);
+            (Unit::open(&exported.library, &exported.guid), exported)
+        });
         let with_regime = (Unit::open(&regime.library, &regime.guid), regime.reference("regime"));
-        Trio { units, libraries, exported, with_regime, folder: folder.to_owned() }
+        Trio { units, libraries, exported, by_default, with_regime, folder: folder.to_owned() }
     }
 
     /// Checks that all calls succeed and that both contacts behave the same; otherwise the comparison is meaningless.
@@ -40,6 +62,12 @@ impl Trio {
             let peak = check_along(&brinell.instance(), &c.instance(), rates, *step);
             assert!(peak > PLASTIC, "the contact hardly touched: {peak} N");
         }
+        for (unit, _) in &self.by_default {
+            for (rates, step) in &paths {
+                let peak = check_along(&unit.instance(), &unit.instance(), rates, *step);
+                assert!(peak > PLASTIC, "the contact hardly touched: {peak} N");
+            }
+        }
         let others = PARAMETERS.map(|(name, value)| (self.exported.reference(name), value));
         let [brinell, c] = [brinell, c].map(|unit| unit.instance_with(&others));
         check_along(&brinell, &c, &paths::impact(), STEP);
@@ -50,10 +78,17 @@ impl Trio {
 
     /// Number of instructions of `functions` during all of `work`, for each FMU; `None` without valgrind.
     pub fn count(&self, work: &Work, functions: &[&str]) -> [Option<f64>; 3] {
-        let guid = self.exported.guid.to_str().expect("a GUID is plain text");
-        self.libraries.each_ref().map(|library| {
-            instructions::can_be_counted().then(|| instructions::count(work, functions, library, guid, &self.folder))
-        })
+        self.libraries.each_ref().map(|library| self.count_of(work, functions, library, &self.exported))
+    }
+
+    /// The same for the FMUs with the default law.
+    pub fn count_by_default(&self, work: &Work, functions: &[&str]) -> [Option<f64>; 2] {
+        self.by_default.each_ref().map(|(_, unit)| self.count_of(work, functions, &unit.library, unit))
+    }
+
+    fn count_of(&self, work: &Work, functions: &[&str], library: &Path, unit: &Exported) -> Option<f64> {
+        let guid = unit.guid.to_str().expect("a GUID is plain text");
+        instructions::can_be_counted().then(|| instructions::count(work, functions, library, guid, &self.folder))
     }
 }
 
