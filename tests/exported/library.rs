@@ -8,17 +8,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Largest size of a library [bytes]: that of an FMU that knows the mass, with the law `brinell`.
-const LARGEST: u64 = 81_000;
+/// Largest size of a library [bytes]: that of an FMU that knows the mass, with the law `brinell`. It holds both the table of the curve of a
+/// pair and the construction that makes it, so that a contact deeper than the table has the same law.
+const LARGEST: u64 = 101_000;
 
 /// The same with friction: the springs, their growth with the dent, and their merge.
-const LARGEST_WITH_FRICTION: u64 = 123_000;
+const LARGEST_WITH_FRICTION: u64 = 140_000;
 
 /// The same where contacts share bodies: the integration of all contacts, optimized for speed.
-const LARGEST_OF_SHARED_BODIES: u64 = 160_000;
+const LARGEST_OF_SHARED_BODIES: u64 = 177_000;
 
 /// The same with friction in two directions, whose springs are followed along chords.
-const LARGEST_OF_SHARED_BODIES_WITH_FRICTION: u64 = 212_000;
+const LARGEST_OF_SHARED_BODIES_WITH_FRICTION: u64 = 240_000;
 
 /// Largest size of the library of the default scene [bytes].
 const LARGEST_OF_DEFAULT: u64 = 39_000;

@@ -84,7 +84,7 @@ fn the_warning_about_unstable_steps_is_that_of_a_compiled_library() {
 
 /// Functions, and the largest ratio of their instructions between a prebuilt library and a compiled one, for one contact and for
 /// arrays that are as long as the scene needs. A compiled library knows what its scene has, and needs no table to find it.
-const MOST: [(&[&str], [f64; 2]); 2] = [(&["fmi2DoStep"], [1.1, 3.5]), (&["fmi2SetReal", "fmi2GetReal"], [2.0, 4.7])];
+const MOST: [(&[&str], [f64; 2]); 2] = [(&["fmi2DoStep"], [1.15, 3.5]), (&["fmi2SetReal", "fmi2GetReal"], [2.0, 4.7])];
 
 /// Steps over which instructions are counted.
 const COUNTED: usize = 300;

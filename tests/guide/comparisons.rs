@@ -20,12 +20,7 @@ pub fn yielding() -> impl Iterator<Item = &'static str> {
 fn model(name: &str, pair: Pair, hardening_modulus: f64) -> AnyModel {
     let (loading, unloading) = (physics::loading(name), physics::unloading(unloading_with(name)));
     let bodies = TwoBodies { hardening_modulus, curvature: 0.0, other: physics::elastic_partner(&pair) };
-    Model {
-        pair,
-        loading: loading.paired(bodies).unwrap_or(loading),
-        unloading: unloading.paired(bodies).unwrap_or(unloading),
-        surface: Surface::Dented,
-    }
+    Model { pair, loading: loading.paired(bodies).unwrap_or(loading), unloading, surface: Surface::Dented }.prepared()
 }
 
 /// The unloading law of a scene that names none.

@@ -40,9 +40,10 @@ pub fn on_steel(law: &str, ball: &Body, yield_strength: f64) -> AnyModel {
     Model {
         pair: Pair::new(ball, &STEEL, yield_strength).expect("a ball on a plane touches in one point"),
         loading: loading.paired(bodies).unwrap_or(loading),
-        unloading: unloading.paired(bodies).unwrap_or(unloading),
+        unloading,
         surface: Surface::Dented,
     }
+    .prepared()
 }
 
 /// The flow stress that a Vickers hardness says.

@@ -21,8 +21,7 @@ fn both(ball: &Body, strength: f64, hardening: f64, laws: (AnyLoading, AnyUnload
         let pair = Pair::new(ball, partner, strength).expect("they touch").yielding_in(ball, strength);
         let bodies = TwoBodies { hardening_modulus: hardening, curvature: ball.curvature(partner), other: body };
         let loading = laws.0.paired(bodies).unwrap_or(laws.0);
-        let unloading = laws.1.paired(bodies).unwrap_or(laws.1);
-        Model { pair, loading, unloading, surface: Surface::Dented }
+        Model { pair, loading, unloading: laws.1, surface: Surface::Dented }
     })
 }
 

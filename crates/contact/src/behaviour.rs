@@ -38,6 +38,10 @@ pub trait Contact<M>: Copy {
     /// The part of `model` to cache.
     fn kept(model: &M) -> Self::Kept;
 
+    /// The `model` with all that depends on the bodies alone computed in advance, where that is slow. It is taken from the model `before`
+    /// where the bodies are the same.
+    fn prepared(model: M, before: Option<&M>) -> M;
+
     /// A contact at `gap` \[m\] before any motion. A negative gap is an initial indentation.
     ///
     /// # Errors
@@ -81,7 +85,13 @@ pub trait Contact<M>: Copy {
     ///
     /// # Errors
     /// As for [`Contact::step`].
-    fn step_held(&mut self, rate: f64, step: f64, kept: &Self::Kept, model: impl Fn() -> M) -> Result<(), TooDeep>;
+    fn step_held<B: Borrow<M>>(
+        &mut self,
+        rate: f64,
+        step: f64,
+        kept: &Self::Kept,
+        model: impl Fn() -> B,
+    ) -> Result<(), TooDeep>;
 
     /// Mean force \[N\] of a step at a constant `rate` \[m/s\] that has not been taken yet.
     ///

@@ -116,7 +116,7 @@ pub fn restitution<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impac
 }
 
 /// Kinetic energy \[J\] and largest indentation \[m\] of an impact.
-fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<(f64, f64)> {
+pub(crate) fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<(f64, f64)> {
     let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
     if !positive(impact.mass) || !positive(impact.speed) {
         return None;

@@ -29,6 +29,7 @@ macro_rules! laws {
         $(#[$says])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[allow(clippy::large_enum_variant, reason = "there is no heap for the table of a pair")]
         pub enum $any {
             $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)+
             $($(#[doc = "See [`Guarded`]."] $guarded(Guarded<$bare>),)+)?
@@ -102,8 +103,16 @@ macro_rules! laws {
                 /// The law for these two bodies, with their Poisson's ratios; `None` for a law that has no such form.
                 pub fn paired(self, bodies: TwoBodies) -> Option<$any> {
                     match self {
-                        $($any::$plain(law) => Some($any::$paired(Paired { law, bodies })),)+
-                        $($any::$paired(form) => Some($any::$paired(Paired { bodies, ..form })),)+
+                        $($any::$plain(law) => Some($any::$paired(Paired::new(law, bodies))),)+
+                        $($any::$paired(form) => Some($any::$paired(Paired::new(form.law, bodies))),)+
+                        _ => None,
+                    }
+                }
+
+                /// Its form for two bodies, if it is one.
+                fn form(&self) -> Option<&Paired> {
+                    match self {
+                        $($any::$paired(form) => Some(form),)+
                         _ => None,
                     }
                 }

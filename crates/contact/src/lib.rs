@@ -125,6 +125,7 @@ pub use loading::Loading;
 pub use material::{Body, Pair, YieldPoint};
 pub use regime::{Regime, TooDeep};
 pub use segment::Segment;
+use two_bodies::{Construction, Together};
 pub use two_bodies::{OtherBody, TwoBodies};
 pub use unloading::{Peak, Unloading};
 
@@ -152,7 +153,7 @@ pub struct Model<L, U> {
     pub surface: Surface,
 }
 
-impl Model<loading::Paired, unloading::Paired> {
+impl Model<loading::Paired, unloading::Brinell> {
     /// An `impactor` that stays elastic on a `target` that yields at `yield_strength` \[Pa\], with the laws `brinell` as FMUs have
     /// them: fitted to finite elements, with large strain. For two [bodies](Pair::new) that can touch at one point.
     pub fn brinell(impactor: &Body, target: &Body, yield_strength: f64) -> Option<Self> {
@@ -162,16 +163,36 @@ impl Model<loading::Paired, unloading::Paired> {
             ..OtherBody::RIGID
         };
         let bodies = TwoBodies { hardening_modulus: 0.0, curvature: target.curvature(impactor), other };
-        Some(Model {
+        let model = Model {
             pair: Pair::new(impactor, target, yield_strength)?,
-            loading: loading::Paired { law: loading::Brinell::REFERENCE, bodies },
-            unloading: unloading::Paired { law: unloading::Brinell::REFERENCE, bodies },
+            loading: loading::Paired::new(loading::Brinell::REFERENCE, bodies),
+            unloading: unloading::Brinell::REFERENCE,
             surface: Surface::Dented,
-        })
+        };
+        Some(model.prepared())
     }
 }
 
 impl<L: Loading, U: Unloading> Model<L, U> {
+    /// The model with all that depends on the bodies alone computed in advance, where that is slow: [`Loading::prepared`]. It holds as
+    /// long as nothing of the model changes.
+    pub fn prepared(self) -> Self {
+        self.prepared_after(None)
+    }
+
+    /// The same after a change of parameters. What is known of the bodies is taken from the model `before` if they are the same.
+    pub fn prepared_after(self, before: Option<&Self>) -> Self {
+        let recovery = |bodies: &Construction<'_>, from: &Together| self.unloading.recovery(bodies, from);
+        let loading = self.loading.prepared(&self.pair, &recovery, before.map(|before| &before.loading));
+        Model { loading, ..self }
+    }
+
+    /// The same for the motion of bodies of this kinetic `energy` \[J\]: [`Loading::prepared_for`].
+    pub fn prepared_for(self, energy: f64) -> Self {
+        let loading = self.loading.prepared_for(&self.pair, energy);
+        Model { loading, ..self }
+    }
+
     /// The point where the contact begins to yield.
     pub fn yield_point(&self) -> YieldPoint {
         self.loading.yield_point(&self.pair)
@@ -199,16 +220,21 @@ impl<L: Loading, U: Unloading> Model<L, U> {
     fn point_of_loading(&self, indentation: f64) -> Peak {
         let point = self.yield_point();
         let force = self.loading.segment(&self.pair, indentation).force(indentation);
-        let contact_radius = self.loading.radius_at(&self.pair, &point, indentation, force);
-        Peak { indentation, force, contact_radius, yield_force: point.force, work: f64::NAN }
+        self.peak_without_work(&point, indentation, force)
+    }
+
+    #[inline(always)]
+    fn peak_without_work(&self, point: &YieldPoint, indentation: f64, force: f64) -> Peak {
+        let (contact_radius, recovery) =
+            self.loading
+                .at_peak(&self.pair, point, indentation, force, &|bodies, from| self.unloading.recovery(bodies, from));
+        Peak { indentation, force, contact_radius, yield_force: point.force, work: f64::NAN, recovery }
     }
 
     /// [`Model::peak`] of a contact that yields at `point` and has this `force` \[N\] at `indentation` \[m\].
     #[inline(always)]
     fn peak_at(&self, point: &YieldPoint, indentation: f64, force: f64) -> Peak {
-        let contact_radius = self.loading.radius_at(&self.pair, point, indentation, force);
-        let work = self.work_for_unloading(indentation);
-        Peak { indentation, force, contact_radius, yield_force: point.force, work }
+        Peak { work: self.work_for_unloading(indentation), ..self.peak_without_work(point, indentation, force) }
     }
 
     /// Work of loading up to `indentation` \[J\]; NaN if the unloading law does not need it.

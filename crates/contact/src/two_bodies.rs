@@ -190,6 +190,14 @@ pub struct Together {
     pub share: f64,
 }
 
+impl Together {
+    /// The same point with another force over `R^2` \[Pa\]: see [`Construction::at_indentation`].
+    pub fn with_force(self, force: f64) -> Together {
+        let ratio = force / self.force;
+        Together { force, ratio, radius: self.radius * sqrt(area_factor(ratio)), ..self }
+    }
+}
+
 impl Yielding {
     /// This body, with its part of the gap's curvature.
     fn new(law: &Brinell, body: &OtherBody, curvature: f64) -> Yielding {
@@ -370,11 +378,14 @@ pub enum Lead {
 
 /// The construction for a pair.
 pub struct Construction<'a> {
-    law: &'a Brinell,
+    /// The law of one body.
+    pub law: &'a Brinell,
     /// The body that yields first.
     pub soft: Yielding,
     /// Plane-strain modulus of the other one \[Pa\].
-    pub hard_modulus: f64,
+    hard_modulus: f64,
+    /// Effective modulus `E*` of the pair \[Pa\].
+    modulus: f64,
     /// The other one, if it may yield.
     pub hard: Option<Yielding>,
     /// Whether the body that yields first is not the one that the pair describes: it is stronger, but has a lower Poisson's ratio.
@@ -397,11 +408,28 @@ impl<'a> Construction<'a> {
         let hard = may_yield.then(|| Yielding::new(law, &other, 1.0 - curvature));
         // by the pressure and not by the strength: the knots are those of the body that yields first, whatever is set
         match hard {
-            Some(first) if first.pressure < soft.pressure => {
-                Construction { law, soft: first, hard_modulus: soft.modulus, hard: Some(soft), is_exchanged: true }
-            }
-            _ => Construction { law, soft, hard_modulus: other.modulus, hard, is_exchanged: false },
+            Some(first) if first.pressure < soft.pressure => Construction {
+                law,
+                soft: first,
+                hard_modulus: soft.modulus,
+                hard: Some(soft),
+                modulus: pair.modulus,
+                is_exchanged: true,
+            },
+            _ => Construction {
+                law,
+                soft,
+                hard_modulus: other.modulus,
+                hard,
+                modulus: pair.modulus,
+                is_exchanged: false,
+            },
         }
+    }
+
+    /// The parts of the two bodies in the elastic compliance of the pair, `E*/E_i`.
+    pub fn compliances(&self) -> [f64; 2] {
+        [self.soft.modulus, self.hard_modulus].map(|modulus| self.modulus / modulus)
     }
 
     /// The yield point of the pair, where the first of the two yields.
@@ -491,9 +519,7 @@ impl<'a> Construction<'a> {
     /// times the same [ratio](Together::ratio).
     #[inline(never)]
     pub fn at_indentation(&self, indentation: f64, force: f64) -> Together {
-        let point = self.along(indentation);
-        let ratio = force / point.force;
-        Together { force, ratio, radius: point.radius * sqrt(area_factor(ratio)), ..point }
+        self.along(indentation).with_force(force)
     }
 
     /// The point of the construction at `indentation` over `R`, at first yield or beyond. Beyond the last knot, the larger depth is

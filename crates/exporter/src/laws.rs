@@ -138,7 +138,7 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let yield_strength = scene.yield_strength_for(&loading).ok_or_else(|| UnknownLaw::NoYieldStrength(name.into()))?;
     let pair = Pair { yield_strength, ..scene.model().pair };
     let model = Model { pair, loading, unloading, surface: scene.contacts[0].surface };
-    let model = paired(&model, scene.two_bodies(0));
+    let model = paired(&model, scene.two_bodies(0)).prepared();
     let laws = format!("{loading_name}/{chosen}");
     Ok(Choice { name: name.into(), laws, model: scene.with_loss(0, model) })
 }

@@ -116,15 +116,16 @@ impl AnyModel {
     /// The model with this yield strength of the target \[Pa\], if its law has one.
     pub fn with_yield_strength(&self, yield_strength: f64) -> Option<AnyModel> {
         let model = self.elastoplastic()?;
-        Some(self.with_plastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }))
+        Some(self.with_plastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }.prepared()))
     }
 
     /// The law on the bodies `pair`, with the given yield strength \[Pa\]; without one, the yield strength stays the same.
     pub fn on(&self, pair: Pair, yield_strength: Option<f64>) -> AnyModel {
         let pair = Pair { yield_strength: yield_strength.unwrap_or(self.pair().yield_strength), ..pair };
         match self {
-            AnyModel::Elastoplastic(model) => AnyModel::Elastoplastic(Model { pair, ..*model }),
-            AnyModel::Lossy(model) => self.with_plastic(Model { pair, ..model.plastic }),
+            AnyModel::Elastoplastic(model) | AnyModel::Lossy(losses::Model { plastic: model, .. }) => {
+                self.with_plastic(Model { pair, ..*model }.prepared())
+            }
             AnyModel::Damped(model) => AnyModel::Damped(damped::Model { pair, ..*model }),
         }
     }
@@ -132,7 +133,7 @@ impl AnyModel {
     /// The model with what its law needs to know of these bodies; `None` if it needs nothing beside their pair.
     pub fn with_bodies(&self, bodies: TwoBodies) -> Option<AnyModel> {
         let model = self.elastoplastic().filter(|model| model.loading.takes_both_bodies())?;
-        Some(self.with_plastic(paired(model, bodies)))
+        Some(self.with_plastic(paired(model, bodies).prepared()))
     }
 
     /// The stiffness of the way back from `indentation` \[m\]; of a rate-dependent law that of its elastic part \[N/m\].
@@ -192,11 +193,10 @@ impl AnyModel {
     }
 }
 
-/// The model with the form of its laws for these two bodies, if they have one.
+/// The model with the form of its loading law for these two bodies, if it has one.
 pub fn paired(model: &Model<AnyLoading, AnyUnloading>, bodies: TwoBodies) -> Model<AnyLoading, AnyUnloading> {
     let Some(loading) = model.loading.paired(bodies) else { return *model };
-    let unloading = model.unloading.paired(bodies).unwrap_or(model.unloading);
-    Model { loading, unloading, ..*model }
+    Model { loading, ..*model }
 }
 
 /// The two branches of an impact, which meet.

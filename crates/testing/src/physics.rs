@@ -47,14 +47,15 @@ pub fn elastic_partner(pair: &Pair) -> OtherBody {
     OtherBody { modulus, poissons_ratio: 0.3, ..OtherBody::RIGID }
 }
 
-/// The law `brinell` for `pair` and what it needs to know beside that.
+/// The law `brinell` for `pair` and what it needs to know beside that, as FMUs have it.
 pub fn brinell(pair: Pair, bodies: TwoBodies) -> AnyModel {
+    construction(pair, bodies).prepared()
+}
+
+/// The same, which asks the construction at each point.
+pub fn construction(pair: Pair, bodies: TwoBodies) -> AnyModel {
     let plain = AnyModel { pair, ..model("brinell", "brinell") };
-    AnyModel {
-        loading: plain.loading.paired(bodies).expect("brinell has such a form"),
-        unloading: plain.unloading.paired(bodies).expect("brinell has such a form"),
-        ..plain
-    }
+    AnyModel { loading: plain.loading.paired(bodies).expect("brinell has such a form"), ..plain }
 }
 
 /// The unit of indentation and force of every table: the point where the mean pressure reaches 1.1 S.

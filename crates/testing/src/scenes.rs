@@ -138,6 +138,7 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Watch = K::Watch;
     type Shared = Absent;
     type InverseMasses = [f64; 0];
+    type Prepared = Absent;
 
     fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
         K::FOLLOW

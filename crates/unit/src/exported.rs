@@ -13,7 +13,7 @@ brinell_fmu::scene::scene! {
         plain BigAlabo { yield_pressure_factor: 1.1, plastic_pressure_factor: 2.8, second_region: 13.93, fully_plastic: 82.5, plastic_slope: 5.09090909090909 },
         plain ContactRadius {}
     },
-    parts: { Forces = Absent, Momentum = Absent, Course = Present, Prediction = Absent, Coupling = Absent, Watch = Absent, Shared = Absent, InverseMasses = [f64; 0] },
+    parts: { Forces = Absent, Momentum = Absent, Course = Present, Prediction = Absent, Coupling = Absent, Watch = Absent, Shared = Absent, InverseMasses = [f64; 0], Prepared = Absent },
     settable: {
         "impactor.radius" "m" [1e-12, 1e9] = 0.005,
         "target.youngs_modulus" "Pa" [1.0, 1e18] = 2.06e11,

@@ -37,7 +37,7 @@ pub extern "C" fn brinell_fixed_size() -> usize {
 /// Size of an instance of this scene without its name \[bytes\].
 #[unsafe(no_mangle)]
 pub extern "C" fn brinell_instance_size() -> usize {
-    size_of::<Component<Exported>>() + Instance::<Exported>::outside()
+    size_of::<Component<Exported>>() + Instance::<Exported>::outside_with_models()
 }
 
 /// Size of a state of this scene \[bytes\].

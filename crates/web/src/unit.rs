@@ -121,7 +121,7 @@ pub fn instances(unit: &PrebuiltUnit, count: usize) -> Result<Vec<&'static mut d
 fn made<S: Scene + 'static>() -> Result<&'static mut dyn Unit, String> {
     S::verify()?;
     let _ = Component::<S>::ZEROS;
-    let outside = Instance::<S>::outside();
+    let outside = Instance::<S>::outside_with_models();
     let words = (size_of::<Instance<S>>() + outside).div_ceil(8);
     const { assert!(align_of::<Instance<S>>() <= 8) };
     let memory: &'static mut [u64] = Vec::leak(vec![0; words]);

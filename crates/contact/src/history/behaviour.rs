@@ -23,6 +23,10 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         model.yield_point()
     }
 
+    fn prepared(model: Model<L, U>, before: Option<&Model<L, U>>) -> Model<L, U> {
+        model.prepared_after(before)
+    }
+
     fn start(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         History::start(model, gap)
     }
@@ -70,16 +74,16 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     }
 
     #[inline(always)]
-    fn step_held(
+    fn step_held<B: Borrow<Model<L, U>>>(
         &mut self,
         rate: f64,
         step: f64,
         kept: &YieldPoint,
-        model: impl Fn() -> Model<L, U>,
+        model: impl Fn() -> B,
     ) -> Result<(), TooDeep> {
         let increment = rate * step;
         // this step may also stay on its branch, where `go_to_next_branch` finds nothing
-        if self.go_to_next_branch(increment, kept, &model) { Ok(()) } else { self.advance(&model(), increment) }
+        if self.go_to_next_branch(increment, kept, &model) { Ok(()) } else { self.advance(model().borrow(), increment) }
     }
 
     fn mean_force(&self, model: &Model<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {

@@ -51,6 +51,30 @@ impl Loading for AnyLoading {
         self.law().radius_at(pair, point, indentation, force)
     }
 
+    fn at_peak(
+        &self,
+        pair: &Pair,
+        point: &YieldPoint,
+        indentation: f64,
+        force: f64,
+        recovery: &RecoveryOf<'_>,
+    ) -> (f64, Recovery) {
+        self.law().at_peak(pair, point, indentation, force, recovery)
+    }
+
+    fn prepared(self, pair: &Pair, recovery: &RecoveryOf<'_>, before: Option<&AnyLoading>) -> AnyLoading {
+        let before = before.and_then(AnyLoading::form);
+        self.with_form(|form| form.prepared(pair, recovery, before))
+    }
+
+    fn prepared_for(self, pair: &Pair, energy: f64) -> AnyLoading {
+        self.with_form(|form| form.prepared_for(pair, energy))
+    }
+
+    fn width(&self, pair: &Pair, indentation: f64) -> (f64, f64) {
+        self.law().width(pair, indentation)
+    }
+
     fn share(&self, pair: &Pair, indentation: f64) -> f64 {
         self.law().share(pair, indentation)
     }

@@ -33,13 +33,13 @@ pub struct Brinell {
     pub yield_pressure_factor: f64,
     /// Start of each piece \[d_y\]; the first knot is the yield point.
     #[cfg_attr(feature = "serde", serde(with = "fixed"))]
-    pub knots: &'static [f64; PIECES],
+    pub knots: [f64; PIECES],
     /// Slope of the force at each knot \[F_y/d_y\].
     #[cfg_attr(feature = "serde", serde(with = "fixed"))]
-    pub force_slopes: &'static [f64; PIECES],
+    pub force_slopes: [f64; PIECES],
     /// Slope of `a^2` at each knot `[R]`.
     #[cfg_attr(feature = "serde", serde(with = "fixed"))]
-    pub area_slopes: &'static [f64; PIECES],
+    pub area_slopes: [f64; PIECES],
     /// Start of the second elastoplastic region \[d_y\]: mean pressure 2.19 S.
     pub second_region: f64,
     /// Start of the fully plastic regime \[d_y\]: mean pressure 2.92 S, within 5 % of its limit.
@@ -56,15 +56,16 @@ mod fixed {
         list.serialize(serializer)
     }
 
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static [f64; PIECES], D::Error> {
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; PIECES], D::Error> {
         let Brinell { knots, force_slopes, area_slopes, .. } = Brinell::REFERENCE;
         let list = <[f64; PIECES]>::deserialize(deserializer)?;
-        let known = [knots, force_slopes, area_slopes].into_iter().find(|known| **known == list);
+        let known = [knots, force_slopes, area_slopes].into_iter().find(|known| *known == list);
         known.ok_or_else(|| D::Error::custom("another list than that of the fit"))
     }
 }
 
 /// A piece `c0 + c1 x + c2 x^1.5` from one knot to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
     from: f64,
     to: f64,
@@ -83,6 +84,51 @@ impl Piece {
     }
 }
 
+/// A chain of pieces.
+type Chain = [Piece; PIECES];
+
+/// The pieces with these slopes at these knots; the first one begins at the value 1.
+const fn chain(knots: &[f64; PIECES], slopes: &[f64; PIECES]) -> Chain {
+    let mut chain = [Piece { from: 0.0, to: f64::INFINITY, c0: 0.0, c1: 0.0, c2: 0.0 }; PIECES];
+    let (mut value, mut index) = (1.0, 0);
+    while index < PIECES {
+        let (from, slope, next) = (knots[index], slopes[index], index + 1);
+        let (root, mut to, mut c2, mut end) = (root_of(from), f64::INFINITY, 0.0, 0.0);
+        if next < PIECES {
+            (to, end) = (knots[next], root_of(knots[next]));
+            c2 = (slopes[next] - slope) / (1.5 * (end - root));
+        }
+        let c1 = slope - 1.5 * c2 * root;
+        let c0 = value - from * (c1 + c2 * root);
+        chain[index] = Piece { from, to, c0, c1, c2 };
+        value = c0 + to * (c1 + c2 * end);
+        index = next;
+    }
+    chain
+}
+
+/// The square root, rounded like that of a processor, which the compiler can't ask: by Newton's method, whose last step takes the error of
+/// the square from the exact product of its halves (T. J. Dekker, *Numerische Mathematik* 18 (1971) 224-242).
+const fn root_of(square: f64) -> f64 {
+    const SPLIT: f64 = 134_217_729.0;
+    let (mut root, mut left) = (square, 20);
+    while left > 0 {
+        root = 0.5 * (root + square / root);
+        left -= 1;
+    }
+    let scaled = SPLIT * root;
+    let high = scaled - (scaled - root);
+    let (low, product) = (root - high, root * root);
+    let rest = ((high * high - product) + 2.0 * high * low) + low * low;
+    root - ((product - square) + rest) / (2.0 * root)
+}
+
+/// The chains of force and area of the reference.
+static CHAINS: [Chain; 2] = {
+    let Brinell { knots, force_slopes, area_slopes, .. } = Brinell::REFERENCE;
+    [chain(&knots, &force_slopes), chain(&knots, &area_slopes)]
+};
+
 impl Brinell {
     /// The constants from `data/fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
     /// the pair has. An FMU has [`Paired`](super::Paired) for any other ratio.
@@ -93,33 +139,37 @@ impl Brinell {
     /// below that.
     pub const REFERENCE: Brinell = Brinell {
         yield_pressure_factor: 1.1,
-        knots: &[1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 700.0, 2000.0],
-        force_slopes: &[1.5, 2.0032, 2.7348, 3.5094, 4.3243, 5.1693, 6.1383, 6.8128, 7.2932],
-        area_slopes: &[1.0, 1.1219, 1.3539, 1.5692, 1.7436, 1.9257, 2.2391, 2.4721, 2.6205],
+        knots: [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 700.0, 2000.0],
+        force_slopes: [1.5, 2.0032, 2.7348, 3.5094, 4.3243, 5.1693, 6.1383, 6.8128, 7.2932],
+        area_slopes: [1.0, 1.1219, 1.3539, 1.5692, 1.7436, 1.9257, 2.2391, 2.4721, 2.6205],
         second_region: 12.0,
         fully_plastic: 250.0,
     };
 
-    /// The piece for `x >= 1` of the chain with these slopes, which begins at the value 1.
+    /// The piece for `x >= 1` of the chain with these slopes.
     #[inline(never)]
     fn piece(&self, slopes: &[f64; PIECES], x: f64) -> Piece {
-        let begins = self.knots.iter().zip(slopes);
-        let ends = begins.clone().skip(1).map(|(&knot, &slope)| (knot, Some(slope)));
-        let ends = ends.chain(core::iter::once((f64::INFINITY, None)));
-        let mut value = 1.0;
-        let mut piece = Piece { from: 0.0, to: 0.0, c0: 0.0, c1: 0.0, c2: 0.0 };
-        for ((&from, &slope), (to, end_slope)) in begins.zip(ends) {
-            let root = sqrt(from);
-            let c2 = end_slope.map_or(0.0, |end_slope| (end_slope - slope) / (1.5 * (sqrt(to) - root)));
-            let c1 = slope - 1.5 * c2 * root;
-            let c0 = value - from * (c1 + c2 * root);
-            piece = Piece { from, to, c0, c1, c2 };
-            if x < to {
+        let Brinell { knots, force_slopes, area_slopes, .. } = Brinell::REFERENCE;
+        let [force, area] = &CHAINS;
+        let other;
+        let chain = match () {
+            () if self.knots == knots && *slopes == force_slopes => force,
+            () if self.knots == knots && *slopes == area_slopes => area,
+            // the lists belong to the fit, and no scene has others
+            () => {
+                other = chain(&self.knots, slopes);
+                &other
+            }
+        };
+        let [first, ..] = chain;
+        let mut found = first;
+        for piece in chain {
+            found = piece;
+            if x < piece.to {
                 break;
             }
-            value = piece.value(to);
         }
-        piece
+        *found
     }
 
     /// Mean pressure of deep dents, over that at yield.
@@ -129,13 +179,13 @@ impl Brinell {
 
     /// Force and slope at `x >= 1` \[F_y, F_y/d_y\].
     pub(crate) fn force_and_slope(&self, x: f64) -> (f64, f64) {
-        let piece = self.piece(self.force_slopes, x);
+        let piece = self.piece(&self.force_slopes, x);
         (piece.value(x), piece.slope(x))
     }
 
     /// Contact area at `x >= 1`, `a^2/(R d_y)`, and its slope.
     pub(crate) fn area_and_slope(&self, x: f64) -> (f64, f64) {
-        let piece = self.piece(self.area_slopes, x);
+        let piece = self.piece(&self.area_slopes, x);
         (piece.value(x), piece.slope(x))
     }
 
@@ -165,7 +215,7 @@ impl Loading for Brinell {
         }
         // the comparison uses the knots in metres: a segment then begins exactly at the end of the one before it
         let knot_below = self.knots.iter().copied().filter(|knot| knot * d_y <= indentation).fold(1.0, f64::max);
-        let Piece { from, to, c0, c1, c2 } = self.piece(self.force_slopes, knot_below);
+        let Piece { from, to, c0, c1, c2 } = self.piece(&self.force_slopes, knot_below);
         let upper = if to < f64::INFINITY { to * d_y } else { LARGEST_INDENTATION };
         let slope_unit = f_y / d_y;
         Segment {
@@ -185,11 +235,23 @@ impl Loading for Brinell {
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
         let x = indentation / d_y;
-        let area = if x < 1.0 { x } else { self.piece(self.area_slopes, x).value(x) };
+        let area = if x < 1.0 { x } else { self.piece(&self.area_slopes, x).value(x) };
         sqrt(pair.radius * d_y * area)
     }
 
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
         self.regime_in(self.yield_point(pair).indentation, indentation)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_compiler_takes_the_roots_of_the_knots_as_libm_does() {
+        for knot in Brinell::REFERENCE.knots {
+            assert_eq!(root_of(knot), sqrt(knot));
+        }
     }
 }

@@ -16,6 +16,7 @@ pub mod ma_liu;
 pub mod paired;
 pub mod power;
 pub mod stronge;
+mod table;
 pub mod thornton;
 pub mod vu_quoc_zhang;
 pub mod walton_braun;
@@ -28,7 +29,8 @@ use super::laws::{Constant, LawNumbers, laws};
 use super::material::{Pair, YieldPoint};
 use super::regime::{LARGEST_INDENTATION, Regime};
 use super::segment::Segment;
-use super::two_bodies::TwoBodies;
+use super::two_bodies::{Construction, Together, TwoBodies};
+use super::unloading::Recovery;
 
 laws! {
     /// A loading law chosen while a program runs. In an FMU the scene names the law.
@@ -58,6 +60,9 @@ laws! {
     }
     paired { Brinell as PairedBrinell }
 }
+
+/// [`Unloading::recovery`](crate::Unloading::recovery) of some law.
+pub type RecoveryOf<'a> = dyn Fn(&Construction<'_>, &Together) -> Recovery + 'a;
 
 /// A loading law: its constants, without the bodies.
 ///
@@ -120,6 +125,41 @@ pub trait Loading {
     /// and the `force` \[N\].
     fn radius_at(&self, pair: &Pair, _point: &YieldPoint, indentation: f64, _force: f64) -> f64 {
         self.contact_radius(pair, indentation)
+    }
+
+    /// [`Loading::radius_at`] \[m\], and how the [`recovery`](crate::Unloading::recovery) from there differs from that of the unloading law
+    /// itself. Only a law of two bodies asks for it.
+    fn at_peak(
+        &self,
+        pair: &Pair,
+        point: &YieldPoint,
+        indentation: f64,
+        force: f64,
+        _recovery: &RecoveryOf<'_>,
+    ) -> (f64, Recovery) {
+        (self.radius_at(pair, point, indentation, force), Recovery::NONE)
+    }
+
+    /// The law with all that depends on `pair` alone computed in advance, if that is slow. It holds for this pair only, with the same
+    /// unloading law. The law `before`, with the same constants, may have it already.
+    fn prepared(self, _pair: &Pair, _recovery: &RecoveryOf<'_>, _before: Option<&Self>) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
+
+    /// The same for force and work alone, for motions whose work does not exceed `energy` \[J\]. It costs less.
+    fn prepared_for(self, _pair: &Pair, _energy: f64) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
+
+    /// Contact radius \[m\] and [`Loading::share`] at `indentation` \[m\].
+    fn width(&self, pair: &Pair, indentation: f64) -> (f64, f64) {
+        (self.contact_radius(pair, indentation), self.share(pair, indentation))
     }
 
     /// The part of the gap's curvature `1/R` that the softer body takes on at `indentation`: it sees a rigid sphere of the radius `R`

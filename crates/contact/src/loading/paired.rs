@@ -1,11 +1,13 @@
 //! The law `brinell` for any two bodies: an elastic partner, two that yield, hardening, any Poisson's ratio.
 
-use super::{Brinell, Loading, MOST_SEGMENTS, hertz};
+use super::table::{Course, End, Sample, Slow, Table};
+use super::{Brinell, Loading, MOST_SEGMENTS, RecoveryOf, hertz};
 use crate::material::{Pair, YieldPoint};
-use crate::numbers::largest;
+use crate::numbers::{largest, smallest};
 use crate::regime::{LARGEST_INDENTATION, Regime};
 use crate::segment::Segment;
-use crate::two_bodies::{Construction, KNOTS, Lead, TwoBodies};
+use crate::two_bodies::{Construction, KNOTS, Lead, Together, TwoBodies};
+use crate::unloading::Recovery;
 use libm::sqrt;
 
 /// [`Brinell`] of two bodies, [each by its own curve](crate::two_bodies).
@@ -17,6 +19,8 @@ use libm::sqrt;
 /// For a rigid sphere on a plane that does not harden and has a Poisson's ratio of 0.3 it is the law `brinell`, but for
 /// [large strain](mod@crate::large_strain). For a rigid sphere on others: against the finite-element curves in `data/truth/materials`,
 /// force within 0.5 % for `x` from 1.2 to 500, contact radius within 2.1 %.
+///
+/// The construction costs 1 to 20 us a point. A law that is [prepared](Loading::prepared) has its knots in a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Paired {
@@ -24,6 +28,14 @@ pub struct Paired {
     pub law: Brinell,
     /// Hardening of the softer body, and the harder body.
     pub bodies: TwoBodies,
+    /// The knots, if the law is prepared for a pair.
+    #[cfg_attr(feature = "serde", serde(skip, default = "none"))]
+    table: Table,
+}
+
+#[cfg(feature = "serde")]
+fn none() -> Table {
+    Table::NONE
 }
 
 /// Force and slope of the construction at one indentation \[m, N, N/m\].
@@ -34,10 +46,15 @@ struct Knot {
     stiffness: f64,
     /// Depth of the body that yields second in yield depths of its own; zero if it stays elastic.
     hard_depth: f64,
+    /// The body that is there at a depth `k` of its own, with this depth and the point of the construction; `None` at first yield.
+    point: Option<(Lead, f64, Together)>,
 }
 
 /// Knots of the two bodies are not closer than this, as a ratio of their indentations.
 const NEAREST: f64 = 1.02;
+
+/// The distance from a knot, as a fraction of the depth, over which slopes there are taken.
+const NEAR: f64 = 1e-4;
 
 /// The construction on the bodies of a pair.
 struct Curve<'a> {
@@ -59,7 +76,7 @@ impl Curve<'_> {
 
     fn yield_knot(&self) -> Knot {
         let YieldPoint { indentation, force } = self.point;
-        Knot { indentation, force, stiffness: 1.5 * (force / indentation), hard_depth: 0.0 }
+        Knot { indentation, force, stiffness: 1.5 * (force / indentation), hard_depth: 0.0, point: None }
     }
 
     /// The construction where a body is at its own depth `k`.
@@ -70,6 +87,7 @@ impl Curve<'_> {
             force: self.radius * self.radius * point.force,
             stiffness: self.radius * point.stiffness,
             hard_depth: point.depths[1].unwrap_or(0.0),
+            point: Some((lead, k, point)),
         })
     }
 
@@ -109,7 +127,27 @@ impl Curve<'_> {
         (lower.unwrap_or(below), upper.or(above))
     }
 
-    /// Work \[J\] up to `indentation` \[m\]: the sum over the pieces, for which each knot is computed once.
+    /// All knots from first yield on, each computed once.
+    fn knots(&self) -> impl Iterator<Item = Knot> {
+        let (mut begin, mut below) = (self.yield_knot(), self.yield_knot());
+        let (mut soft, mut hard) = (1, 0);
+        let mut above = self.knot(Lead::Soft, soft);
+        core::iter::once(begin).chain(core::iter::from_fn(move || {
+            let next = match self.next_hard(&below, above.as_ref(), &begin, &mut hard) {
+                Some(knot) => knot,
+                None => {
+                    let next = above?;
+                    soft += 1;
+                    (below, above) = (next, self.knot(Lead::Soft, soft));
+                    next
+                }
+            };
+            begin = next;
+            Some(next)
+        }))
+    }
+
+    /// Work \[J\] up to `indentation` \[m\]: the sum over the pieces.
     #[inline(never)]
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let elastic = hertz::segment(pair, self.point.indentation);
@@ -117,27 +155,88 @@ impl Curve<'_> {
             return elastic.work(indentation);
         }
         let mut work = elastic.work(self.point.indentation);
-        let (mut begin, mut below) = (self.yield_knot(), self.yield_knot());
-        let (mut soft, mut hard) = (1, 0);
-        let mut above = self.knot(Lead::Soft, soft);
-        for _ in 0..MOST_SEGMENTS {
-            let end = match self.next_hard(&below, above.as_ref(), &begin, &mut hard) {
-                Some(knot) => Some(knot),
-                None => {
-                    let end = above;
-                    soft += 1;
-                    (below, above) = (end.unwrap_or(below), self.knot(Lead::Soft, soft));
-                    end
-                }
-            };
-            let piece = end.map_or_else(|| beyond(&begin), |end| between(&begin, &end));
+        let mut knots = self.knots().take(MOST_SEGMENTS as usize).peekable();
+        while let Some(begin) = knots.next() {
+            let piece = knots.peek().map_or_else(|| beyond(&begin), |end| between(&begin, end));
             if indentation <= piece.upper {
                 return work + piece.work(indentation);
             }
             work += piece.work(piece.upper);
-            begin = end.unwrap_or(begin);
         }
         work
+    }
+
+    /// The table of the knots up to an indentation of the radius, or up to this work \[J\]; without a law of the recovery for force and work
+    /// alone.
+    #[inline(never)]
+    fn table(&self, pair: &Pair, bodies: &TwoBodies, recovery: Option<&RecoveryOf<'_>>, most: f64) -> Table {
+        let begin = |k: f64| {
+            let at = |lead| self.at(lead, k).map_or(f64::INFINITY, |knot| knot.indentation);
+            smallest(at(Lead::Soft), at(Lead::Hard))
+        };
+        let law = self.construction.law;
+        let work = hertz::segment(pair, self.point.indentation).work(self.point.indentation);
+        let mut knots = self.knots().take_while(|knot| knot.indentation < self.radius).peekable();
+        let knots = core::iter::from_fn(|| {
+            let knot = knots.next()?;
+            let piece = knots.peek().map(|next| {
+                let middle = recovery.and_then(|recovery| self.middle(&knot, next, recovery));
+                (between(&knot, next), middle)
+            });
+            Some((knot.indentation, recovery.map(|recovery| self.end(pair, &knot, recovery)), piece))
+        });
+        let regions =
+            [law.second_region, law.fully_plastic].map(|k| if recovery.is_some() { begin(k) } else { f64::NAN });
+        Table::of((pair, bodies), self.point, (work, most), regions, knots)
+    }
+
+    /// The slow numbers at a knot. A contact returns nearly all that it receives just after first yield: there the slopes are taken from
+    /// two points.
+    #[inline(never)]
+    fn end(&self, pair: &Pair, knot: &Knot, recovery: &RecoveryOf<'_>) -> End {
+        let near = |lead: Lead, k: f64| self.construction.led_by(lead, k).map(|point| self.sample(&point, recovery));
+        match &knot.point {
+            Some((lead, k, point)) => End::of(self.sample(point, recovery), [near(*lead, *k * (1.0 + NEAR)), None]),
+            None => {
+                let hertz = Slow { area: 1.0, recovery: Recovery::NONE, share: pair.share() };
+                let near = [1.0, 2.0].map(|times| near(Lead::Soft, 1.0 + times * NEAR));
+                End::of((sqrt(knot.indentation), hertz), near)
+            }
+        }
+    }
+
+    /// A point of the piece between two knots, with the force of this piece.
+    #[inline(never)]
+    fn middle(&self, begin: &Knot, end: &Knot, recovery: &RecoveryOf<'_>) -> Option<Sample> {
+        let depth = |knot: &Knot| knot.point.map_or(Some(1.0), |(_, _, point)| point.depths[0]);
+        let point = self.construction.led_by(Lead::Soft, sqrt(depth(begin)? * depth(end)?))?;
+        let indentation = self.radius * point.indentation;
+        let is_between = indentation > begin.indentation && indentation < end.indentation;
+        let force = between(begin, end).force(indentation) / (self.radius * self.radius);
+        is_between.then(|| self.sample(&point.with_force(force), recovery))
+    }
+
+    #[inline(never)]
+    fn sample(&self, point: &Together, recovery: &RecoveryOf<'_>) -> Sample {
+        let area = point.radius * point.radius / point.indentation;
+        let slow = Slow { area, recovery: recovery(&self.construction, point), share: point.share };
+        (sqrt(self.radius * point.indentation), slow)
+    }
+
+    /// The slow numbers at `indentation` \[m\], beyond first yield. Beyond the last knot they are those of the construction.
+    #[inline(never)]
+    fn slow(&self, pair: &Pair, indentation: f64, recovery: &RecoveryOf<'_>) -> Slow {
+        match self.around(indentation) {
+            (begin, Some(end)) => {
+                let middle = self.middle(&begin, &end, recovery);
+                let [begin, end] = [begin, end].map(|knot| self.end(pair, &knot, recovery));
+                Course::through(&begin, middle, &end).at(sqrt(indentation))
+            }
+            (last, None) => {
+                let force = beyond(&last).force(indentation) / (self.radius * self.radius);
+                self.sample(&self.construction.at_indentation(indentation / self.radius, force), recovery).1
+            }
+        }
     }
 
     /// The next knot of the body that yields second, from its number `hard` on, that lies beyond the knot `begin` and stands apart from
@@ -156,15 +255,6 @@ impl Curve<'_> {
             }
         }
         None
-    }
-
-    /// Contact radius \[m\] with this `force` \[N\] at `indentation` \[m\].
-    fn contact_radius(&self, indentation: f64, force: f64) -> f64 {
-        if indentation < self.point.indentation {
-            return sqrt(self.radius * indentation);
-        }
-        let point = self.construction.at_indentation(indentation / self.radius, force / (self.radius * self.radius));
-        self.radius * point.radius
     }
 
     /// The piece that holds at and just above `indentation` \[m\].
@@ -187,11 +277,30 @@ fn stands_apart(knot: &Knot, below: &Knot, above: Option<&Knot>) -> bool {
 }
 
 impl Paired {
+    /// The law of one body, for these bodies.
+    pub const fn new(law: Brinell, bodies: TwoBodies) -> Paired {
+        Paired { law, bodies, table: Table::NONE }
+    }
+
+    /// The same law, not [prepared](Loading::prepared) for any pair.
+    pub fn unprepared(self) -> Paired {
+        Paired::new(self.law, self.bodies)
+    }
+
     /// Whether both bodies yield before `indentation` \[m\].
     pub fn both_yield(&self, pair: &Pair, indentation: f64) -> bool {
         let curve = self.curve(pair);
         let both = |[_, hard]: [Option<f64>; 2]| hard.is_some_and(|k| k > 1.0);
         indentation > curve.point.indentation && both(curve.construction.depths(indentation / pair.radius))
+    }
+
+    /// The slow numbers at `indentation` \[m\]; `None` before first yield.
+    fn slow(&self, pair: &Pair, indentation: f64, recovery: &RecoveryOf<'_>) -> Option<Slow> {
+        let known = self.table.slow(pair, indentation);
+        if known.is_some() || indentation < self.yield_point(pair).indentation {
+            return known;
+        }
+        Some(self.curve(pair).slow(pair, indentation, recovery))
     }
 
     /// The curve of the bodies of `pair`.
@@ -244,52 +353,85 @@ impl Loading for Paired {
     }
 
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
-        Construction::of(&self.law, pair, &self.bodies).yield_point(pair)
+        let construct = || Construction::of(&self.law, pair, &self.bodies).yield_point(pair);
+        self.table.yield_point(pair).copied().unwrap_or_else(construct)
     }
 
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
-        self.curve(pair).piece(pair, indentation)
+        if let Some(piece) = self.table.piece(pair, indentation) {
+            return piece;
+        }
+        match self.table.yield_point(pair).filter(|point| indentation < point.indentation) {
+            Some(point) => hertz::segment(pair, point.indentation),
+            None => self.curve(pair).piece(pair, indentation),
+        }
     }
 
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
-        self.curve(pair).work(pair, indentation)
+        self.table.work(pair, indentation).unwrap_or_else(|| self.curve(pair).work(pair, indentation))
     }
 
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
-        let curve = self.curve(pair);
-        curve.contact_radius(indentation, curve.piece(pair, indentation).force(indentation))
+        self.at_peak(pair, &YieldPoint::default(), indentation, 0.0, &|_, _| Recovery::NONE).0
     }
 
-    fn radius_at(&self, pair: &Pair, _point: &YieldPoint, indentation: f64, force: f64) -> f64 {
-        self.curve(pair).contact_radius(indentation, force)
+    fn at_peak(
+        &self,
+        pair: &Pair,
+        _point: &YieldPoint,
+        indentation: f64,
+        _force: f64,
+        recovery: &RecoveryOf<'_>,
+    ) -> (f64, Recovery) {
+        let Some(Slow { area, recovery, .. }) = self.slow(pair, indentation, recovery) else {
+            return (sqrt(pair.radius * indentation), Recovery::NONE);
+        };
+        (sqrt(pair.radius * indentation * area), recovery)
     }
 
     /// The body with the larger depth is in its second region, and fully plastic, where its law alone would be.
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
+        let of = |begins: [bool; 2]| match begins {
+            [false, _] => Regime::ElastoplasticFirst,
+            [_, false] => Regime::ElastoplasticSecond,
+            _ => Regime::FullyPlastic,
+        };
+        if self.table.yield_point(pair).is_some_and(|point| indentation < point.indentation) {
+            return Regime::Elastic;
+        }
+        if let Some(begun) = self.table.regions(pair, indentation) {
+            return of(begun);
+        }
         let curve = self.curve(pair);
         if indentation < curve.point.indentation {
             return Regime::Elastic;
         }
         let [soft, hard] = curve.construction.depths(indentation / pair.radius);
         let depth = largest(soft.unwrap_or(0.0), hard.unwrap_or(0.0));
-        if depth < self.law.second_region {
-            Regime::ElastoplasticFirst
-        } else if depth < self.law.fully_plastic {
-            Regime::ElastoplasticSecond
-        } else {
-            Regime::FullyPlastic
-        }
+        of([self.law.second_region, self.law.fully_plastic].map(|region| depth >= region))
     }
 
     fn share(&self, pair: &Pair, indentation: f64) -> f64 {
-        let curve = self.curve(pair);
-        match indentation > curve.point.indentation {
-            true => curve.construction.along(indentation / pair.radius).share,
-            false => pair.share(),
-        }
+        self.width(pair, indentation).1
+    }
+
+    fn width(&self, pair: &Pair, indentation: f64) -> (f64, f64) {
+        let slow = self.slow(pair, indentation, &|_, _| Recovery::NONE);
+        let (area, share) = slow.map_or_else(|| (1.0, pair.share()), |slow| (slow.area, slow.share));
+        (sqrt(pair.radius * indentation * area), share)
+    }
+
+    fn prepared(self, pair: &Pair, recovery: &RecoveryOf<'_>, before: Option<&Paired>) -> Paired {
+        let known = before.map(|before| &before.table).filter(|table| table.is_of(pair, &self.bodies));
+        let all = || self.curve(pair).table(pair, &self.bodies, Some(recovery), f64::INFINITY);
+        Paired { table: known.copied().unwrap_or_else(all), ..self }
+    }
+
+    fn prepared_for(self, pair: &Pair, energy: f64) -> Paired {
+        Paired { table: self.curve(pair).table(pair, &self.bodies, None, energy), ..self }
     }
 
     fn strengthened_by(self, factor: f64, others: f64) -> Paired {
-        Paired { bodies: self.bodies.strengthened_by(factor, others), ..self }
+        Paired::new(self.law, self.bodies.strengthened_by(factor, others))
     }
 }

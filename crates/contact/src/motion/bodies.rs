@@ -132,6 +132,11 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         found.then_some(self.left)
     }
 
+    /// The time left \[s\] of bodies that have just turned at their largest indentation.
+    pub fn after_turn(&self) -> Option<f64> {
+        (self.turned && self.rising).then_some(self.left)
+    }
+
     /// Ends the step, and updates the history.
     ///
     /// # Errors

@@ -137,8 +137,25 @@ pub(crate) fn follow_to_touch<L: Loading, U: Unloading>(
     }
 }
 
+/// The time \[s\] from the touch of an untouched surface to the largest indentation; `None` if it is not shorter than `longest` \[s\].
+pub(crate) fn time_to_turn<L: Loading, U: Unloading>(
+    model: &Model<L, U>,
+    drive: &Drive,
+    speed: f64,
+    longest: f64,
+) -> Option<f64> {
+    let mut history = History::start(model, 0.0).ok()?;
+    let mut bodies = Bodies::new(&mut history, model, drive, speed, longest).ok()?;
+    while bodies.go_on().ok()? {
+        if let Some(left) = bodies.after_turn() {
+            return Some(longest - left);
+        }
+    }
+    None
+}
+
 /// The step of bodies that stay in flight or on one branch of the law, if it is short. Otherwise it changes nothing.
-fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f64) -> Option<Outcome> {
+pub(crate) fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f64) -> Option<Outcome> {
     let Drive { mass, acceleration } = *drive;
     let indentation = history.indentation();
     if history.regime() == Regime::Apart {

@@ -26,6 +26,11 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
 
     fn kept(_model: &Model<L, U>) {}
 
+    /// Each impact has bodies of its own.
+    fn prepared(model: Model<L, U>, _before: Option<&Model<L, U>>) -> Model<L, U> {
+        model
+    }
+
     fn start(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         History::start(model, gap)
     }
@@ -49,8 +54,14 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
         self.plastic.step(course, step, || model().borrow().at(factors))
     }
 
-    fn step_held(&mut self, rate: f64, step: f64, (): &(), model: impl Fn() -> Model<L, U>) -> Result<(), TooDeep> {
-        self.plastic.advance(&model().at(self.factors), rate * step)
+    fn step_held<B: Borrow<Model<L, U>>>(
+        &mut self,
+        rate: f64,
+        step: f64,
+        (): &(),
+        model: impl Fn() -> B,
+    ) -> Result<(), TooDeep> {
+        self.plastic.advance(&model().borrow().at(self.factors), rate * step)
     }
 
     fn mean_force(&self, model: &Model<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {

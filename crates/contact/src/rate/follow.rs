@@ -3,7 +3,7 @@
 use super::{Factors, History, Model, are_factors};
 use crate::impact::Impact;
 use crate::loading::Loading;
-use crate::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow_to_touch};
+use crate::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, at_once, follow_to_touch};
 use crate::numbers::largest;
 use crate::regime::{Regime, TooDeep};
 use crate::unloading::Unloading;
@@ -32,10 +32,14 @@ pub fn follow<L: Loading + Copy, U: Unloading + Copy>(
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
+    // most steps need no law
+    if let Some(outcome) = at_once(&mut history.plastic, drive, speed, step) {
+        return Ok(outcome);
+    }
     let mut whole = Outcome { speed, taken: 0.0, evaluations: 0, deepest: 0.0 };
     let mut left = step;
+    let mut present = model.at(history.factors);
     for _ in 0..MOST_IMPACTS {
-        let present = model.at(history.factors);
         let (known_speed, known_mass) = (history.speed, history.mass);
         let is_new =
             |speed: f64| drive.mass != known_mass || fabs(speed - known_speed) > SAME * largest(speed, known_speed);
@@ -45,11 +49,14 @@ pub fn follow<L: Loading + Copy, U: Unloading + Copy>(
         whole.evaluations = whole.evaluations.saturating_add(outcome.evaluations);
         whole.deepest = largest(whole.deepest, outcome.deepest);
         let Some(rest) = rest else { return Ok(whole) };
-        let predictions = history.strengthen(model, &Impact { mass: drive.mass, speed: whole.speed })?;
+        let impact = Impact { mass: drive.mass, speed: whole.speed };
+        let predictions = history.strengthen(model, &impact)?;
         whole.evaluations = whole.evaluations.saturating_add(PREDICTION * predictions);
         if whole.evaluations > MOST_EVALUATIONS {
             break;
         }
+        // most impacts are free
+        present = model.at(history.factors).prepared_for(impact.energy());
         left = rest;
     }
     Err(NoMotion::TooLong)

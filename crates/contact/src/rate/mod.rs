@@ -14,20 +14,39 @@ pub use history::History;
 
 use super::impact::{self, Impact, Prediction};
 use super::loading::Loading;
-use super::numbers::largest;
+use super::motion::{Drive, time_to_turn};
+use super::numbers::{largest, quotient};
 use super::unloading::Unloading;
-use libm::{fabs, log, pow};
+use crate::Pair;
+use core::f64::consts::PI;
+use libm::{exp, fabs, log, pow, sqrt};
 
 /// Factor of Tabor's representative strain: strain over (contact radius over radius of the rigid indenter).
 ///
 /// Reference: D. Tabor, *The Hardness of Metals*, Oxford 1951, chapter V.
 pub const TABOR: f64 = 0.2;
 
-/// The initial strain of the search.
+/// The strain of a body for a search to begin with.
 pub const FIRST_STRAIN: f64 = 0.05;
+
+/// The strains of both.
+pub const FIRST: Strains = Strains { softer: FIRST_STRAIN, harder: FIRST_STRAIN };
+
+/// Two changes span a plane if the square of the sine between them is larger.
+const FLAT: f64 = 1e-10;
+
+/// Largest change of a logarithm from guess to guess.
+const FARTHEST: f64 = 1.0;
+
+/// Number of improvements of the factors for a search to begin with.
+const GUESSES: u32 = 3;
 
 /// Relative tolerance of the fixed point for factor and strain.
 const CLOSE: f64 = 1e-12;
+
+/// The same after so many iterations that a strain is known to be far below that of the other body, and to have fewer digits.
+const ROUGH: f64 = 1e-9;
+const MANY: u32 = 16;
 
 /// Largest number of iterations.
 pub const STEPS: u32 = 200;
@@ -120,37 +139,147 @@ impl InImpact {
     }
 }
 
-/// The strength in an impact, by the rate models of the softer and of the harder body. `predict` gives the prediction of the impact
-/// for strains and factors, and the strains that it has. Without a model the factor is 1 and only the strain is found. `None` where a
-/// prediction fails.
+/// The strength in an impact, by the rate models of the softer and of the harder body, beginning with these strains and factors. `predict` gives
+/// the loading time \[s\] of the impact for strains and factors, and the strains that it has. Without a model the factor is 1 and only the
+/// strain is found. `None` where a prediction fails, or after [`STEPS`] of them.
+///
+/// Strains and factors are a fixed point, found on their logarithms. Two bodies of nearly the same strength take over strain from each
+/// other, so that predictions alone may lead to and fro. Each guess is where the last three would be one if all depended linearly on each
+/// other: the method of D. G. Anderson, *J. ACM* 12 (1965) 547-560, with two steps of memory.
 pub fn in_impact(
     [softer, harder]: [Option<&Rate>; 2],
-    mut predict: impl FnMut(Strains, Factors) -> Option<(Prediction, Strains)>,
+    (strains, factors): (Strains, Factors),
+    mut predict: impl FnMut(Strains, Factors) -> Option<(f64, Strains)>,
 ) -> Option<InImpact> {
-    let strains = Strains { softer: FIRST_STRAIN, harder: FIRST_STRAIN };
-    let mut found = InImpact { factors: Factors::SLOW, strains, loading_time: 0.0, steps: 0 };
-    while found.steps < STEPS {
-        let (Prediction { loading_time, .. }, strains) = predict(found.strains, found.factors)?;
+    let mut guess = Guess { strains, factors };
+    let mut before: [Option<Trial>; 2] = [None; 2];
+    for steps in 1..=STEPS {
+        let (loading_time, strains) = predict(guess.strains, guess.factors)?;
         let factor = |rate: Option<&Rate>, strain: f64| rate.map_or(1.0, |rate| rate.factor(strain / loading_time));
         let factors = Factors { softer: factor(softer, strains.softer), harder: factor(harder, strains.harder) };
-        let is_close = |one: f64, other: f64| fabs(one - other) <= CLOSE * other;
-        let is_found = is_close(strains.softer, found.strains.softer)
-            && is_close(strains.harder, found.strains.harder)
-            && is_close(factors.softer, found.factors.softer)
-            && is_close(factors.harder, found.factors.harder);
-        found = InImpact { factors, strains, loading_time, steps: found.steps + 1 };
-        if is_found {
-            break;
+        let got = Guess { strains, factors };
+        if got.is_close(&guess, if steps < MANY { CLOSE } else { ROUGH }) {
+            return Some(InImpact { factors, strains, loading_time, steps });
+        }
+        let trial = Trial::new(&guess, &got);
+        guess = trial.next(&before, &got, steps);
+        before = [Some(trial), before[0]];
+    }
+    None
+}
+
+/// A guess at strains and factors, or what a prediction makes of it.
+#[derive(Clone, Copy)]
+struct Guess {
+    strains: Strains,
+    factors: Factors,
+}
+
+/// Strains and factors as a list, or their logarithms.
+type Numbers = [f64; 4];
+
+impl Guess {
+    fn numbers(&self) -> Numbers {
+        [self.strains.softer, self.strains.harder, self.factors.softer, self.factors.harder]
+    }
+
+    /// The logarithms; zero of a body that is not strained.
+    fn logarithms(&self) -> Numbers {
+        self.numbers().map(|number| log(if number > 0.0 { number } else { 1.0 }))
+    }
+
+    fn is_close(&self, other: &Guess, tolerance: f64) -> bool {
+        let mut pairs = self.numbers().into_iter().zip(other.numbers());
+        pairs.all(|(one, other)| fabs(one - other) <= tolerance * one)
+    }
+}
+
+/// A guess, with what a prediction makes of it and the change.
+#[derive(Clone, Copy)]
+struct Trial {
+    from: Numbers,
+    to: Numbers,
+    change: Numbers,
+}
+
+fn difference(one: &Numbers, other: &Numbers) -> Numbers {
+    let mut difference = *one;
+    difference.iter_mut().zip(other).for_each(|(one, other)| *one -= other);
+    difference
+}
+
+fn product(one: &Numbers, other: &Numbers) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+impl Trial {
+    fn new(guess: &Guess, got: &Guess) -> Trial {
+        let (from, to) = (guess.logarithms(), got.logarithms());
+        Trial { from, to, change: difference(&to, &from) }
+    }
+
+    /// The next guess, after those of `before`, the later one first, where `got` came of this one, the `steps`th.
+    fn next(&self, before: &[Option<Trial>; 2], got: &Guess, steps: u32) -> Guess {
+        let changes =
+            before.map(|old| old.map(|old| (difference(&self.change, &old.change), difference(&self.to, &old.to))));
+        let mut next = self.to;
+        match changes {
+            [None, _] => return *got,
+            [Some((change, step)), None] => subtract(&mut next, &step, self.part(&change)),
+            [Some((change, step)), Some((older_change, older_step))] => {
+                let [one, both, other] = [(&change, &change), (&change, &older_change), (&older_change, &older_change)]
+                    .map(|(one, other)| product(one, other));
+                let determinant = one * other - both * both;
+                let is_plane = determinant > FLAT * one * other;
+                let [of_one, of_other] = [&change, &older_change].map(|change| product(&self.change, change));
+                let part = |sum: f64, alone: f64| quotient(sum, determinant, is_plane, alone);
+                subtract(&mut next, &step, part(of_one * other - of_other * both, self.part(&change)));
+                subtract(&mut next, &older_step, part(of_other * one - of_one * both, 0.0));
+            }
+        }
+        // where that leads nowhere, a part of the way, since the stronger a body, the less it is strained; smaller ones in every other
+        // block of steps, to come near from far away
+        let block = steps / MANY;
+        let part = 1.0 / f64::from(2 + 3 * block);
+        let falls =
+            before[0].is_some_and(|old| product(&self.change, &self.change) < product(&old.change, &old.change));
+        let mut numbers = next.into_iter().zip(self.from).zip(self.to).zip(got.numbers());
+        let mut number = |least: f64| {
+            let (((next, from), to), plain) = numbers.next()?;
+            let next = if falls && block.is_multiple_of(2) && fabs(next - from) < FARTHEST {
+                next
+            } else {
+                from + part * (to - from)
+            };
+            Some(if plain > 0.0 { largest(exp(next), least) } else { plain })
+        };
+        let mut number = |least: f64, plain: f64| number(least).unwrap_or(plain);
+        Guess {
+            strains: Strains { softer: number(0.0, got.strains.softer), harder: number(0.0, got.strains.harder) },
+            factors: Factors { softer: number(1.0, got.factors.softer), harder: number(1.0, got.factors.harder) },
         }
     }
-    Some(found)
+
+    /// The part of a `change` that comes nearest to the own one.
+    fn part(&self, change: &Numbers) -> f64 {
+        let square = product(change, change);
+        quotient(product(&self.change, change), square, square > f64::MIN_POSITIVE, 0.0)
+    }
+}
+
+fn subtract(numbers: &mut Numbers, step: &Numbers, part: f64) {
+    numbers.iter_mut().zip(step).for_each(|(number, step)| *number -= part * step);
 }
 
 /// Tabor's strains of the two bodies at the largest indentation of a `prediction` with this model.
 pub fn strains<L: Loading, U>(model: &super::Model<L, U>, prediction: &Prediction) -> Strains {
     let share = model.loading.share(&model.pair, prediction.max_indentation);
-    let whole = TABOR * prediction.max_contact_radius / model.pair.radius;
-    Strains { softer: share * whole, harder: (1.0 - share) * whole }
+    strains_of(prediction.max_contact_radius / model.pair.radius, share)
+}
+
+/// Tabor's strains at a contact radius over `R`, where the softer body takes on this `share` of the curvature.
+fn strains_of(width: f64, share: f64) -> Strains {
+    Strains { softer: share * TABOR * width, harder: (1.0 - share) * TABOR * width }
 }
 
 /// The bodies in contact, their quasi-static law, and how they resist fast indentation.
@@ -170,16 +299,40 @@ impl<L: Loading + Copy, U: Unloading + Copy> Model<L, U> {
         let mut model = self.slow;
         model.pair.yield_strength *= softer;
         model.loading = model.loading.strengthened_by(softer, harder);
-        model.unloading = model.unloading.strengthened_by(softer, harder);
         model
+    }
+
+    /// About the strains and factors of an `impact` in which the softer body flows everywhere below the contact at [Tabor's](TABOR) mean
+    /// pressure, three times its strength: `a^2 = 2 R d`, and a quarter of a period under a force that is proportional to `d`.
+    fn guess(&self, impact: &Impact) -> (Strains, Factors) {
+        let Pair { radius, yield_strength, .. } = self.slow.pair;
+        let (mut strains, mut factors) = (FIRST, Factors::SLOW);
+        for _ in 0..GUESSES {
+            let stiffness = 6.0 * PI * radius * yield_strength * factors.softer;
+            let deepest = sqrt(2.0 * impact.energy() / stiffness);
+            strains = strains_of(sqrt(2.0 * deepest / radius), self.slow.pair.share());
+            let time = 0.5 * PI * sqrt(impact.mass / stiffness);
+            let factor = |rate: &Rate, strain: f64| {
+                let factor = rate.factor(strain / time);
+                if are_factors(Factors { softer: factor, harder: factor }) { factor } else { 1.0 }
+            };
+            factors =
+                Factors { softer: factor(&self.rate, strains.softer), harder: factor(&self.harder, strains.harder) };
+        }
+        (strains, factors)
     }
 
     /// The strength in an `impact`; `None` where it cannot be predicted.
     pub fn in_impact(&self, impact: &Impact) -> Option<InImpact> {
-        in_impact([Some(&self.rate), Some(&self.harder)], |_, factors| {
-            let model = self.at(factors);
-            let prediction = impact::predict(&model, impact)?;
-            Some((prediction, strains(&model, &prediction)))
+        in_impact([Some(&self.rate), Some(&self.harder)], self.guess(impact), |_, factors| {
+            let Impact { mass, speed } = *impact;
+            let model = self.at(factors).prepared_for(impact.energy());
+            let (_, deepest) = impact::turning_point(&model, impact)?;
+            // with a constant force it would be twice as long as without any
+            let longest = 4.0 * deepest / speed;
+            let loading_time = time_to_turn(&model, &Drive { mass, acceleration: 0.0 }, speed, longest)?;
+            let (radius, share) = model.loading.width(&model.pair, deepest);
+            Some((loading_time, strains_of(radius / model.pair.radius, share)))
         })
     }
 }

@@ -30,6 +30,13 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         model.normal.yield_point()
     }
 
+    fn prepared(
+        model: RoughModel<L, U, N::Loss>,
+        before: Option<&RoughModel<L, U, N::Loss>>,
+    ) -> RoughModel<L, U, N::Loss> {
+        RoughModel { normal: model.normal.prepared_after(before.map(|before| &before.normal)), ..model }
+    }
+
     fn start(model: &RoughModel<L, U, N::Loss>, gap: f64) -> Result<Self, TooDeep> {
         let normal = N::start(&model.normal, &model.loss, gap)?;
         let springs = SpringsOf::start(model, normal.plastic());
@@ -116,12 +123,12 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         Ok((self.step(course, step, model)?, mean))
     }
 
-    fn step_held(
+    fn step_held<B: Borrow<RoughModel<L, U, N::Loss>>>(
         &mut self,
         rate: f64,
         step: f64,
         _kept: &YieldPoint,
-        model: impl Fn() -> RoughModel<L, U, N::Loss>,
+        model: impl Fn() -> B,
     ) -> Result<(), TooDeep> {
         self.step(&Course::held(rate), step, model).map(|_| ())
     }

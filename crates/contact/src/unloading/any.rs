@@ -11,6 +11,7 @@ pub trait DynUnloading {
     fn tangent(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> Segment;
     fn contact_radius(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64;
     fn work(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64;
+    fn recovery(&self, bodies: &Construction<'_>, from: &Together) -> Recovery;
 }
 
 impl<U: Unloading> DynUnloading for U {
@@ -40,6 +41,10 @@ impl<U: Unloading> DynUnloading for U {
 
     fn work(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         Unloading::work(self, pair, peak, path, indentation)
+    }
+
+    fn recovery(&self, bodies: &Construction<'_>, from: &Together) -> Recovery {
+        Unloading::recovery(self, bodies, from)
     }
 }
 
@@ -75,7 +80,7 @@ impl Unloading for AnyUnloading {
         self.law().work(pair, peak, path, indentation)
     }
 
-    fn strengthened_by(self, factor: f64, others: f64) -> AnyUnloading {
-        self.with_form(|form| form.strengthened_by(factor, others))
+    fn recovery(&self, bodies: &Construction<'_>, from: &Together) -> Recovery {
+        self.law().recovery(bodies, from)
     }
 }

@@ -13,18 +13,16 @@ pub mod hertz_shift;
 pub mod jackson;
 pub mod luding;
 pub mod original_radius;
-pub mod paired;
 pub mod thornton;
 pub mod vu_quoc_zhang;
 pub mod walton_braun;
 
 pub use guarded::Guarded;
-pub use paired::Paired;
 
 use super::laws::{Constant, LawNumbers, laws};
 use super::material::Pair;
 use super::segment::Segment;
-use super::two_bodies::TwoBodies;
+use super::two_bodies::{Construction, Together};
 use libm::sqrt;
 
 laws! {
@@ -48,7 +46,6 @@ laws! {
         OriginalRadius as GuardedOriginalRadius,
         DeformedRadius as GuardedDeformedRadius,
     }
-    paired { Brinell as PairedBrinell }
 }
 
 /// The point of the loading curve where unloading begins.
@@ -64,6 +61,22 @@ pub struct Peak {
     pub yield_force: f64,
     /// Work of loading up to the largest indentation \[J\]; NaN for a law that does not [need](Unloading::needs_work) it.
     pub work: f64,
+    /// How the bodies differ from the law.
+    pub recovery: Recovery,
+}
+
+/// How the recovery of two bodies differs from that of an unloading law itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Recovery {
+    /// Factor of the recovery.
+    pub factor: f64,
+    /// Difference of the shapes of the path.
+    pub difference: f64,
+}
+
+impl Recovery {
+    /// No difference.
+    pub const NONE: Recovery = Recovery { factor: 1.0, difference: 0.0 };
 }
 
 /// An unloading law.
@@ -112,13 +125,9 @@ pub trait Unloading {
         path.work(indentation)
     }
 
-    /// The law for bodies of other strengths: hardening of the softer one `factor` times as large, strength and hardening of the harder
-    /// one `others` times. The yield strength of the softer one is not part of a law.
-    fn strengthened_by(self, _factor: f64, _others: f64) -> Self
-    where
-        Self: Sized,
-    {
-        self
+    /// How the recovery `from` a point of two bodies differs from that of the law itself.
+    fn recovery(&self, _bodies: &Construction<'_>, _from: &Together) -> Recovery {
+        Recovery::NONE
     }
 }
 

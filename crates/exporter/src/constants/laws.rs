@@ -18,14 +18,13 @@ pub fn of(scene: &Scene) -> String {
         None => "plain".into(),
     };
     let unloading = scene.plain_unloading();
-    // the forms for two bodies
+    // the form for two bodies
     let of_loading = if scene.is_paired() { "paired" } else { "plain" };
-    let of_unloading = if unloading.takes_both_bodies() { of_loading } else { "plain" };
     // an elastic contact never unloads by another law; the compiler leaves out whatever is here
     let unloading = scene.unloading.map_or("ContactRadius {}".into(), |_| value_of(&unloading));
     let (of_unloading, unloading) = match unloading.strip_prefix("Guarded(") {
         Some(guarded) => ("guarded", guarded.replace(')', "")),
-        None => (of_unloading, unloading),
+        None => ("plain", unloading),
     };
     let loading = value_of(&scene.loading.1);
     format!("{kind} {{\n        {of_loading} {loading},\n        {of_unloading} {unloading}\n    }}")
@@ -65,7 +64,6 @@ fn rate(scene: &Scene) -> String {
 fn value_of(law: &impl Debug) -> String {
     let text = format!("{law:?}");
     let (_, inner) = text.split_once('(').expect("a variant of an enum holds the law");
-    // the lists of a law are references
-    let inner = inner.strip_suffix(')').unwrap_or(inner).replace(": [", ": &[");
-    if inner.contains('{') { inner } else { format!("{inner} {{}}") }
+    let inner = inner.strip_suffix(')').unwrap_or(inner);
+    if inner.contains('{') { inner.into() } else { format!("{inner} {{}}") }
 }

@@ -44,7 +44,9 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     }
     let shared = presence(scene.inverse_masses.is_some());
     let inputs = inverse_mass_inputs(scene);
-    let bodies = format!("Shared = {shared}, InverseMasses = [f64; {inputs}]");
+    // a strength that each impact finds makes other bodies of the two
+    let prepared = presence(scene.is_paired() && !scene.finds_strength());
+    let bodies = format!("Shared = {shared}, InverseMasses = [f64; {inputs}], Prepared = {prepared}");
     file.add("parts", format_args!("{{ Forces = {forces}, {}, {bodies} }}", parts(scene)));
     parameters::add_settable(&mut file, scene, entries);
     parameters::add_sources(&mut file, scene);

@@ -263,12 +263,16 @@ impl Scene {
         self.model_of(0)
     }
 
-    /// The elastoplastic model of the contacts of `group`. An elastic contact never uses its unloading law.
+    /// The elastoplastic model of the contacts of `group`.
     pub fn model_of(&self, group: usize) -> Model<AnyLoading, AnyUnloading> {
+        paired(&self.unpaired_model_of(group), self.two_bodies(group)).prepared()
+    }
+
+    /// The same without what its laws need to know of two bodies. An elastic contact never uses its unloading law.
+    fn unpaired_model_of(&self, group: usize) -> Model<AnyLoading, AnyUnloading> {
         let pair = self.pair_of(group).expect("a checked scene has bodies that fit");
         let unloading = self.plain_unloading();
-        let model = Model { pair, loading: self.loading.1, unloading, surface: self.contacts[group].surface };
-        paired(&model, self.two_bodies(group))
+        Model { pair, loading: self.loading.1, unloading, surface: self.contacts[group].surface }
     }
 
     /// The unloading law as it is for a target that doesn't harden.

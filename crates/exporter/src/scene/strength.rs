@@ -480,10 +480,10 @@ impl Scene {
         let predict = |strains, factors| {
             let model = self.with_strengths_at(group, strains, factors);
             let prediction = self.with_loss(group, model).predict(impact)?;
-            Some((prediction, rate::strains(&model, &prediction)))
+            Some((prediction.loading_time, rate::strains(&model, &prediction)))
         };
         let rates = [softer, softer.other()].map(|body| self.rates.of(body).as_ref());
-        let found = rate::in_impact(rates, predict)?;
+        let found = rate::in_impact(rates, (rate::FIRST, Factors::SLOW), predict)?;
         let rate::InImpact { strains, factors, .. } = found;
         let line = self.flow_of(group, softer).and_then(|flow| flow.line(strains.softer));
         let Hardening { yield_strength, hardening_modulus } =
@@ -511,12 +511,13 @@ impl Scene {
         let softer = self.softer(group);
         let own = self.flow_at(group, softer, strains.softer).times(factors.softer);
         let other = self.flow_at(group, softer.other(), strains.harder).times(factors.harder);
-        let model = self.model_of(group);
+        let model = self.unpaired_model_of(group);
         let pair = Pair { yield_strength: own.yield_strength, ..model.pair };
         let Hardening { yield_strength, hardening_modulus } = other;
         let bodies = self.two_bodies(group);
         let other = OtherBody { yield_strength, hardening_modulus, ..bodies.other };
-        paired(&Model { pair, ..model }, TwoBodies { hardening_modulus: own.hardening_modulus, other, ..bodies })
+        let bodies = TwoBodies { hardening_modulus: own.hardening_modulus, other, ..bodies };
+        paired(&Model { pair, ..model }, bodies).prepared()
     }
 
     /// The prediction of `impact` on the first contact with the straight lines for `part` of the strains `found`.

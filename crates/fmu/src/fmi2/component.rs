@@ -33,10 +33,11 @@ impl<S: Scene> Component<S> {
     /// type. All fields that are not listed here are numbers, `bool`s, pointers that may be null, or arrays of them.
     ///
     /// Newly allocated memory consists of zeros. A component of 100,000 contacts would not fit on every stack.
-    pub const ZEROS: (S::Contact, S::Values, Phase, Logger, Memory) =
+    pub const ZEROS: (S::Contact, Option<S::Model>, S::Values, Phase, Logger, Memory) =
         // SAFETY: the evaluation of the constant is the proof.
         unsafe {
-            (core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed())
+            use core::mem::zeroed;
+            (zeroed(), zeroed(), zeroed(), zeroed(), zeroed(), zeroed())
         };
 }
 
@@ -103,7 +104,7 @@ impl<S: Scene> Component<S> {
     /// The name of the instance, which follows the component and its arrays in memory.
     fn name(&self) -> fmi2String {
         // SAFETY: fmi2Instantiate allocates the component and the name after it in one piece.
-        unsafe { core::ptr::from_ref(self).add(1).cast::<c_char>().add(Instance::<S>::outside()) }
+        unsafe { core::ptr::from_ref(self).add(1).cast::<c_char>().add(Instance::<S>::outside_with_models()) }
     }
 
     /// Warns if a contact is deeper or closes faster than its law is valid.

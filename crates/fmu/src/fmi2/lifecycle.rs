@@ -93,7 +93,7 @@ unsafe fn make<S: Scene>(
             reason: "fmuGUID is not the one of this library: modelDescription.xml and binary are from different exports",
         });
     }
-    let outside = Instance::<S>::outside();
+    let outside = Instance::<S>::outside_with_models();
     let made = memory.allocate(size_of::<Component<S>>() + outside + length);
     if made.is_null() {
         return Err(Complaint::NoMemory);

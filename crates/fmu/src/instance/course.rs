@@ -24,7 +24,7 @@ impl<S: Scene> Instance<S> {
         let mut mean_force = 0.0;
         if S::has_momentum() {
             let (mut history, model) = (history, self.model(0));
-            let moved = history.step_with_mean_force(&course, step, || model);
+            let moved = history.step_with_mean_force(&course, step, || &*model);
             let (deepest, mean) = moved.map_err(|deep| too_deep(0, deep))?;
             history.stays_within(self.depth(0));
             if deepest >= self.depth(0) {

@@ -330,7 +330,7 @@ impl<S: Scene> Instance<S> {
             next.set_tangential_course(direction, &Course::held(held));
         }
         // where the law ends, the state does not change
-        let _ = next.step_held(rate, self.last_step(), &S::Contact::kept(&model), || model);
+        let _ = next.step_held(rate, self.last_step(), &S::Contact::kept(&model), || &*model);
         Some(next.tangential(&model, Quantity::Force(of)))
     }
 }

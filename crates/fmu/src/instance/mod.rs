@@ -22,7 +22,7 @@ pub use clock::{LATEST, Phase, SHORTEST};
 pub use fault::{Cause, Fault, Warning};
 pub use stepping::Plain;
 
-use crate::c::span::Free;
+use crate::c::span::{Free, Span};
 use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
 use account::{Account, Ending};
 use brinell_contact::behaviour::is_finite_at;
@@ -30,6 +30,8 @@ use brinell_contact::shared::Work;
 use brinell_contact::validity::largest_radius;
 use brinell_contact::{Contact, TooDeep};
 use clock::Clock;
+use core::borrow::Borrow;
+use core::ops::Deref;
 use coupling::{Curve, Momentum};
 use stability::Watched;
 use start::{Bodies, BodiesOf, model_of};
@@ -87,6 +89,31 @@ struct Contacts<S: Scene> {
     numbers: [RowsIfPresent<S::Shared, S, f64>; 4],
 }
 
+/// A model that an instance keeps, or that has been made for the moment.
+enum Held<'a, M> {
+    Kept(&'a M),
+    Made(M),
+}
+
+impl<M> Deref for Held<'_, M> {
+    type Target = M;
+
+    #[inline(always)]
+    fn deref(&self) -> &M {
+        match self {
+            Held::Kept(model) => model,
+            Held::Made(model) => model,
+        }
+    }
+}
+
+impl<M> Borrow<M> for Held<'_, M> {
+    #[inline(always)]
+    fn borrow(&self) -> &M {
+        self
+    }
+}
+
 /// Values that follow from the parameters.
 #[repr(C)]
 struct Settings<S: Scene> {
@@ -99,6 +126,8 @@ struct Settings<S: Scene> {
     limit: Limit,
     bodies: S::Groups<BodiesOf<S>>,
     values: S::Values,
+    /// The models of the groups, if the instance keeps them. They lie outside of it, and a saved state has no room for them.
+    prepared: <S::Prepared as Presence>::Of<Option<S::Model>, Span<Option<S::Model>>>,
 }
 
 /// Calls `each` for every array of an instance whose length follows from the scene, with this length.
@@ -147,13 +176,20 @@ impl<S: Scene> Instance<S> {
         sum
     }
 
-    /// Places its arrays in [as much](Instance::outside) `free` memory.
+    /// The same with the models that the instance keeps, for an instance that is to step: those of a state are never looked at.
+    #[inline(always)]
+    pub fn outside_with_models() -> usize {
+        Self::outside() + outside(|instance: &Instance<S>| &instance.settings.prepared, S::prepared())
+    }
+
+    /// Places its arrays in `free` memory of this size, with or without its models.
     #[inline(always)]
     pub fn place(&mut self, mut free: Free) {
         macro_rules! place {
             (($($field:tt)+) $count:expr) => { self.$($field)+.place($count, &mut free) };
         }
         arrays!(place);
+        self.settings.prepared.place(S::prepared(), &mut free);
     }
 }
 
@@ -198,15 +234,36 @@ fn too_deep(contact: usize, TooDeep { indentation }: TooDeep) -> Fault {
 impl<S: Scene> Settings<S> {
     /// The bodies and laws of `group`. It is not inlined, to keep the code small where speed does not matter.
     #[inline(never)]
-    fn model(&self, group: usize) -> S::Model {
+    fn model(&self, group: usize) -> Held<'_, S::Model> {
         self.model_at_once(group)
     }
 
     /// The same, inlined, for the steps of many contacts.
     #[inline(always)]
-    fn model_at_once(&self, group: usize) -> S::Model {
+    fn model_at_once(&self, group: usize) -> Held<'_, S::Model> {
+        match self.prepared.as_ref().get(group) {
+            Some(Some(model)) => Held::Kept(model),
+            _ => Held::Made(self.make_model(group)),
+        }
+    }
+
+    #[inline(always)]
+    fn make_model(&self, group: usize) -> S::Model {
         let none = Bodies::default();
         model_of::<S>(group, self.bodies.as_ref().get(group).unwrap_or(&none), &self.values)
+    }
+
+    /// Makes the models that the instance keeps anew, after a change of parameters. One whose bodies are the same takes over what is known of
+    /// them.
+    #[cold]
+    #[inline(never)]
+    fn prepare(&mut self, groups: core::ops::Range<usize>) {
+        for group in groups {
+            if let Some(before) = self.prepared.as_ref().get(group) {
+                let model = S::Contact::prepared(self.make_model(group), before.as_ref());
+                self.prepared.as_mut().get_mut(group).into_iter().for_each(|slot| *slot = Some(model));
+            }
+        }
     }
 
     /// The indentation at which `group` reaches the present limit \[m\].
@@ -346,7 +403,7 @@ impl<S: Scene> Instance<S> {
     }
 
     /// The bodies and laws of a contact.
-    fn model(&self, contact: usize) -> S::Model {
+    fn model(&self, contact: usize) -> Held<'_, S::Model> {
         let group = S::group(contact);
         self.settings.model(group)
     }

@@ -104,6 +104,7 @@ impl<S: Scene> Instance<S> {
         put_all(own.bodies.as_mut(), given.bodies.as_ref());
         put_all(own.values.as_mut(), given.values.as_ref());
         (own.largest_rate, own.stamp) = (given.largest_rate, given.stamp);
+        own.prepare(0..S::prepared());
         self.copy_alike(other);
     }
 

@@ -137,6 +137,7 @@ impl<S: Scene> Instance<S> {
                 limit: Limit::Valid,
                 bodies: Store::filled(Bodies::default()),
                 values,
+                prepared: Store::filled(None),
             },
             deep: Deep { contact: 0, indentation: 0.0 },
         };
@@ -193,6 +194,7 @@ impl<S: Scene> Instance<S> {
                 bodies.kept = S::Contact::kept(&model_of::<S>(group, bodies, values));
                 bodies.depth = 0.0;
             }
+            self.settings.prepare(0..S::prepared());
         }
     }
 
@@ -232,6 +234,7 @@ impl<S: Scene> Instance<S> {
         values.as_mut().get_mut(index).into_iter().for_each(|slot| *slot = value);
         let Ok((pair, history)) = start_of::<S>(group, values) else { return false };
         bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.take(&pair));
+        self.settings.prepare(group..group + 1);
         self.contacts.place(contact, history);
         true
     }

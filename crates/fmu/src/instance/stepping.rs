@@ -128,12 +128,13 @@ impl<S: Scene> Instance<S> {
     /// Moves the single contact of an instance at constant `rate` \[m/s\] for `step` \[s\].
     #[inline(never)]
     pub(super) fn move_one(&mut self, rate: f64, step: f64) -> Result<(), TooDeep> {
-        let Settings { bodies, values, .. } = &self.settings;
-        let (Some(history), Some(bodies)) = (self.contacts.histories.as_mut().first_mut(), bodies.as_ref().first())
+        let settings = &self.settings;
+        let (Some(history), Some(bodies)) =
+            (self.contacts.histories.as_mut().first_mut(), settings.bodies.as_ref().first())
         else {
             return Ok(());
         };
-        history.step_held(rate, step, &bodies.kept, || model_of::<S>(0, bodies, values))?;
+        history.step_held(rate, step, &bodies.kept, || settings.model_at_once(0))?;
         if !history.stays_within(bodies.depth) {
             self.note_depth();
         }
@@ -319,8 +320,8 @@ impl<S: Scene> Instance<S> {
             return Ok(Moved { history, course, mean_force, speed: outcome.speed, deepest: outcome.deepest });
         }
         let (deepest, mean_force) = match S::has_momentum() {
-            true => history.step_with_mean_force(&course, step, || model).map_err(failed)?,
-            false => (history.step(&course, step, || model).map_err(failed)?, 0.0),
+            true => history.step_with_mean_force(&course, step, || &*model).map_err(failed)?,
+            false => (history.step(&course, step, || &*model).map_err(failed)?, 0.0),
         };
         Ok(Moved { history, course, mean_force, speed: 0.0, deepest })
     }

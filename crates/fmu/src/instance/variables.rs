@@ -276,7 +276,7 @@ impl<S: Scene> Instance<S> {
             next.meet(model, self.mass(contact), rate);
         }
         let moved =
-            next.short_step(rate * step) || next.step_held(rate, step, &S::Contact::kept(model), || *model).is_ok();
+            next.short_step(rate * step) || next.step_held(rate, step, &S::Contact::kept(model), || model).is_ok();
         Some(if moved { next } else { history })
     }
 

@@ -67,13 +67,13 @@ fn target(value: impl Fn(Parameter) -> f64, density: f64) -> Solid {
 macro_rules! __law {
     (type $kind:ident plain $law:ident) => { $crate::contact::$kind::$law };
     (type $kind:ident guarded $law:ident) => { $crate::contact::$kind::Guarded<$crate::contact::$kind::$law> };
-    (type $kind:ident paired $law:ident) => { $crate::contact::$kind::Paired };
+    (type loading paired $law:ident) => { $crate::contact::loading::Paired };
     (value $kind:ident plain $law:ident $fields:tt $bodies:ident) => { const { $crate::contact::$kind::$law $fields } };
     (value $kind:ident guarded $law:ident $fields:tt $bodies:ident) => {
         const { $crate::contact::$kind::Guarded($crate::contact::$kind::$law $fields) }
     };
-    (value $kind:ident paired $law:ident $fields:tt $bodies:ident) => {
-        $crate::contact::$kind::Paired { law: const { $crate::contact::$kind::$law $fields }, bodies: $bodies }
+    (value loading paired $law:ident $fields:tt $bodies:ident) => {
+        $crate::contact::loading::Paired::new(const { $crate::contact::loading::$law $fields }, $bodies)
     };
 }
 
@@ -143,9 +143,9 @@ macro_rules! __laws {
 
     (together plain) => {
         #[inline(always)]
-        fn follow_together(
+        fn follow_together<B: core::borrow::Borrow<Self::Model>>(
             contacts: &mut [Self::Contact],
-            model: impl Fn(usize) -> Self::Model,
+            model: impl Fn(usize) -> B,
             masses: &$crate::contact::shared::InverseMasses,
             accelerations: &[f64],
             rates: &mut [f64],

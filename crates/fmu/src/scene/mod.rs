@@ -19,6 +19,11 @@ use brinell_contact::motion::Follow;
 use brinell_contact::shared::{InverseMasses, Outcome, Refused, Work};
 use brinell_contact::tangential::{Friction, RoughModel};
 use brinell_contact::{Body, Contact, Model, OtherBody, Pair, TwoBodies};
+use core::borrow::Borrow;
+
+/// The largest number of groups whose models an instance keeps. They take a megabyte. Beyond it, contacts with parameters of their own
+/// ask the construction of their pair at each change of branch.
+pub const MOST_PREPARED: usize = 256;
 
 /// A scene: contacts in groups of equal contacts, with their parameters and variables.
 ///
@@ -60,6 +65,9 @@ pub trait Scene: Sized {
     type Shared: Presence;
     /// The inverse masses of contacts that share bodies, if they are inputs: the upper triangle of the matrix, row by row.
     type InverseMasses: Store<f64>;
+
+    /// Whether an instance keeps the models of its groups, since making one is slow.
+    type Prepared: Presence;
 
     /// The function that moves the bodies through a step, if the scene knows their mass.
     #[inline(always)]
@@ -211,6 +219,13 @@ pub trait Scene: Sized {
         if Self::is_shared() { Self::rows() } else { 0 }
     }
 
+    /// The number of groups whose models are kept: all of them, or none if they are too many.
+    #[inline(always)]
+    fn prepared() -> usize {
+        let prepares = Self::Prepared::IS_PRESENT && Self::groups() <= MOST_PREPARED;
+        if prepares { Self::groups() } else { 0 }
+    }
+
     /// The GUID of the model description of the scene, in UTF-8.
     fn guid() -> &'static [u8];
 
@@ -272,9 +287,9 @@ pub trait Scene: Sized {
     /// # Errors
     /// [`Refused`]; nothing has changed then.
     #[inline(always)]
-    fn follow_together(
+    fn follow_together<B: Borrow<Self::Model>>(
         _contacts: &mut [Self::Contact],
-        _model: impl Fn(usize) -> Self::Model,
+        _model: impl Fn(usize) -> B,
         _masses: &InverseMasses,
         _accelerations: &[f64],
         _rates: &mut [f64],

@@ -18,6 +18,10 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
 
     fn kept(_model: &Model<D>) {}
 
+    fn prepared(model: Model<D>, _before: Option<&Model<D>>) -> Model<D> {
+        model
+    }
+
     fn start(model: &Model<D>, gap: f64) -> Result<History<D>, TooDeep> {
         History::start(model, gap)
     }
@@ -50,7 +54,13 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         Ok(self.max_indentation)
     }
 
-    fn step_held(&mut self, rate: f64, step: f64, (): &(), _model: impl Fn() -> Model<D>) -> Result<(), TooDeep> {
+    fn step_held<B: Borrow<Model<D>>>(
+        &mut self,
+        rate: f64,
+        step: f64,
+        (): &(),
+        _model: impl Fn() -> B,
+    ) -> Result<(), TooDeep> {
         self.advance(rate, step)
     }
 

@@ -22,6 +22,10 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
 
     fn kept(_model: &Model<L, U, K>) {}
 
+    fn prepared(model: Model<L, U, K>, before: Option<&Model<L, U, K>>) -> Model<L, U, K> {
+        Model { plastic: model.plastic.prepared_after(before.map(|before| &before.plastic)), ..model }
+    }
+
     fn start(model: &Model<L, U, K>, gap: f64) -> Result<History<K>, TooDeep> {
         History::start(model, gap)
     }
@@ -49,8 +53,14 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
         Ok(self.plastic.max_indentation())
     }
 
-    fn step_held(&mut self, rate: f64, step: f64, (): &(), model: impl Fn() -> Model<L, U, K>) -> Result<(), TooDeep> {
-        self.advance(&model(), rate, step)
+    fn step_held<B: Borrow<Model<L, U, K>>>(
+        &mut self,
+        rate: f64,
+        step: f64,
+        (): &(),
+        model: impl Fn() -> B,
+    ) -> Result<(), TooDeep> {
+        self.advance(model().borrow(), rate, step)
     }
 
     fn mean_force(&self, model: &Model<L, U, K>, rate: f64, step: f64) -> Result<f64, TooDeep> {

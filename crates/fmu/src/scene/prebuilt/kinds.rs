@@ -14,6 +14,7 @@ use brinell_contact::shared::{self, InverseMasses, Outcome, Refused, Work};
 use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
 use brinell_contact::unloading::{AnyUnloading, ContactRadius};
 use brinell_contact::{History, Model};
+use core::borrow::Borrow;
 
 /// Number of segments in which the springs of a contact with friction remember its past.
 pub const MEMORY: usize = 16;
@@ -68,10 +69,7 @@ fn plain(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64) -> Plain 
     if !data.has(Flag::Paired) {
         return Model { pair, loading, unloading, surface };
     }
-    let bodies = two_bodies(&value);
-    let (loading, unloading) =
-        (loading.paired(bodies).unwrap_or(loading), unloading.paired(bodies).unwrap_or(unloading));
-    Model { pair, loading, unloading, surface }
+    Model { pair, loading: loading.paired(two_bodies(&value)).unwrap_or(loading), unloading, surface }
 }
 
 /// The loss of a scene.
@@ -88,9 +86,9 @@ macro_rules! together {
     () => {
         type Shared = Present;
 
-        fn follow_together(
+        fn follow_together<B: Borrow<Self::Model>>(
             contacts: &mut [Self::Contact],
-            model: impl Fn(usize) -> Self::Model,
+            model: impl Fn(usize) -> B,
             masses: &InverseMasses,
             accelerations: &[f64],
             rates: &mut [f64],

@@ -7,13 +7,14 @@ pub mod block;
 pub mod kinds;
 
 use super::variable::{Integer, Parameter, Real, Settable, Source};
-use super::{Acts, Coupling, Guard, Presence, Present, Scene, Store};
+use super::{Acts, Coupling, Guard, MOST_PREPARED, Presence, Present, Scene, Store};
 use crate::c::span::Span;
 use crate::c::words::text_of;
 use block::{Block, Data, FIRST_INTEGER, Flag, List};
 use brinell_contact::motion::Follow;
 use brinell_contact::shared::{InverseMasses, Outcome, Refused, Work};
 use brinell_contact::{Contact, Pair, Surface};
+use core::borrow::Borrow;
 use core::marker::PhantomData;
 
 /// The contents of a prebuilt library; see [`Scene`] for the types.
@@ -52,9 +53,9 @@ pub trait Kind {
     ///
     /// # Errors
     /// [`Refused`]; nothing has changed then.
-    fn follow_together(
+    fn follow_together<T: Borrow<Self::Model>>(
         _contacts: &mut [Self::Contact],
-        _model: impl Fn(usize) -> Self::Model,
+        _model: impl Fn(usize) -> T,
         _masses: &InverseMasses,
         _accelerations: &[f64],
         _rates: &mut [f64],
@@ -141,6 +142,7 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
     type Watch = K::Watch;
     type Shared = K::Shared;
     type InverseMasses = Span<f64>;
+    type Prepared = Present;
 
     fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
         K::follow().filter(|_| Self::moves())
@@ -218,6 +220,12 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
 
     fn stored_forces() -> usize {
         if Self::data().has(Flag::Forces) { Self::contacts() } else { 0 }
+    }
+
+    /// Those of every law: to make one of data takes longer than a change of branch.
+    fn prepared() -> usize {
+        let groups = Self::groups();
+        if groups <= MOST_PREPARED { groups } else { 0 }
     }
 
     fn watched() -> usize {
@@ -316,9 +324,9 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
     }
 
     #[inline(always)]
-    fn follow_together(
+    fn follow_together<T: Borrow<Self::Model>>(
         contacts: &mut [Self::Contact],
-        model: impl Fn(usize) -> Self::Model,
+        model: impl Fn(usize) -> T,
         masses: &InverseMasses,
         accelerations: &[f64],
         rates: &mut [f64],
