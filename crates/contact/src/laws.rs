@@ -1,5 +1,7 @@
 //! The list of the laws of a kind, written once.
 
+use super::two_bodies::TwoBodies;
+
 /// Makes the laws of a kind public, and an enum of them for programs that choose a law while they run.
 ///
 /// An entry has the module and the type of a law, its constants, its name in scenes, and their reference values; one type can be
@@ -55,21 +57,6 @@ macro_rules! laws {
                 }
             }
 
-            /// The law with these [numbers](Self::numbers); `None` if they are those of no law.
-            pub fn from_numbers(numbers: &LawNumbers) -> Option<$any> {
-                let mut constants = numbers.constants.iter().copied();
-                let mut next = || constants.next().unwrap_or(f64::NAN);
-                $(if numbers.law == Code::$law as u64 {
-                    return Some($any::$law($law { $($constant: Constant::of_number(next())?,)* $(..$others::$of_others)? }));
-                })+
-                $($(if numbers.law == Code::$guarded as u64 {
-                    let plain = $any::from_numbers(&LawNumbers { law: Code::$bare as u64, ..*numbers })?;
-                    return plain.guarded();
-                })+)?
-                let _ = next();
-                None
-            }
-
             fn law(&self) -> &$interface {
                 match self {
                     $($any::$law(law) => law,)+
@@ -77,6 +64,40 @@ macro_rules! laws {
                     $($($any::$paired(law) => law,)+)?
                 }
             }
+        }
+
+        $(impl Numbered for $law {
+            const FIRST: $law = [$($reference),+][0];
+
+            #[inline(always)]
+            fn from_numbers(numbers: &LawNumbers) -> Option<$law> {
+                let mut constants = numbers.constants.iter();
+                let mut next = || constants.next().copied().unwrap_or(f64::NAN);
+                let law = $law { $($constant: Constant::of_number(next())?,)* $(..$others::$of_others)? };
+                let _ = next();
+                Some(law)
+            }
+        })+
+
+        impl Numbered for $any {
+            const FIRST: $any = $any::ALL[0].1;
+
+            fn from_numbers(numbers: &LawNumbers) -> Option<$any> {
+                $(if numbers.law == Code::$law as u64 {
+                    return Numbered::from_numbers(numbers).map($any::$law);
+                })+
+                $($(if numbers.law == Code::$guarded as u64 {
+                    return Numbered::from_numbers(numbers).map($any::$guarded);
+                })+)?
+                None
+            }
+
+            $(fn of_bodies(self, bodies: TwoBodies) -> $any {
+                match self {
+                    $($any::$plain(law) => $any::$paired(Paired { law, bodies }),)+
+                    law => law,
+                }
+            })?
         }
 
         $(
@@ -94,6 +115,20 @@ macro_rules! laws {
         )?
 
         $(
+            $(impl Numbered for Paired {
+                const FIRST: Paired = Paired { law: $plain::FIRST, bodies: TwoBodies::under_rigid(0.0) };
+
+                #[inline(always)]
+                fn from_numbers(numbers: &LawNumbers) -> Option<Paired> {
+                    Some(Paired { law: $plain::from_numbers(numbers)?, ..Paired::FIRST })
+                }
+
+                #[inline(always)]
+                fn of_bodies(self, bodies: TwoBodies) -> Paired {
+                    Paired { bodies, ..self }
+                }
+            })+
+
             impl $any {
                 /// Whether the law takes each of two bodies for itself.
                 pub fn takes_both_bodies(&self) -> bool {
@@ -156,6 +191,21 @@ impl LawNumbers {
     }
 }
 
+/// A law that data give: its constants for the type of one law, and which law it is for a type of many.
+pub trait Numbered: Copy {
+    /// The law in place of one that numbers do not give.
+    const FIRST: Self;
+
+    /// The law with these numbers; `None` if they give none.
+    fn from_numbers(numbers: &LawNumbers) -> Option<Self>;
+
+    /// The law for these two bodies, if it takes each of them for itself.
+    #[inline(always)]
+    fn of_bodies(self, _bodies: TwoBodies) -> Self {
+        self
+    }
+}
+
 /// A constant of a law as a number.
 pub(super) trait Constant: Sized {
     /// The number.
@@ -170,6 +220,7 @@ impl Constant for f64 {
         self
     }
 
+    #[inline(always)]
     fn of_number(number: f64) -> Option<f64> {
         Some(number)
     }
@@ -183,9 +234,18 @@ macro_rules! numbered {
                 f64::from(self as u8)
             }
 
+            #[inline(always)]
             fn of_number(number: f64) -> Option<$list> {
-                let same = |(_, found): &(&str, $list)| found.to_number() == number;
-                $list::ALL.into_iter().find(same).map(|(_, found)| found)
+                // the variants have the order of the list, so that a compiler that knows the number need not search
+                const _: () = {
+                    let mut place = 0;
+                    while place < $list::ALL.len() {
+                        assert!($list::ALL[place].1 as usize == place);
+                        place += 1;
+                    }
+                };
+                let (_, found) = *$list::ALL.get(number as usize)?;
+                (found.to_number() == number).then_some(found)
             }
         }
     };

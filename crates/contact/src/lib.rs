@@ -120,7 +120,7 @@ pub mod words;
 
 pub use behaviour::Contact;
 pub use history::History;
-pub use laws::LawNumbers;
+pub use laws::{LawNumbers, Numbered};
 pub use loading::Loading;
 pub use material::{Body, Pair, YieldPoint};
 pub use regime::{Regime, TooDeep};

@@ -16,7 +16,7 @@ pub mod tsuji;
 
 pub use history::{History, follow};
 
-use super::laws::{Constant, LawNumbers, laws};
+use super::laws::{Constant, LawNumbers, Numbered, laws};
 use super::material::Pair;
 use super::validity;
 use libm::sqrt;

@@ -25,7 +25,7 @@ pub mod zhao_maietta_chang;
 
 pub use paired::Paired;
 
-use super::laws::{Constant, LawNumbers, laws};
+use super::laws::{Constant, LawNumbers, Numbered, laws};
 use super::material::{Pair, YieldPoint};
 use super::regime::{LARGEST_INDENTATION, Regime};
 use super::segment::Segment;

@@ -20,7 +20,8 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
 {
     const FOLLOWS_RATE: bool = N::FOLLOWS_RATE;
     const DERIVATIVES: i32 = N::DERIVATIVES;
-    const WORDS: usize = N::WORDS + SpringsOf::<D, M, true>::WORDS + 5 * D + if MEAN { 3 * D + 3 } else { 0 };
+    // a state fits the library that computes the mean and the one that doesn't, which store the same numbers
+    const WORDS: usize = N::WORDS + SpringsOf::<D, M, true>::WORDS + 8 * D + 3;
     const DIRECTIONS: usize = D;
 
     /// Where the contact begins to yield.
@@ -262,13 +263,11 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
             // the bend of the end is that of the course, which is over
             store_numbers(&[course.rate, course.slope, course.bend, end.rate, end.slope], store);
         }
-        if MEAN {
-            store_numbers(mean_force, store);
-            for sum in impulse.iter().chain([work]) {
-                store_numbers(&[sum.value, sum.rest], store);
-            }
-            store_numbers(&[*lost], store);
+        store_numbers(mean_force, store);
+        for sum in impulse.iter().chain([work]) {
+            store_numbers(&[sum.value, sum.rest], store);
         }
+        store_numbers(&[*lost], store);
     }
 
     fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U, N::Loss>) -> Option<Self> {
@@ -284,14 +283,12 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         let none = Sum::new(0.0);
         let mut loaded =
             Rough { normal, springs, courses, ends, mean_force: [0.0; D], impulse: [none; D], work: none, lost: 0.0 };
-        if MEAN {
-            loaded.mean_force = load_numbers(words)?;
-            for sum in loaded.impulse.iter_mut().chain([&mut loaded.work]) {
-                let [value, rest] = load_numbers(words)?;
-                *sum = Sum { value, rest };
-            }
-            [loaded.lost] = load_numbers(words)?;
+        loaded.mean_force = load_numbers(words)?;
+        for sum in loaded.impulse.iter_mut().chain([&mut loaded.work]) {
+            let [value, rest] = load_numbers(words)?;
+            *sum = Sum { value, rest };
         }
+        [loaded.lost] = load_numbers(words)?;
         Some(loaded)
     }
 }

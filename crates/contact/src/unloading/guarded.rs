@@ -1,6 +1,7 @@
 //! The passivity guard: unloading never returns more energy than the loading took.
 
 use super::{Peak, Unloading, hertzian};
+use crate::laws::{LawNumbers, Numbered};
 use crate::material::Pair;
 use crate::segment::Segment;
 
@@ -29,6 +30,15 @@ fn longest(peak: &Peak) -> f64 {
 /// Whether the recovery of `path` exceeds that length.
 fn exceeds(path: &Segment, peak: &Peak) -> bool {
     path.upper - path.lower > longest(peak) + ROUNDING * peak.indentation
+}
+
+impl<U: Numbered> Numbered for Guarded<U> {
+    const FIRST: Guarded<U> = Guarded(U::FIRST);
+
+    #[inline(always)]
+    fn from_numbers(numbers: &LawNumbers) -> Option<Guarded<U>> {
+        U::from_numbers(numbers).map(Guarded)
+    }
 }
 
 impl<U: Hertzian> Unloading for Guarded<U> {

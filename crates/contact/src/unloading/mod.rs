@@ -19,7 +19,7 @@ pub mod walton_braun;
 
 pub use guarded::Guarded;
 
-use super::laws::{Constant, LawNumbers, laws};
+use super::laws::{Constant, LawNumbers, Numbered, laws};
 use super::material::Pair;
 use super::segment::Segment;
 use super::two_bodies::{Construction, Together};
