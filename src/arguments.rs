@@ -91,9 +91,9 @@ pub enum Command {
         #[arg(short, long, value_name = "DIR")]
         output: PathBuf,
     },
-    /// Print the Rust constants of a scene, as they are compiled into its FMU
+    /// Print kind and data of a scene in Rust, as they are compiled into its FMU
     #[command(hide = true)]
-    Constants { scene: PathBuf },
+    Constants { scene: PathBuf, guid: Option<String> },
     /// Print a scene with all numbers in SI units, for programs that read TOML and know no units
     #[command(hide = true)]
     Si { scene: PathBuf },

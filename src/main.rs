@@ -46,10 +46,11 @@ mod unpack;
 use arguments::{Arguments, Command, PlatformArguments, TableArguments};
 use brinell_exporter::layout::json_line;
 use brinell_exporter::measurement::{self, Choices};
+use brinell_exporter::package::GUID_TO_COME;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::prebuilt::Library;
 use brinell_exporter::predict::axis;
-use brinell_exporter::{constants, numbers};
+use brinell_exporter::{library, numbers};
 use clap::Parser;
 use messages::WrongCall;
 use package::LibraryWay;
@@ -154,9 +155,9 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Materials) => materials::run(json)?,
         Some(Command::Completions { shell }) => about::completions(*shell),
         Some(Command::Man { output }) => about::manual(output)?,
-        Some(Command::Constants { scene }) => {
+        Some(Command::Constants { scene, guid }) => {
             let scene = scene_file::read(scene)?;
-            print!("{}", constants::write(&Plan::of(&scene), "unpacked"));
+            print!("{}", library::write(&Plan::of(&scene), guid.as_deref().unwrap_or(GUID_TO_COME)));
         }
         Some(Command::Si { scene }) => print!("{}", scene_file::in_si(scene)?),
         Some(Command::Numbers { numbers }) => {

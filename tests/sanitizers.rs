@@ -9,7 +9,7 @@
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
 use brinell_exporter::prebuilt::LIBRARIES;
-use brinell_fmu::scene::prebuilt::block::{Block, MAGIC, VERSION};
+use brinell_fmu::scene::library::block::{Block, MAGIC, VERSION};
 use brinell_testing::{child, driver, prebuilt, rebuilt, skips, suites, targets, unit};
 use driver::{arguments, has_valgrind, valgrind};
 use rebuilt::{Sources, TRIPLE, Way};

@@ -10,7 +10,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::impact::Ball;
 use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
 use brinell_contact::unloading::AnyUnloading;
-use brinell_exporter::constants::{MEMORY, parameters, start_value};
+use brinell_exporter::library::{MEMORY, parameters, start_value};
 use brinell_exporter::master::{Coupled, bounce};
 use brinell_exporter::scene::Scene;
 use brinell_fmu::scene::with_friction;

@@ -6,8 +6,8 @@ use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::shared::{InverseMasses, Refused, SharedContact, Work, follow};
 use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
 use brinell_contact::{Contact, History};
-use brinell_exporter::constants::MEMORY;
 use brinell_exporter::interface::{INVERSE_MASS, inverse_mass_inputs};
+use brinell_exporter::library::MEMORY;
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::scene::{self, Scene, place};
 

@@ -50,8 +50,8 @@ fn optimization(source: &Source) -> &'static str {
 
 /// The source file that differs between libraries.
 pub enum Source<'a> {
-    /// The constants of a scene.
-    Scene { plan: &'a Plan<'a>, constants: &'a str },
+    /// Kind and data of a scene.
+    Scene { plan: &'a Plan<'a>, text: &'a str },
     /// The kind of a prebuilt library.
     Kind { text: &'a str },
 }
@@ -60,7 +60,7 @@ impl Source<'_> {
     /// Path and text of the file.
     fn file(&self) -> (&'static str, &str) {
         match self {
-            Source::Scene { constants, .. } => ("unit/src/exported.rs", constants),
+            Source::Scene { text, .. } => ("unit/src/exported.rs", text),
             Source::Kind { text } => ("unit/src/kind.rs", text),
         }
     }

@@ -17,8 +17,8 @@ use crate::files::write_whole;
 use crate::parallel;
 use crate::prebuilt::{PrebuiltError, StoredUnit};
 use crate::sources;
-use brinell_exporter::constants;
-use brinell_exporter::package::{GUID_TO_COME, Packed, guid, identified, pack};
+use brinell_exporter::library::{guid_of, write};
+use brinell_exporter::package::{Packed, pack};
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform::Platform;
 use folder::Cache;
@@ -142,13 +142,12 @@ fn no_compiler() -> Option<ExportError> {
     }
 }
 
-/// Compiles. The GUID is a hash of everything in the FMU: description, constants, source of the library and of `libm`.
+/// Compiles; C source comes from a prebuilt library. The GUID is a hash of everything in the FMU: description, data, source of the
+/// library and of `libm`.
 fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Libraries, ExportError> {
     let begin = Instant::now();
-    let constants = constants::write(plan, GUID_TO_COME);
-    let guid = guid(plan, &[&constants], sources::hash());
-    let constants = identified(&constants, &guid);
-    let libraries = library::build(&Source::Scene { plan, constants: &constants }, platforms)?;
+    let guid = guid_of(plan, sources::hash());
+    let libraries = library::build(&Source::Scene { plan, text: &write(plan, &guid) }, platforms)?;
     Ok(Libraries { guid, libraries, origin: Origin { prebuilt: None, time: begin.elapsed() } })
 }
 

@@ -4,7 +4,7 @@ use crate::both_ways::Both;
 use crate::command::{self, assert_same, brinell, empty_folder, output, run};
 use crate::courses;
 use crate::hosts::{Host, Interface, Loading, cc, compile};
-use crate::kinds::{IMPACT, any_scene, of_each_kind, scene};
+use crate::kinds::{any_scene, of_each_kind, scene};
 use crate::loaded::Unit;
 use crate::physics::Random;
 use crate::prebuilt::{self, export, export_anew, store};
@@ -68,17 +68,6 @@ fn the_scenes_of_the_repository_need_no_compiler() {
         let folder = export(&text, Some(store()));
         let check = run(folder.parent().unwrap(), ["check", "unit.fmu", "--json"]).with_status(0).json();
         assert_eq!(check["passed"], true, "{}: {check}", path.display());
-    }
-}
-
-#[test]
-fn the_warning_about_unstable_steps_is_that_of_a_compiled_library() {
-    for (kind, text) in of_each_kind().into_iter().filter(|(kind, _)| ["state", "momentum"].contains(kind)) {
-        let watches = text.contains(IMPACT) && !text.contains("watch");
-        let told = Both::of(text, store()).drive_with_long_steps(4e-3);
-        let expected = "fmi2DoStep: steps of 0.002 s are unstable with a mass of 0.004 kg: make them shorter, or let the unit move it by [coupling]";
-        let count = usize::from(watches);
-        assert_eq!(told.iter().filter(|message| *message == expected).count(), count, "{kind}: {told:?}");
     }
 }
 
@@ -192,7 +181,7 @@ fn the_summary_shows_how_the_fmu_was_made() {
     }
 }
 
-/// FMUs with different numbers, compiled and prebuilt: none accepts a state of another.
+/// FMUs with different numbers: none accepts a state of another, but the compiled one and the prebuilt one of a scene are the same.
 #[test]
 fn states_of_other_scenes_are_rejected() {
     let texts = [
@@ -208,7 +197,8 @@ fn states_of_other_scenes_are_rejected() {
         let bytes = instance.bytes(state);
         for (other, taker) in instances.iter().enumerate() {
             let taken = taker.deserialize(&bytes);
-            assert_eq!(taken.is_some(), index == other, "{index} to {other}");
+            // the last one is the first one, compiled
+            assert_eq!(taken.is_some(), index % 3 == other % 3, "{index} to {other}");
             taken.into_iter().for_each(|state| taker.free(state));
         }
         instance.free(state);

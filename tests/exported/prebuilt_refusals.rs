@@ -6,7 +6,7 @@ use crate::loaded::Unit;
 use crate::physics::Random;
 use crate::prebuilt::{self, export, file, store};
 use crate::unit;
-use brinell_fmu::scene::prebuilt::block::{Block, MAGIC, VERSION};
+use brinell_fmu::scene::library::block::{Block, MAGIC, VERSION};
 use std::env::consts::DLL_EXTENSION;
 use std::fs;
 use std::path::Path;

@@ -9,7 +9,7 @@ use crate::scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, choose, outp
 use brinell_contact::damped::AnyDamped;
 use brinell_fmu::instance::{Instance, Phase};
 use brinell_fmu::scene::{Coupled, Present, Real, Scene};
-use brinell_unit::exported::Exported;
+use brinell_unit::known::Exported;
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Present>;

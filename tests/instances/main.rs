@@ -25,7 +25,7 @@ use brinell_contact::unloading::AnyUnloading;
 use brinell_fmu::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain, SHORTEST};
 use brinell_fmu::scene::{Coupled, Present, Real, Scene};
 use brinell_testing::{masters, physics, scenes};
-use brinell_unit::exported::Exported;
+use brinell_unit::known::Exported;
 use physics::{Random, all_models, mild};
 use scenes::{
     Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, Rough, RoughPlane, choose, outputs, ready, set_rate,

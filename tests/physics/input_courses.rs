@@ -6,7 +6,7 @@ use brinell_contact::path::Course;
 use brinell_contact::{Contact, History, Loading, Model, Regime, Surface, Unloading, loading, unloading};
 use brinell_fmu::instance::Instance;
 use brinell_fmu::scene::Real;
-use brinell_unit::exported::Exported;
+use brinell_unit::known::Exported;
 use std::cell::Cell;
 
 /// A claim about every law made of segments.

@@ -94,7 +94,7 @@ macro_rules! laws {
 
             $(fn of_bodies(self, bodies: TwoBodies) -> $any {
                 match self {
-                    $($any::$plain(law) => $any::$paired(Paired { law, bodies }),)+
+                    $($any::$plain(law) => $any::$paired(Paired::new(law, bodies)),)+
                     law => law,
                 }
             })?
@@ -116,16 +116,16 @@ macro_rules! laws {
 
         $(
             $(impl Numbered for Paired {
-                const FIRST: Paired = Paired { law: $plain::FIRST, bodies: TwoBodies::under_rigid(0.0) };
+                const FIRST: Paired = Paired::new($plain::FIRST, TwoBodies::under_rigid(0.0));
 
                 #[inline(always)]
                 fn from_numbers(numbers: &LawNumbers) -> Option<Paired> {
-                    Some(Paired { law: $plain::from_numbers(numbers)?, ..Paired::FIRST })
+                    Some(Paired::new($plain::from_numbers(numbers)?, Paired::FIRST.bodies))
                 }
 
                 #[inline(always)]
                 fn of_bodies(self, bodies: TwoBodies) -> Paired {
-                    Paired { bodies, ..self }
+                    Paired::new(self.law, bodies)
                 }
             })+
 

@@ -2,11 +2,11 @@
 
 use crate::kind::{Library, MADE_FROM};
 use brinell_fmu::scene::identity_of;
-use brinell_fmu::scene::prebuilt::block::Block;
-use brinell_fmu::scene::prebuilt::{Memory, Prebuilt};
+use brinell_fmu::scene::library::block::{Block, Contents};
+use brinell_fmu::scene::library::{LibraryScene, Memory};
 
 /// The scene of this library.
-pub type Exported = Prebuilt<Library, Section>;
+pub type Exported = LibraryScene<Library, Section>;
 
 /// The section that holds the block.
 pub struct Section;
@@ -20,15 +20,17 @@ static BLOCK: Block = Block::unfilled(Section::LIBRARY);
 // the numbers in the block have the byte order in which the exporter writes them
 const _: () = assert!(cfg!(target_endian = "little"));
 
-impl Memory for Section {
+impl Section {
     const LIBRARY: u64 = identity_of(MADE_FROM);
 
+    /// The block. The compiler must not know its contents.
     #[cfg(target_arch = "wasm32")]
     #[inline(always)]
     fn block() -> &'static Block {
         crate::module::block()
     }
 
+    /// The block. The compiler must not know its contents.
     #[cfg(not(target_arch = "wasm32"))]
     #[inline(always)]
     #[expect(clippy::pointers_in_nomem_asm_block, reason = "there is nothing that could read what it points to")]
@@ -42,8 +44,20 @@ impl Memory for Section {
         unsafe { &*block }
     }
 
+    /// The same block as words.
     fn words() -> &'static [u64; Block::WORDS] {
         // SAFETY: a block consists of words without padding, as its size proves.
         unsafe { &*core::ptr::from_ref(Section::block()).cast() }
+    }
+}
+
+impl Memory for Section {
+    #[inline(always)]
+    fn contents() -> Contents<'static> {
+        Section::block().contents()
+    }
+
+    fn verify() -> Result<(), &'static str> {
+        Section::block().check(Section::words(), Section::LIBRARY)
     }
 }

@@ -1,34 +1,54 @@
-//! The scene of this library.
+//! The scene of this library: its kind as types, and its data as words.
 //!
 //! `brinell export` writes this file for every scene that it builds. The file in the source tree is that
 //! of `scenes/steel_ball.toml`, without identification; a test compares it with the output of the exporter.
 
-brinell_fmu::scene::scene! {
-    guid: "unpacked",
-    contacts: 1 in 1,
-    tables: [("", false, 1)],
-    surface: [Dented],
-    density: [Some(7850.0)],
-    laws: plain {
-        plain BigAlabo { yield_pressure_factor: 1.1, plastic_pressure_factor: 2.8, second_region: 13.93, fully_plastic: 82.5, plastic_slope: 5.09090909090909 },
-        plain ContactRadius {}
-    },
-    parts: { Forces = Absent, Momentum = Absent, Course = Present, Prediction = Absent, Coupling = Absent, Watch = Absent, Shared = Absent, InverseMasses = [f64; 0], Prepared = Absent },
-    settable: {
-        "impactor.radius" "m" [1e-12, 1e9] = 0.005,
-        "target.youngs_modulus" "Pa" [1.0, 1e18] = 2.06e11,
-        "target.poissons_ratio" "" [-0.99, 0.5] = 0.3,
-        "target.yield_strength" "Pa" [1e-9, 1e18] = 3e8,
-        "initial_gap" "m" [-1e6, 1e6] = 0.0,
-    },
-    parameters: {
-        ImpactorRadius: set 0,
-        TargetYoungsModulus: set 1,
-        TargetPoissonsRatio: set 2,
-        TargetYieldStrength: set 3,
-        InitialGap: set 4,
-    },
-    kinds: 5,
-    reals: { 0: IndentationRate, 1: Force, 2: Indentation, 3: ResidualIndentation, 4: DissipatedEnergy },
-    integers: {},
+use brinell_fmu::scene::library::{Kind, kinds};
+use brinell_fmu::{contact, scene};
+
+/// The contents of the library.
+pub struct Library;
+
+impl Kind for Library {
+    type Laws = kinds::Plastic<contact::loading::BigAlabo, contact::unloading::ContactRadius>;
+    type Sizes = kinds::Fixed<1, 1, 1, 5, 0>;
+    type Forces = scene::Absent;
+    type Momentum = scene::Absent;
+    type Course = scene::Present;
+    type Prediction = scene::Absent;
+    type Coupling = scene::Absent;
+    type Watch = scene::Absent;
+    type Shared = scene::Absent;
+    type Prepared = scene::Absent;
 }
+
+/// The data.
+#[rustfmt::skip]
+pub const WORDS: [u64; 152] = [
+    0xf7acd09c94e641, 0x80, 0x1, 0x1, 0x5, 0x5,
+    0x0, 0x1, 0x3ff199999999999a, 0x4006666666666666, 0x402bdc28f5c28f5c, 0x4054a00000000000,
+    0x40145d1745d1745c, 0x0, 0x0, 0x0, 0x0, 0x0,
+    0x0, 0x0, 0x0, 0x0, 0x0, 0x0,
+    0x0, 0x0, 0x0, 0x0, 0x0, 0x0,
+    0x0, 0x0, 0x0, 0x0, 0x0, 0x0,
+    0x0, 0x0, 0x0, 0x0, 0x3ff0000000000000, 0x0,
+    0x0, 0x3ff0000000000000, 0x1, 0x0, 0x0, 0x7ff0000000000000,
+    0x0, 0x0, 0x0, 0x7ff0000000000000, 0x0, 0x0,
+    0x0, 0x7ff0000000000000, 0x1, 0x1, 0x1, 0x2,
+    0x1, 0x3, 0x0, 0x0, 0x0, 0x3ff0000000000000,
+    0x0, 0x7ff0000000000000, 0x1, 0x4, 0x0, 0x3ff0000000000000,
+    0x0, 0x7ff0000000000000, 0x0, 0x0, 0xffffff0b04020100, 0xffffffffffffffff,
+    0xffffffffffffffff, 0xffffffffffffffff, 0xffffffffffffffff, 0xffffffffffffffff, 0xffffffffffffffff, 0xffffffffffffffff,
+    0x500000000, 0x2800000005, 0x2d, 0x0, 0x0, 0xc00000031,
+    0x40000002d, 0x1, 0x0, 0x0, 0x40beaa0000000000, 0x0,
+    0x1, 0xffffffffffffffff, 0x0, 0x3f747ae147ae147b, 0x3d719799812dea11, 0x41cdcd6500000000,
+    0xf, 0xf00000001, 0x2, 0xffffffffffffffff, 0x0, 0x4247fb4746000000,
+    0x3ff0000000000000, 0x43abc16d674ec800, 0x1000000015, 0x2500000002, 0x3, 0xffffffffffffffff,
+    0x0, 0x3fd3333333333333, 0xbfefae147ae147ae, 0x3fe0000000000000, 0x2700000015, 0x3c00000000,
+    0x4, 0xffffffffffffffff, 0x0, 0x41b1e1a300000000, 0x3e112e0be826d695, 0x43abc16d674ec800,
+    0x3c00000015, 0x5100000002, 0x5, 0xffffffffffffffff, 0x0, 0x0,
+    0xc12e848000000000, 0x412e848000000000, 0x530000000b, 0x5e00000001, 0x20666f2044495547, 0x7469676964203233,
+    0x7720746168742073, 0x656d6f63206c6c69, 0x726f746361706d69, 0x6d7375696461722e, 0x792e746567726174, 0x6f6d5f73676e756f,
+    0x74615073756c7564, 0x6f702e7465677261, 0x725f736e6f737369, 0x677261746f697461, 0x646c6569792e7465, 0x74676e657274735f,
+    0x6974696e69615068, 0x6d7061675f6c61,
+];

@@ -10,7 +10,7 @@ use brinell_fmu::fmi2::{lifecycle, states, status, stepping, variables};
 #[cfg(feature = "prebuilt")]
 use crate::block::Exported;
 #[cfg(not(feature = "prebuilt"))]
-use crate::exported::Exported;
+use crate::known::Exported;
 
 /// The platform types: those of `fmi2TypesPlatform.h`, "default".
 #[unsafe(no_mangle)]

@@ -4,7 +4,7 @@
 //! without identification; a test compares it with the output of the program.
 
 /// The kind.
-pub type Library = brinell_fmu::scene::prebuilt::kinds::State;
+pub type Library = brinell_fmu::scene::library::kinds::State;
 
 /// A hash of the sources of the library.
 pub const MADE_FROM: &str = "unpacked";

@@ -8,7 +8,7 @@
 //! ```
 //! use brinell_fmu::instance::Instance;
 //! use brinell_fmu::scene::Real;
-//! use brinell_unit::exported::Exported;
+//! use brinell_unit::known::Exported;
 //!
 //! let mut instance = Instance::<Exported>::new().unwrap();
 //! instance.set_experiment(0.0, None).unwrap();
@@ -30,6 +30,8 @@ pub mod exported;
 mod exports;
 #[cfg(feature = "prebuilt")]
 pub mod kind;
+#[cfg(not(feature = "prebuilt"))]
+pub mod known;
 #[cfg(all(feature = "prebuilt", target_arch = "wasm32"))]
 mod module;
 #[cfg(feature = "cdylib")]

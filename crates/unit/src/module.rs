@@ -5,7 +5,7 @@ use crate::block::Exported;
 use brinell_fmu::c::state::Snapshot;
 use brinell_fmu::fmi2::component::Component;
 use brinell_fmu::instance::Instance;
-use brinell_fmu::scene::prebuilt::block::Block;
+use brinell_fmu::scene::library::block::Block;
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
 

@@ -9,38 +9,32 @@ use brinell_fmu::fmi2::component::Component;
 use brinell_fmu::instance::{Fault, Instance, Warning};
 use brinell_fmu::scene::Real;
 use brinell_fmu::scene::Scene;
-use brinell_fmu::scene::prebuilt::block::Block;
-use brinell_fmu::scene::prebuilt::kinds::{
-    Damped, Lossy, LossyPlane, LossyRough, Momentum, Moved, Plane, Rated, Rough, State,
+use brinell_fmu::scene::library::block::Block;
+use brinell_fmu::scene::library::block::Contents;
+use brinell_fmu::scene::library::kinds::{
+    Dampings, Friction, Friction2, Losses, LossyFriction, LossyFriction2, Momentum, Moved, State, Strengths,
 };
-use brinell_fmu::scene::prebuilt::{Memory, Prebuilt};
+use brinell_fmu::scene::library::{LibraryScene, Memory};
 use std::cell::Cell;
 
-/// The data of a scene, as what they are and as words.
-type Scenery = (Block, [u64; Block::WORDS]);
-
 thread_local! {
-    /// Those of the scene that runs.
-    static SCENERY: Cell<&'static Scenery> = Cell::new(leaked(Block::unfilled(Place::LIBRARY)));
+    /// The block of the scene that runs.
+    static BLOCK: Cell<&'static Block> = Cell::new(Box::leak(Box::new(Block::unfilled(LIBRARY))));
 }
 
-fn leaked(block: Block) -> &'static Scenery {
-    let mut words = block.words();
-    Box::leak(Box::new((block, std::array::from_fn(|_| words.next().unwrap_or(0)))))
-}
+/// Identifies the library: the data are not checked, since nothing but this page writes them.
+const LIBRARY: u64 = 1;
 
 /// The place of the block.
 struct Place;
 
 impl Memory for Place {
-    const LIBRARY: u64 = 1;
-
-    fn block() -> &'static Block {
-        &SCENERY.get().0
+    fn contents() -> Contents<'static> {
+        BLOCK.get().contents()
     }
 
-    fn words() -> &'static [u64; Block::WORDS] {
-        &SCENERY.get().1
+    fn verify() -> Result<(), &'static str> {
+        Ok(())
     }
 }
 
@@ -99,18 +93,18 @@ impl<S: Scene> Unit for Instance<S> {
 /// # Errors
 /// A reason in words, if the page does not know its library.
 pub fn instances(unit: &PrebuiltUnit, count: usize) -> Result<Vec<&'static mut dyn Unit>, String> {
-    SCENERY.set(leaked(unit.block(Place::LIBRARY)));
+    BLOCK.set(Box::leak(Box::new(unit.block(LIBRARY))));
     let make = match unit.library.name {
-        "state" => made::<Prebuilt<State, Place>>,
-        "momentum" => made::<Prebuilt<Momentum, Place>>,
-        "moved" => made::<Prebuilt<Moved, Place>>,
-        "lossy" => made::<Prebuilt<Lossy, Place>>,
-        "rate" => made::<Prebuilt<Rated, Place>>,
-        "damped" => made::<Prebuilt<Damped, Place>>,
-        "friction" => made::<Prebuilt<Rough, Place>>,
-        "friction-2" => made::<Prebuilt<Plane, Place>>,
-        "lossy-friction" => made::<Prebuilt<LossyRough, Place>>,
-        "lossy-friction-2" => made::<Prebuilt<LossyPlane, Place>>,
+        "state" => made::<LibraryScene<State, Place>>,
+        "momentum" => made::<LibraryScene<Momentum, Place>>,
+        "moved" => made::<LibraryScene<Moved, Place>>,
+        "lossy" => made::<LibraryScene<Losses, Place>>,
+        "rate" => made::<LibraryScene<Strengths, Place>>,
+        "damped" => made::<LibraryScene<Dampings, Place>>,
+        "friction" => made::<LibraryScene<Friction, Place>>,
+        "friction-2" => made::<LibraryScene<Friction2, Place>>,
+        "lossy-friction" => made::<LibraryScene<LossyFriction, Place>>,
+        "lossy-friction-2" => made::<LibraryScene<LossyFriction2, Place>>,
         other => return Err(format!("the page does not know the library `{other}`")),
     };
     (0..count).map(|_| make()).collect()

@@ -8,7 +8,7 @@ mod module;
 
 pub use module::{ModuleError, WASM2C, c_text};
 
-use brinell_fmu::scene::prebuilt::block::Block;
+use brinell_fmu::scene::library::block::Block;
 use std::fmt::Write;
 
 /// The first line of the text of a library: the other files don't fit a text of another version.
@@ -60,7 +60,7 @@ pub fn with_scene(library: &[u8], block: &Block, name: &str, variables: usize) -
 mod tests {
     use super::{FORMAT, FUNCTIONS, RUNTIME, with_scene};
     use crate::platform::Platform;
-    use brinell_fmu::scene::prebuilt::block::Block;
+    use brinell_fmu::scene::library::block::Block;
 
     #[test]
     fn a_text_of_another_version_takes_no_scene() {

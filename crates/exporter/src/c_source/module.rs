@@ -5,7 +5,7 @@
 //! no function is reached but by its name, so that the calls form a graph, whose deepest path bounds the stack.
 
 use super::{FORMAT, FUNCTIONS};
-use brinell_fmu::scene::prebuilt::block::Block;
+use brinell_fmu::scene::library::block::Block;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write;
 
@@ -29,9 +29,7 @@ pub enum ModuleError {
 const IMPORTS: [&str; 3] = ["calloc", "free", "brinell_log"];
 
 /// The functions that call themselves, by a part of their name, and how deep at most.
-const RECURSIONS: [(&str, u64); 4] = [
-    // a law of two bodies is read as the law of one body that it is made of
-    ("from_numbers", 2),
+const RECURSIONS: [(&str, u64); 3] = [
     // a contact without springs goes on as one that has some
     ("9mean_pull", 2),
     // a contact at rest goes on as one that has begun to move

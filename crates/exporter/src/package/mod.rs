@@ -78,19 +78,12 @@ pub fn pack(
     Ok((archive.finish()?, packed))
 }
 
-/// Placeholder of the same length for the GUID. In quotes it can't occur anywhere else: in the texts of a scene,
-/// quotes are written as `&quot;` and `\"`.
+/// Placeholder of the same length for the GUID, for what its hash is made of.
 pub const GUID_TO_COME: &str = "GUID of 32 digits that will come";
 
-/// `text` with the GUID instead of the placeholder.
-pub fn identified(text: &str, guid: &str) -> String {
-    let quoted = |text: &str| format!("\"{text}\"");
-    text.replacen(&quoted(GUID_TO_COME), &quoted(guid), 1)
-}
-
 /// The GUID of the planned FMU: a hash of its description, of its `data` and of the sources of its library.
-pub fn guid(plan: &Plan, data: &[&str], sources: &str) -> String {
+pub(crate) fn guid(plan: &Plan, data: &str, sources: &str) -> String {
     let written = Hash::default().with_written(|to| model_description::write(plan, GUID_TO_COME, None, to));
     let written = written.expect("a hash takes everything");
-    written.with_all(data.iter().copied()).with(sources).digits()
+    written.with(data).with(sources).digits()
 }

@@ -1,7 +1,7 @@
 //! Writing the data of a scene into a prebuilt library.
 
 use crate::signature::{self, SignatureError};
-use brinell_fmu::scene::prebuilt::block::{Block, Data, MAGIC, VERSION};
+use brinell_fmu::scene::library::block::{Block, MAGIC, VERSION};
 use object::{BinaryFormat, Object, ObjectSection};
 use std::ops::Range;
 
@@ -27,13 +27,13 @@ pub enum FillError {
     Signature(#[from] SignatureError),
 }
 
-/// Writes `data` to `library`. The number `identity` identifies the library.
+/// Writes the `block` of a scene to `library`.
 ///
 /// # Errors
 /// [`FillError`]; part of the data may then be written.
-pub fn fill(library: &mut [u8], identity: u64, data: Data) -> Result<(), FillError> {
-    let block: Vec<u8> = Block::filled(identity, data).words().flat_map(u64::to_le_bytes).collect();
-    let empty: Vec<u8> = Block::unfilled(identity).words().flat_map(u64::to_le_bytes).collect();
+pub fn fill(library: &mut [u8], block: &Block) -> Result<(), FillError> {
+    let empty: Vec<u8> = Block::unfilled(block.library).words().flat_map(u64::to_le_bytes).collect();
+    let block: Vec<u8> = block.words().flat_map(u64::to_le_bytes).collect();
     debug_assert_eq!([block.len(), empty.len()], [size_of::<Block>(); 2]);
     let (format, section) = section(library)?;
     let room = &library[section.clone()];

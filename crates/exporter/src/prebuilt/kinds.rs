@@ -1,6 +1,6 @@
 //! The kinds of prebuilt libraries. This is the only list of them.
 
-use crate::constants;
+use crate::library;
 use crate::package::Hash;
 use crate::scene::Scene;
 
@@ -8,7 +8,7 @@ use crate::scene::Scene;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Library {
     pub name: &'static str,
-    /// Its type in `brinell_fmu::scene::prebuilt::kinds`.
+    /// Its type in `brinell_fmu::scene::library::kinds`.
     kind: &'static str,
     /// What it is for.
     pub says: &'static str,
@@ -23,19 +23,19 @@ pub const LIBRARIES: [Library; 10] = [
         says: "plastic laws with `impulse` or `mean_force`, and several contacts",
     },
     Library { name: "moved", kind: "Moved", says: "plastic laws with `[coupling]`, and with `[[body]]`" },
-    Library { name: "lossy", kind: "Lossy", says: "plastic laws with losses below yield" },
-    Library { name: "rate", kind: "Rated", says: "plastic laws with `rate` and `[coupling]`" },
-    Library { name: "damped", kind: "Damped", says: "rate-dependent laws" },
-    Library { name: "friction", kind: "Rough", says: "`[friction]` in one direction" },
-    Library { name: "friction-2", kind: "Plane", says: "`[friction]` in two directions" },
+    Library { name: "lossy", kind: "Losses", says: "plastic laws with losses below yield" },
+    Library { name: "rate", kind: "Strengths", says: "plastic laws with `rate` and `[coupling]`" },
+    Library { name: "damped", kind: "Dampings", says: "rate-dependent laws" },
+    Library { name: "friction", kind: "Friction", says: "`[friction]` in one direction" },
+    Library { name: "friction-2", kind: "Friction2", says: "`[friction]` in two directions" },
     Library {
         name: "lossy-friction",
-        kind: "LossyRough",
+        kind: "LossyFriction",
         says: "`[friction]` in one direction with losses below yield",
     },
     Library {
         name: "lossy-friction-2",
-        kind: "LossyPlane",
+        kind: "LossyFriction2",
         says: "`[friction]` in two directions with losses below yield",
     },
 ];
@@ -68,6 +68,6 @@ impl Library {
 
     /// The source file with this identification.
     pub fn source_with(&self, made_from: &str) -> String {
-        constants::kind(self.kind, made_from)
+        library::kind(self.kind, made_from)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::fill::{FillError, fill};
 use crate::signature::{SignatureError, check};
-use brinell_fmu::scene::prebuilt::block::{Block, Data, GUID};
+use brinell_fmu::scene::library::block::{Block, Data, KINDS};
 use sha2::{Digest, Sha256};
 
 const LIBRARY: u64 = 42;
@@ -20,9 +20,9 @@ const END: usize = (PAGES - 1) * PAGE + 16;
 /// Length of the hashes with their head.
 const HASHES: usize = 88 + PAGES * 32;
 
-fn data() -> Data {
-    // the identity is on the first of the two pages, the GUID on the second
-    Data { identity: 7, guid: [b'7'; GUID], ..Data::EMPTY }
+fn scene(library: u64) -> Block {
+    // the identity is on the first of the two pages, the codes on the second
+    Block::filled(library, Data { identity: 7, codes: [7; KINDS], ..Data::EMPTY }, &[]).expect("room for no list")
 }
 
 fn bytes_of(block: Block) -> Vec<u8> {
@@ -78,9 +78,9 @@ fn a_filled_library_has_the_data_and_the_hashes_of_its_pages() {
     let empty = library(true);
     check(&empty).expect("the file built by hand is right");
     let mut filled = empty.clone();
-    fill(&mut filled, LIBRARY, data()).expect("a good library");
+    fill(&mut filled, &scene(LIBRARY)).expect("a good library");
     check(&filled).expect("every page has its hash");
-    let block = bytes_of(Block::filled(LIBRARY, data()));
+    let block = bytes_of(scene(LIBRARY));
     assert!(filled[BLOCK_AT..].starts_with(&block));
     // nothing else changes except the hashes of the pages that do
     let others = |place: &usize| !(BLOCK_AT..BLOCK_AT + block.len()).contains(place) && *place < END + 20 + 88;
@@ -96,7 +96,7 @@ fn a_filled_library_has_the_data_and_the_hashes_of_its_pages() {
 
 #[test]
 fn a_library_that_macos_would_not_load_is_refused() {
-    let refused = |mut library: Vec<u8>| fill(&mut library, LIBRARY, data()).unwrap_err();
+    let refused = |mut library: Vec<u8>| fill(&mut library, &scene(LIBRARY)).unwrap_err();
     assert!(matches!(refused(library(false)), FillError::Signature(SignatureError::None)));
     // one wrong byte in each page
     for page in 0..PAGES {
@@ -123,8 +123,8 @@ fn a_library_that_macos_would_not_load_is_refused() {
 #[test]
 fn a_library_of_another_kind_or_one_that_is_filled_already_is_refused() {
     let mut library = library(true);
-    assert!(matches!(fill(&mut library.clone(), LIBRARY + 1, data()), Err(FillError::NotEmpty)));
-    fill(&mut library, LIBRARY, data()).expect("a good library");
-    assert!(matches!(fill(&mut library, LIBRARY, data()), Err(FillError::NotEmpty)));
-    assert!(matches!(fill(&mut [0; 100], LIBRARY, data()), Err(FillError::Unreadable(_))));
+    assert!(matches!(fill(&mut library.clone(), &scene(LIBRARY + 1)), Err(FillError::NotEmpty)));
+    fill(&mut library, &scene(LIBRARY)).expect("a good library");
+    assert!(matches!(fill(&mut library, &scene(LIBRARY)), Err(FillError::NotEmpty)));
+    assert!(matches!(fill(&mut [0; 100], &scene(LIBRARY)), Err(FillError::Unreadable(_))));
 }

@@ -1,32 +1,39 @@
 //! Prebuilt libraries: FMUs without a compiler.
 //!
-//! A prebuilt library contains all laws, and has a block of memory for the data of a scene (`brinell_fmu::scene::prebuilt`). Such
+//! A prebuilt library contains all laws, and has a block of memory for the data of a scene (`brinell_fmu::scene::library`). Such
 //! libraries are compiled once, one for each kind; an export copies the one of its scene and writes the data to the copy.
 
 pub mod archive;
 mod fill;
-mod fit;
 mod kinds;
 #[cfg(test)]
 mod macho_tests;
 
 pub use fill::FillError;
-pub use fit::NeedsCompiler;
 pub use kinds::{LIBRARIES, Library};
 
 use crate::c_source;
-use crate::package::{GUID_TO_COME, guid};
+use crate::library::{SceneData, guid_of};
 use crate::plan::Plan;
+use crate::scene::Scene;
 use brinell_fmu::scene::identity_of;
-use brinell_fmu::scene::prebuilt::block::{Block, Data};
+use brinell_fmu::scene::library::block::{Block, POOL};
+
+/// A scene that fits no prebuilt library.
+#[derive(Debug, thiserror::Error)]
+#[error("{key}: {reason}")]
+pub struct NeedsCompiler {
+    /// The part of the scene that is the reason.
+    pub key: &'static str,
+    pub reason: String,
+}
 
 /// An FMU from a prebuilt library.
 pub struct PrebuiltUnit {
     pub guid: String,
     /// Its library.
     pub library: Library,
-    made_from: String,
-    data: Data,
+    block: Block,
     /// Its name, and the number of its variables.
     face: (String, usize),
 }
@@ -37,20 +44,23 @@ impl PrebuiltUnit {
     /// # Errors
     /// [`NeedsCompiler`] if no prebuilt library fits the scene.
     pub fn of(plan: &Plan, sources: &str) -> Result<PrebuiltUnit, NeedsCompiler> {
-        let library = Library::of(plan.scene);
-        let (source, made_from) = library.source(sources);
-        // the size of the data does not depend on the value of the GUID
-        let block = Block::filled(0, fit::data_of(plan, GUID_TO_COME)?);
-        let words: String = block.words().map(|word| format!("{word:016x}")).collect();
-        let guid = guid(plan, &[&words, &source], sources);
-        let data = fit::data_of(plan, &guid)?;
-        let face = (plan.scene.name.clone(), plan.variables.iter().map(|entry| entry.count).sum());
-        Ok(PrebuiltUnit { guid, library, made_from, data, face })
+        let scene = plan.scene;
+        if scene.standalone {
+            let reason = "prebuilt libraries take their memory from the process".into();
+            return Err(NeedsCompiler { key: "fmu.standalone", reason });
+        }
+        let library = Library::of(scene);
+        let (_, made_from) = library.source(sources);
+        let guid = guid_of(plan, sources);
+        let SceneData { data, lists } = SceneData::of(plan, &guid);
+        let block = Block::filled(identity_of(&made_from), data, &lists).ok_or_else(|| too_long(scene, &lists))?;
+        let face = (scene.name.clone(), plan.variables.iter().map(|entry| entry.count).sum());
+        Ok(PrebuiltUnit { guid, library, block, face })
     }
 
     /// Its data for the library with this `identity`.
     pub fn block(&self, identity: u64) -> Block {
-        Block::filled(identity, self.data)
+        Block { library: identity, ..self.block }
     }
 
     /// Writes the data of the scene to a copy of its library.
@@ -58,7 +68,7 @@ impl PrebuiltUnit {
     /// # Errors
     /// [`FillError`]; part of the data may then be written.
     pub fn fill(&self, library: &mut [u8]) -> Result<(), FillError> {
-        fill::fill(library, identity_of(&self.made_from), self.data)
+        fill::fill(library, &self.block)
     }
 
     /// The C source of its `library` with the data of the scene.
@@ -66,8 +76,19 @@ impl PrebuiltUnit {
     /// # Errors
     /// [`FillError::NoSource`]
     pub fn fill_source(&self, library: &[u8]) -> Result<Vec<u8>, FillError> {
-        let block = Block::filled(identity_of(&self.made_from), self.data);
         let (name, variables) = &self.face;
-        c_source::with_scene(library, &block, name, *variables).ok_or(FillError::NoSource)
+        c_source::with_scene(library, &self.block, name, *variables).ok_or(FillError::NoSource)
+    }
+}
+
+/// The reason why the `lists` of a scene have no room in a library.
+fn too_long(scene: &Scene, lists: &[u64]) -> NeedsCompiler {
+    NeedsCompiler {
+        key: if scene.inverse_masses.is_some() { "[[body]]" } else { "[[contact]]" },
+        reason: format!(
+            "the data of this scene take {} bytes, and prebuilt libraries have room for {}",
+            8 * lists.len(),
+            8 * POOL
+        ),
     }
 }

@@ -3,9 +3,10 @@
 
 use super::{InverseMasses, Scene};
 use crate::mistake::SceneError;
+use crate::package::GUID_TO_COME;
 use crate::plan::Plan;
 use crate::table::VARIABLES;
-use crate::{constants, documentation, model_description};
+use crate::{documentation, library, model_description};
 use brinell_testing::mutations::{assert_message, cases, text};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -56,7 +57,7 @@ fn read(case: &str) -> Result<bool, SceneError> {
     // millions of contacts would only take time
     if scene.contact_count() < 500 {
         let plan = Plan::of(&scene);
-        let written = constants::write(&plan, "unpacked").len() + documentation::write(&plan).len();
+        let written = library::write(&plan, GUID_TO_COME).len() + documentation::write(&plan).len();
         let mut xml = Vec::new();
         model_description::write(&plan, "guid", None, &mut xml).expect("memory can be written to");
         let xml = String::from_utf8(xml).expect("XML is UTF-8");

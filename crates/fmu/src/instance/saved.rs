@@ -7,7 +7,9 @@ use brinell_contact::words::{count, load_kept, load_numbers, store_kept, store_n
 
 impl<S: Scene> Instance<S> {
     /// Which of time, stop time and last step are stored: the last step only if a force is predicted from it.
-    const TIMES: [bool; 3] = [true, true, S::Prediction::IS_PRESENT];
+    fn kept_times() -> [bool; 3] {
+        [true, true, S::predicts()]
+    }
 
     /// Which numbers of a [`Curve`] are stored: the derivatives that its input may have, and the end of the last step.
     fn kept_of_curve() -> [bool; 4] {
@@ -41,7 +43,7 @@ impl<S: Scene> Instance<S> {
     /// Number of words that hold an instance.
     #[inline(always)]
     pub fn words() -> usize {
-        2 + count(Self::TIMES)
+        2 + count(Self::kept_times())
             + S::values()
             + S::inverse_mass_inputs()
             + 2 * S::groups()
@@ -114,7 +116,7 @@ impl<S: Scene> Instance<S> {
         let flags = u64::from(self.clock.experiment_defined) | u64::from(self.clock.curved) << 1;
         store(self.clock.phase as u64);
         store(flags);
-        store_kept([self.clock.time, self.clock.stop(), last_step], Self::TIMES, &mut store);
+        store_kept([self.clock.time, self.clock.stop(), last_step], Self::kept_times(), &mut store);
         store_numbers(self.settings.values.as_ref(), &mut store);
         store_numbers(self.contacts.inverse_masses.as_ref(), &mut store);
         for bodies in self.settings.bodies.as_ref() {
@@ -153,7 +155,7 @@ impl<S: Scene> Instance<S> {
         let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
         let (phase, flags) = (words.next()?, words.next().filter(|&flags| flags <= 3)?);
         let phase = Phase::ALL.into_iter().find(|&known| known as u64 == phase)?;
-        let [time, stop, last_step] = load_kept(Self::TIMES, &mut words)?;
+        let [time, stop, last_step] = load_kept(Self::kept_times(), &mut words)?;
         let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
         let Settings { bodies, values, stamp, .. } = &mut self.settings;
         // that of no scene, until all is known

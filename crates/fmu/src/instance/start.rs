@@ -60,12 +60,19 @@ pub(super) fn pair_of<S: Scene>(group: usize, values: &S::Values) -> Result<Pair
 
 /// The bodies and laws of `group`; its `bodies` are those of `values`.
 pub(super) fn model_of<S: Scene>(group: usize, bodies: &BodiesOf<S>, values: &S::Values) -> S::Model {
-    let value = |parameter| S::parameter(parameter, group, values);
-    let [yield_strength, youngs_modulus, poissons_ratio] = match S::impactor_yields(group, values) {
-        true => [Parameter::ImpactorYieldStrength, Parameter::ImpactorYoungsModulus, Parameter::ImpactorPoissonsRatio],
-        false => [Parameter::TargetYieldStrength, Parameter::TargetYoungsModulus, Parameter::TargetPoissonsRatio],
-    }
-    .map(value);
+    // asked for by its name, a parameter that is a constant costs nothing
+    let (yield_strength, youngs_modulus, poissons_ratio) = match S::impactor_yields(group, values) {
+        true => (
+            S::parameter(Parameter::ImpactorYieldStrength, group, values),
+            S::parameter(Parameter::ImpactorYoungsModulus, group, values),
+            S::parameter(Parameter::ImpactorPoissonsRatio, group, values),
+        ),
+        false => (
+            S::parameter(Parameter::TargetYieldStrength, group, values),
+            S::parameter(Parameter::TargetYoungsModulus, group, values),
+            S::parameter(Parameter::TargetPoissonsRatio, group, values),
+        ),
+    };
     let pair = Pair { radius: bodies.radius, modulus: bodies.modulus, yield_strength, youngs_modulus, poissons_ratio };
     S::model(pair, group, values)
 }

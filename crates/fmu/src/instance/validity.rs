@@ -18,8 +18,8 @@ pub(super) fn largest_rate<S: Scene>(values: &S::Values) -> f64 {
 
 /// The smaller radius of the bodies of `group` \[m\].
 pub(super) fn size<S: Scene>(group: usize, values: &S::Values) -> f64 {
-    let radii = [Parameter::ImpactorRadius, Parameter::TargetRadius];
-    validity::size_of(radii.map(|radius| S::parameter(radius, group, values)))
+    let value = |parameter| S::parameter(parameter, group, values);
+    validity::size_of([value(Parameter::ImpactorRadius), value(Parameter::TargetRadius)])
 }
 
 impl<S: Scene> Settings<S> {

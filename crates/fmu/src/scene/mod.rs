@@ -1,17 +1,15 @@
 //! The scene: its contacts, their laws, its settable values and the outputs that it requests.
 //!
 //! A scene is a type. An [`Instance`](crate::instance::Instance) is compiled for one, so that features that the scene does not
-//! request take neither memory nor time. The exporter writes one for the scene of each FMU, as data of the macro [`scene!`]; a
-//! program may write its own. The scene of a prebuilt library, [`prebuilt::Prebuilt`], is read from memory.
+//! request take neither memory nor time. That of a library, [`library::LibraryScene`], has its types and its data from the exporter; a
+//! program may write its own.
 
 pub mod coupling;
-pub mod described;
-pub mod prebuilt;
+pub mod library;
 pub mod storage;
 pub mod variable;
 
 pub use coupling::{Coupled, Coupling};
-pub use described::scene;
 pub use storage::{Absent, Presence, Present, Store};
 pub use variable::{Integer, Parameter, Real, Settable};
 
@@ -109,6 +107,12 @@ pub trait Scene: Sized {
     #[inline(always)]
     fn has_course() -> bool {
         Self::Course::IS_PRESENT
+    }
+
+    /// Whether an output predicts the force at the end of the next step.
+    #[inline(always)]
+    fn predicts() -> bool {
+        Self::Prediction::IS_PRESENT
     }
 
     /// Whether an output needs the momentum of a step.
@@ -352,37 +356,37 @@ pub fn impactor_yields(value: impl Fn(Parameter) -> f64) -> bool {
 }
 
 /// What the law `brinell` needs to know of the bodies beside their [`Pair`]; `value` gives the parameters of the scene.
-#[inline(always)]
-pub fn two_bodies(value: impl Fn(Parameter) -> f64) -> TwoBodies {
-    let target = [
-        Parameter::TargetRadius,
-        Parameter::TargetYoungsModulus,
-        Parameter::TargetPoissonsRatio,
-        Parameter::TargetYieldStrength,
-        Parameter::TargetHardeningModulus,
-    ];
-    let impactor = [
-        Parameter::ImpactorRadius,
-        Parameter::ImpactorYoungsModulus,
-        Parameter::ImpactorPoissonsRatio,
-        Parameter::ImpactorYieldStrength,
-        Parameter::ImpactorHardeningModulus,
-    ];
-    let body = |[radius, youngs_modulus, poissons_ratio, ..]: [Parameter; 5]| Body {
-        radius: value(radius),
-        youngs_modulus: value(youngs_modulus),
-        poissons_ratio: value(poissons_ratio),
-    };
-    let (softer, harder) = if impactor_yields(&value) { (impactor, target) } else { (target, impactor) };
-    let (soft, hard) = (body(softer), body(harder));
+#[inline(never)]
+pub fn two_bodies(value: impl Fn(Parameter) -> f64 + Copy) -> TwoBodies {
+    // body, yield strength and hardening modulus
+    let target = (
+        Body {
+            radius: value(Parameter::TargetRadius),
+            youngs_modulus: value(Parameter::TargetYoungsModulus),
+            poissons_ratio: value(Parameter::TargetPoissonsRatio),
+        },
+        value(Parameter::TargetYieldStrength),
+        value(Parameter::TargetHardeningModulus),
+    );
+    let impactor = (
+        Body {
+            radius: value(Parameter::ImpactorRadius),
+            youngs_modulus: value(Parameter::ImpactorYoungsModulus),
+            poissons_ratio: value(Parameter::ImpactorPoissonsRatio),
+        },
+        value(Parameter::ImpactorYieldStrength),
+        value(Parameter::ImpactorHardeningModulus),
+    );
+    let ((soft, _, hardening_modulus), (hard, yield_strength, hardening_of_other)) =
+        if impactor_yields(value) { (impactor, target) } else { (target, impactor) };
     TwoBodies {
-        hardening_modulus: value(softer[4]),
+        hardening_modulus,
         curvature: soft.curvature(&hard),
         other: OtherBody {
             modulus: hard.plane_strain_modulus(),
             poissons_ratio: hard.poissons_ratio,
-            yield_strength: value(harder[3]),
-            hardening_modulus: value(harder[4]),
+            yield_strength,
+            hardening_modulus: hardening_of_other,
         },
     }
 }

@@ -13,8 +13,10 @@ macro_rules! variables {
         $(#[$says])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum $kind {
-            $($(#[$means])* $variant,)+
+            // it is the first: if the numbers of a scene's variables were those of their kinds, the compiler would take the kind for a
+            // variable, and could leave out no variable
             $($(#[$other_means])* $other($held),)?
+            $($(#[$means])* $variant,)+
         }
 
         impl $kind {
@@ -25,6 +27,17 @@ macro_rules! variables {
             pub fn of_number(place: u8) -> Option<$kind> {
                 const KINDS: [$kind; [$($name),+].len()] = [$($kind::$variant),+];
                 KINDS.get(usize::from(place)).copied()
+            }
+
+            /// The first variable whose place among all of them is the one. Where the compiler knows for which it is, it leaves out the
+            /// others.
+            #[inline(always)]
+            pub fn found(is: impl Fn(u8) -> bool) -> Option<$kind> {
+                enum Place { $($variant),+ }
+                $(if is(Place::$variant as u8) {
+                    return Some($kind::$variant);
+                })+
+                None
             }
         }
     };
@@ -106,47 +119,7 @@ pub struct Settable {
     pub maximum: f64,
 }
 
-/// Consecutive values of one settable parameter.
-#[derive(Clone, Copy, Debug)]
-pub struct Run {
-    /// The index after the last one.
-    pub end: usize,
-    /// The contact of the first value, if each contact has its own. Otherwise there is one value.
-    pub first_contact: Option<usize>,
-}
-
-/// The index of the run to which the value with this `index` belongs, and its contact if each contact has its own value.
-pub fn run_of(runs: &[Run], index: usize) -> Option<(usize, Option<usize>)> {
-    let place = runs.partition_point(|run| run.end <= index);
-    let begin = place.checked_sub(1).and_then(|before| runs.get(before)).map_or(0, |run| run.end);
-    let first = runs.get(place)?.first_contact;
-    Some((place, first.map(|first| first + (index - begin))))
-}
-
-/// Sets the `values` of all `runs`. All values of a run are equal to its element of `starts`.
-pub fn spread(runs: &[Run], starts: &[f64], values: &mut [f64]) {
-    let mut slots = values.iter_mut();
-    let mut begin = 0;
-    for (run, &start) in runs.iter().zip(starts) {
-        slots.by_ref().take(run.end - begin).for_each(|value| *value = start);
-        begin = run.end;
-    }
-}
-
-/// The name of a contact and its number, as for [`Scene::contact_name`](super::Scene::contact_name). `names` and `ends` have
-/// one element for each group; the flag in `names` is true if contacts are counted.
-pub fn name_in(
-    names: &[(&'static [u8], bool)],
-    ends: &[usize],
-    group: usize,
-    contact: usize,
-) -> (&'static [u8], usize) {
-    let (name, counted) = names.get(group).copied().unwrap_or((&[], false));
-    let first = group.checked_sub(1).and_then(|before| ends.get(before)).copied().unwrap_or(0);
-    (name, if counted { contact + 1 - first } else { 0 })
-}
-
-/// The origin of the value of a parameter, if groups of contacts differ.
+/// The origin of the value of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
     /// The parameter with this index among [`Scene::Values`](super::Scene::Values).
@@ -337,12 +310,4 @@ variables! {
         /// Number of the state of [`Sliding`](brinell_contact::tangential::Sliding).
         Sliding = "sliding",
     }
-}
-
-/// The kind of variable that a value reference denotes, and its contact. The variables of a kind are consecutive.
-#[inline(always)]
-pub fn kind_and_contact(value_reference: u32, contacts: usize) -> (u32, usize) {
-    let contacts = contacts as u32;
-    let kind = value_reference.checked_div(contacts).unwrap_or(0);
-    (kind, (value_reference - kind * contacts) as usize)
 }

@@ -1,6 +1,7 @@
-//! The data of a scene as a block of memory inside a prebuilt library.
+//! The data of a scene: [`Data`], whose lists lie in a pool of words.
 //!
-//! The exporter fills it in; the library only reads it. All numbers are 64-bit words, little-endian as on every supported
+//! In a prebuilt library both are a [`Block`] of memory, which the exporter fills in and the library only reads. A compiled library has
+//! them as constants, [made](Data::of_words) from the same words. All numbers are 64-bit words, little-endian as on every supported
 //! platform.
 
 use crate::c::words::{bytes_of, numbers_of};
@@ -8,12 +9,13 @@ use crate::scene::Parameter;
 use crate::scene::variable::Source;
 use brinell_contact::LawNumbers;
 use brinell_contact::rate::Rate;
+use core::ops::Deref;
 
 /// First word of every block ("brinell" and a zero).
 pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 
 /// Version of the layout.
-pub const VERSION: u64 = 7;
+pub const VERSION: u64 = 8;
 
 /// Capacity for kinds of variables of a contact.
 pub const KINDS: usize = 64;
@@ -21,15 +23,15 @@ pub const KINDS: usize = 64;
 /// Capacity for the [lists](List) \[words\].
 pub const POOL: usize = 16_384;
 
-/// Length of a GUID \[bytes\].
-pub const GUID: usize = 32;
-
 /// The first code of a kind of variable that denotes an Integer. The codes follow the order of [`Real`](crate::scene::Real), then
 /// of [`Integer`](crate::scene::Integer).
 pub const FIRST_INTEGER: u8 = 128;
 
 /// The code of no kind.
 pub const NO_KIND: u8 = u8::MAX;
+
+/// The kind of variable of each code; [`NO_KIND`] of a code that no variable has.
+pub type Places = [u8; NO_KIND as usize + 1];
 
 /// The block: a header, and the data.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +49,8 @@ pub struct Block {
     pub checksum: u64,
     /// The scene.
     pub data: Data,
+    /// The words of all its lists.
+    pub pool: [u64; POOL],
 }
 
 /// The data that differ between the scenes of one library.
@@ -77,14 +81,28 @@ pub struct Data {
     pub rates: [RateNumbers; 2],
     /// Where the value of each parameter comes from, or its [column](source_of_column) where tables differ.
     pub sources: [[u64; SOURCE_WORDS]; Parameter::ALL.len()],
-    /// The GUID.
-    pub guid: [u8; GUID],
     /// The kind of variable that each kind of value reference denotes.
     pub codes: [u8; KINDS],
     /// The words of each [`List`]: where they begin, and how many there are.
     pub lists: [[u32; 2]; List::COUNT],
+}
+
+/// The data of a scene with their lists.
+#[derive(Clone, Copy)]
+pub struct Contents<'a> {
+    /// The data.
+    pub data: &'a Data,
     /// The words of all lists.
-    pub pool: [u64; POOL],
+    pub pool: &'a [u64],
+}
+
+impl Deref for Contents<'_> {
+    type Target = Data;
+
+    #[inline(always)]
+    fn deref(&self) -> &Data {
+        self.data
+    }
 }
 
 /// A list of words in the pool.
@@ -103,11 +121,13 @@ pub enum List {
     Guard = 4,
     /// Texts in UTF-8.
     Texts = 5,
+    /// The GUID, in UTF-8.
+    Guid = 6,
 }
 
 impl List {
     /// The number of lists.
-    pub const COUNT: usize = 6;
+    pub const COUNT: usize = 7;
 }
 
 /// A table of the scene: contacts with the same properties.
@@ -135,6 +155,7 @@ impl Table {
     }
 
     /// The table with these words.
+    #[inline(always)]
     fn of(&[end, is_counted, is_fresh, density, name]: &[u64; Table::WORDS]) -> Table {
         Table {
             end,
@@ -180,6 +201,7 @@ impl Run {
     }
 
     /// The run with these words.
+    #[inline(always)]
     fn of(&[end, first_contact, is_tunable, start, minimum, maximum, name, unit]: &[u64; Run::WORDS]) -> Run {
         let [start, minimum, maximum] = [start, minimum, maximum].map(f64::from_bits);
         let (name, unit) = (Text::of(name), Text::of(unit));
@@ -218,6 +240,7 @@ impl Text {
         u64::from(self.start) << 32 | u64::from(self.length)
     }
 
+    #[inline(always)]
     fn of(word: u64) -> Text {
         Text { start: (word >> 32) as u32, length: word as u32 }
     }
@@ -243,6 +266,7 @@ impl RateNumbers {
     }
 
     /// The model with these numbers.
+    #[inline(always)]
     pub fn rate(&self) -> Rate {
         let [first, second] = self.constants;
         match self.form {
@@ -290,6 +314,8 @@ pub enum Flag {
     Paired = 9,
     /// The force depends on the rate.
     FollowsRate = 10,
+    /// An output predicts the force of the next step.
+    Predicts = 11,
 }
 
 impl Flag {
@@ -305,7 +331,13 @@ impl Block {
 
     /// The block of a library that has not been filled in.
     pub const fn unfilled(library: u64) -> Block {
-        Block { magic: MAGIC, version: VERSION, library, length: 0, checksum: 0, data: Data::EMPTY }
+        Block { magic: MAGIC, version: VERSION, library, length: 0, checksum: 0, data: Data::EMPTY, pool: [0; POOL] }
+    }
+
+    /// Its data and their lists.
+    #[inline(always)]
+    pub fn contents(&self) -> Contents<'_> {
+        Contents { data: &self.data, pool: &self.pool }
     }
 
     /// Checks that the block, which consists of these `words`, is intact and for this `library`.
@@ -328,12 +360,13 @@ impl Block {
         }
     }
 
-    /// A block with these `data` for a `library`.
-    pub fn filled(library: u64, data: Data) -> Block {
+    /// A block with these `data` and their lists for a `library`; `None` if there is no room for the lists.
+    pub fn filled(library: u64, data: Data, lists: &[u64]) -> Option<Block> {
         let used = data.used();
         let mut block = Block { length: used as u64, data, ..Block::unfilled(library) };
-        block.checksum = checksum(block.data.words().take(used));
-        block
+        block.pool.get_mut(..lists.len())?.copy_from_slice(lists);
+        block.checksum = checksum(data.words().chain(block.pool).take(used));
+        Some(block)
     }
 
     /// Its words up to the last list.
@@ -343,19 +376,21 @@ impl Block {
 
     /// The words of the block as they lie in memory.
     pub fn words(&self) -> impl Iterator<Item = u64> {
-        [self.magic, self.version, self.library, self.length, self.checksum].into_iter().chain(self.data.words())
+        [self.magic, self.version, self.library, self.length, self.checksum]
+            .into_iter()
+            .chain(self.data.words())
+            .chain(self.pool)
     }
 }
 
 impl Data {
     /// The words of the data as they lie in memory.
-    fn words(&self) -> impl Iterator<Item = u64> {
+    pub fn words(&self) -> impl Iterator<Item = u64> {
         let Data { identity, flags, contacts, groups, values, kinds, .. } = *self;
         let law = |law: LawNumbers| core::iter::once(law.law).chain(law.constants.map(f64::to_bits));
         let rate = |rate: RateNumbers| core::iter::once(rate.form).chain(rate.constants.map(f64::to_bits));
-        let (guid, _) = self.guid.as_chunks();
         let (codes, _) = self.codes.as_chunks();
-        let bytes = guid.iter().chain(codes).map(|bytes| u64::from_le_bytes(*bytes));
+        let codes = codes.iter().map(|bytes| u64::from_le_bytes(*bytes));
         let lists = self.lists.map(|[start, length]| u64::from(start) | u64::from(length) << 32);
         [identity, flags, contacts, groups, values, kinds, self.impact_mass.to_bits()]
             .into_iter()
@@ -364,9 +399,8 @@ impl Data {
             .chain([self.loss])
             .chain(self.rates.into_iter().flat_map(rate))
             .chain(self.sources.into_iter().flatten())
-            .chain(bytes)
+            .chain(codes)
             .chain(lists)
-            .chain(self.pool)
     }
 
     /// Length of the data \[words\].
@@ -375,7 +409,7 @@ impl Data {
     /// Length of the data up to the last list \[words\].
     fn used(&self) -> usize {
         let ends = self.lists.iter().map(|&[start, length]| (start as usize).wrapping_add(length as usize));
-        (Data::WORDS - POOL).wrapping_add(ends.max().unwrap_or(0))
+        Data::WORDS.wrapping_add(ends.max().unwrap_or(0))
     }
 
     /// The data of no scene.
@@ -392,65 +426,175 @@ impl Data {
         loss: 0,
         rates: [RateNumbers::of(Rate::NONE); 2],
         sources: [[0; SOURCE_WORDS]; Parameter::ALL.len()],
-        guid: [0; GUID],
         codes: [NO_KIND; KINDS],
         lists: [[0; 2]; List::COUNT],
-        pool: [0; POOL],
     };
+
+    /// The data with these [words](Data::words), for a library that is compiled with them.
+    pub const fn of_words(words: &[u64]) -> Data {
+        let mut words = Words { words, next: 0 };
+        let mut data = Data::EMPTY;
+        data.identity = words.take();
+        data.flags = words.take();
+        data.contacts = words.take();
+        data.groups = words.take();
+        data.values = words.take();
+        data.kinds = words.take();
+        data.impact_mass = words.number();
+        data.loading = words.law();
+        data.unloading = words.law();
+        data.loss = words.take();
+        data.rates = [words.rate(), words.rate()];
+        let mut parameter = 0;
+        while parameter < data.sources.len() {
+            data.sources[parameter] = [words.take(), words.take()];
+            parameter += 1;
+        }
+        data.codes = words.bytes();
+        let mut list = 0;
+        while list < List::COUNT {
+            let word = words.take();
+            data.lists[list] = [word as u32, (word >> 32) as u32];
+            list += 1;
+        }
+        data
+    }
+
+    /// The kind of variable of each code.
+    pub const fn places(&self) -> Places {
+        let mut places = [NO_KIND; NO_KIND as usize + 1];
+        let mut kind = 0;
+        while kind < self.kinds as usize {
+            places[self.codes[kind] as usize] = kind as u8;
+            kind += 1;
+        }
+        places
+    }
 
     /// Whether the scene has this feature.
     #[inline(always)]
     pub fn has(&self, flag: Flag) -> bool {
         self.flags & flag.bit() != 0
     }
+}
 
+/// The words of the lists, which come after [those of the data](Data::of_words).
+pub const fn pool_of<const COUNT: usize>(words: &[u64]) -> [u64; COUNT] {
+    let mut pool = [0; COUNT];
+    let mut place = 0;
+    while place < COUNT {
+        pool[place] = words[Data::WORDS + place];
+        place += 1;
+    }
+    pool
+}
+
+/// Words that a library is compiled with, one after the other.
+struct Words<'a> {
+    words: &'a [u64],
+    next: usize,
+}
+
+impl Words<'_> {
+    const fn take(&mut self) -> u64 {
+        self.next += 1;
+        self.words[self.next - 1]
+    }
+
+    const fn number(&mut self) -> f64 {
+        f64::from_bits(self.take())
+    }
+
+    const fn law(&mut self) -> LawNumbers {
+        let mut law = LawNumbers { law: self.take(), ..LawNumbers::NONE };
+        let mut place = 0;
+        while place < law.constants.len() {
+            law.constants[place] = self.number();
+            place += 1;
+        }
+        law
+    }
+
+    const fn rate(&mut self) -> RateNumbers {
+        RateNumbers { form: self.take(), constants: [self.number(), self.number()] }
+    }
+
+    const fn bytes<const COUNT: usize>(&mut self) -> [u8; COUNT] {
+        let mut bytes = [0; COUNT];
+        let mut place = 0;
+        while place < COUNT {
+            let word = self.take().to_le_bytes();
+            let mut byte = 0;
+            while byte < 8 {
+                bytes[place + byte] = word[byte];
+                byte += 1;
+            }
+            place += 8;
+        }
+        bytes
+    }
+}
+
+impl<'a> Contents<'a> {
     /// The words of a list.
     #[inline(always)]
-    pub fn list(&self, list: List) -> &[u64] {
-        let [start, length] = self.lists.get(list as usize).copied().unwrap_or_default();
+    pub fn list(self, list: List) -> &'a [u64] {
+        let [start, length] = self.data.lists.get(list as usize).copied().unwrap_or_default();
         let end = (start as usize).wrapping_add(length as usize);
         self.pool.get(start as usize..end).unwrap_or_default()
     }
 
     /// The rows of a list.
     #[inline(always)]
-    fn rows<const WORDS: usize>(&self, list: List) -> &[[u64; WORDS]] {
+    fn rows<const WORDS: usize>(self, list: List) -> &'a [[u64; WORDS]] {
         self.list(list).as_chunks().0
     }
 
     /// The table with this index.
-    pub fn table(&self, index: usize) -> Option<Table> {
+    #[inline(always)]
+    pub fn table(self, index: usize) -> Option<Table> {
         self.rows(List::Tables).get(index).map(Table::of)
     }
 
     /// Number of tables.
     #[inline(always)]
-    pub fn tables(&self) -> usize {
+    pub fn tables(self) -> usize {
         self.rows::<{ Table::WORDS }>(List::Tables).len()
     }
 
     /// The index of the table of a contact.
-    pub fn table_of_contact(&self, contact: usize) -> usize {
+    pub fn table_of_contact(self, contact: usize) -> usize {
         self.rows(List::Tables).partition_point(|&[end, ..]: &[u64; Table::WORDS]| end as usize <= contact)
     }
 
+    /// Whether every run has one value.
+    #[inline(always)]
+    pub fn has_single_values(self) -> bool {
+        self.rows::<{ Run::WORDS }>(List::Runs).len() == self.data.values as usize
+    }
+
     /// The run of the value with this index, and the index after the last value of the run before.
-    pub fn run(&self, index: usize) -> Option<(Run, usize)> {
+    #[inline(always)]
+    pub fn run(self, index: usize) -> Option<(Run, usize)> {
         let runs: &[[u64; Run::WORDS]] = self.rows(List::Runs);
+        if self.has_single_values() {
+            return Some((Run::of(runs.get(index)?), index));
+        }
         let place = runs.partition_point(|&[end, ..]| end as usize <= index);
         let begin = place.checked_sub(1).and_then(|before| runs.get(before)).map_or(0, |&[end, ..]| end as usize);
         Some((Run::of(runs.get(place)?), begin))
     }
 
     /// All runs.
-    pub fn runs(&self) -> impl Iterator<Item = Run> {
+    #[inline(always)]
+    pub fn runs(self) -> impl Iterator<Item = Run> + 'a {
         self.rows(List::Runs).iter().map(Run::of)
     }
 
     /// The source of a parameter of the `table` with this index.
     #[inline(always)]
-    pub fn source(&self, parameter: Parameter, table: impl FnOnce() -> usize) -> Option<Source> {
-        let &[kind, word] = match self.sources.get(parameter as usize)? {
+    pub fn source(self, parameter: Parameter, table: impl FnOnce() -> usize) -> Option<Source> {
+        let &[kind, word] = match self.data.sources.get(parameter as usize)? {
             [3, column] => {
                 let sources: &[[u64; SOURCE_WORDS]] = self.rows(List::Sources);
                 let columns = sources.len().checked_div(self.tables())?;
@@ -466,13 +610,14 @@ impl Data {
     }
 
     /// A text.
-    pub fn text(&self, text: Text) -> &[u8] {
+    #[inline(always)]
+    pub fn text(self, text: Text) -> &'a [u8] {
         let end = (text.start as usize).wrapping_add(text.length as usize);
         bytes_of(self.list(List::Texts)).get(text.start as usize..end).unwrap_or_default()
     }
 
     /// The inverse masses \[1/kg\].
-    pub fn inverse_masses(&self) -> &[f64] {
+    pub fn inverse_masses(self) -> &'a [f64] {
         numbers_of(self.list(List::InverseMasses))
     }
 }

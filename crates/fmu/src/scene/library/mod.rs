@@ -1,58 +1,48 @@
-//! A scene whose data are read from memory: the scene of a prebuilt library, which the exporter fills in.
+//! The scene of a library: a [`Kind`] by types, and [data](block).
 //!
-//! The [`Kind`] of the library determines by types what costs in a step or in an instance. The [`block`] contains the rest: the
-//! laws, the contacts, the parameters, the variables. Arrays lie behind the instance, as long as the scene needs them.
+//! The kind determines what costs in a step or in an instance, the data all else: contacts, parameters, variables, and the constants of
+//! the laws. A compiled library has the laws of its scene as types, and its data as constants, so that the compiler leaves out what the
+//! scene does not need. A prebuilt library has the laws as data, too, and the exporter fills all data in; its arrays lie behind the
+//! instance, as long as the scene needs them.
 
 pub mod block;
 pub mod kinds;
 
 use super::variable::{Integer, Parameter, Real, Settable, Source};
-use super::{Acts, Coupling, Guard, MOST_PREPARED, Presence, Present, Scene, Store};
-use crate::c::span::Span;
-use crate::c::words::text_of;
-use block::{Block, Data, FIRST_INTEGER, Flag, List};
+use super::{Acts, Coupling, Guard, Presence, Scene, Store};
+use crate::c::words::{bytes_of, text_of};
+use block::{Contents, Data, FIRST_INTEGER, Flag, List, NO_KIND, Places};
 use brinell_contact::motion::Follow;
 use brinell_contact::shared::{InverseMasses, Outcome, Refused, Work};
 use brinell_contact::{Contact, Pair, Surface};
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-/// The contents of a prebuilt library; see [`Scene`] for the types.
-pub trait Kind {
+/// The laws of a library: what a contact is, and what it takes from the data.
+pub trait Laws {
     /// The type of the bodies and their laws.
     type Model: Copy;
     /// The type of the state of a contact.
     type Contact: Contact<Self::Model>;
-    /// One value for each contact: an array of one, or one that is as long as a scene needs.
-    type Contacts<T: Copy>: Store<T>;
-    /// Whether forces may be stored.
-    type Forces: Presence;
-    /// Whether outputs may need the momentum of a step.
-    type Momentum: Presence;
-    /// The coupling with an importer.
-    type Coupling: Coupling;
-    /// Whether steps that are too long can be detected.
-    type Watch: Presence;
-    /// Whether contacts may share bodies.
-    type Shared: Presence;
 
-    /// The function that moves the bodies through a step, if the library can move them.
+    /// The function that moves the bodies through a step, if it is not that of contacts that share them.
     fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
         None
     }
 
-    /// The function that tells whether the passivity guard acts, if the library can have one.
+    /// The function that tells whether the passivity guard acts, if there can be one.
     fn guard() -> Option<Acts<Self::Contact, Self::Model>> {
         None
     }
 
     /// The bodies with the laws of the scene in `data`; `value` gives its parameters.
-    fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64) -> Self::Model;
+    fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model;
 
     /// Moves all contacts that share bodies, see [`Scene::follow_together`].
     ///
     /// # Errors
     /// [`Refused`]; nothing has changed then.
+    #[inline(always)]
     fn follow_together<T: Borrow<Self::Model>>(
         _contacts: &mut [Self::Contact],
         _model: impl Fn(usize) -> T,
@@ -64,6 +54,45 @@ pub trait Kind {
     ) -> Result<Outcome, Refused> {
         Err(Refused::Sizes)
     }
+}
+
+/// The lengths of the arrays of an instance; see [`Scene`] for them.
+pub trait Sizes {
+    /// One value for each contact.
+    type Contacts<T: Copy>: Store<T>;
+    /// One value for each row.
+    type Rows<T: Copy>: Store<T>;
+    /// One value for each group.
+    type Groups<T: Copy>: Store<T>;
+    /// The values of parameters.
+    type Values: Store<f64>;
+    /// The inverse masses that are inputs.
+    type InverseMasses: Store<f64>;
+}
+
+/// The contents of a library; see [`Scene`] for the types.
+pub trait Kind {
+    /// The laws.
+    type Laws: Laws;
+    /// The lengths of arrays.
+    type Sizes: Sizes;
+    /// Whether forces may be stored.
+    type Forces: Presence;
+    /// Whether outputs may need the momentum of a step.
+    type Momentum: Presence;
+    /// Whether the input may have derivatives.
+    type Course: Presence;
+    /// Whether outputs may predict the force.
+    type Prediction: Presence;
+    /// The coupling with an importer.
+    type Coupling: Coupling;
+    /// Whether steps that are too long can be detected.
+    type Watch: Presence;
+    /// Whether contacts may share bodies.
+    type Shared: Presence;
+    /// Whether an instance keeps the models of its groups. A prebuilt library does so for every law: to make one of data takes longer than a
+    /// change of branch.
+    type Prepared: Presence;
 }
 
 /// What a model needs beside the parameters.
@@ -78,26 +107,30 @@ pub struct Given {
 
 /// The source of the data.
 pub trait Memory {
-    /// The block. The compiler must not know its contents.
-    fn block() -> &'static Block;
+    /// The data. The compiler must not know them if they are filled in later.
+    fn contents() -> Contents<'static>;
 
-    /// The same block as words.
-    fn words() -> &'static [u64; Block::WORDS];
+    /// The kind of variable that each code has, if the compiler knows the data: it finds the few variables of a scene among all, and
+    /// leaves out the others.
+    const PLACES: Option<&'static Places> = None;
 
-    /// A number that identifies the library; no other library has it.
-    const LIBRARY: u64;
+    /// Whether the data can be used.
+    ///
+    /// # Errors
+    /// A description of the defect.
+    fn verify() -> Result<(), &'static str>;
 }
 
 /// The scene of a library of kind `K` with the data from `B`.
-pub struct Prebuilt<K, B>(PhantomData<(K, B)>);
+pub struct LibraryScene<K, B>(PhantomData<(K, B)>);
 
-impl<K: Kind, B: Memory> Prebuilt<K, B> {
+impl<K: Kind, B: Memory> LibraryScene<K, B> {
     /// Whether every scene of the library has a single contact.
-    const HAS_ONE: bool = <K::Contacts<u8> as Store<u8>>::LENGTH == 1;
+    const HAS_ONE: bool = <<K::Sizes as Sizes>::Contacts<u8> as Store<u8>>::LENGTH == 1;
 
     #[inline(always)]
-    fn data() -> &'static Data {
-        &B::block().data
+    fn data() -> Contents<'static> {
+        B::contents()
     }
 
     /// The table of a group.
@@ -113,45 +146,49 @@ impl<K: Kind, B: Memory> Prebuilt<K, B> {
         }
     }
 
-    /// The kind of the variable with this value reference, as a code, and its contact.
+    /// The code of a kind of variable.
     #[inline(always)]
-    fn kind_of(value_reference: u32) -> (Option<u8>, usize, u32) {
-        let data = Self::data();
-        let (kind, contact) = match Self::contacts() as u32 {
+    fn code(kind: u32) -> Option<u8> {
+        Self::data().codes.get(kind as usize).copied()
+    }
+
+    /// The kind of the variable with this value reference, and its contact.
+    #[inline(always)]
+    fn kind_of(value_reference: u32) -> (u32, usize) {
+        match Self::contacts() as u32 {
             0 | 1 => (value_reference, 0),
             contacts => (value_reference / contacts, (value_reference % contacts) as usize),
-        };
-        (data.codes.get(kind as usize).copied(), contact, kind)
+        }
     }
 }
 
-impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
-    type Model = K::Model;
-    type Contact = K::Contact;
+impl<K: Kind, B: Memory> Scene for LibraryScene<K, B> {
+    type Model = <K::Laws as Laws>::Model;
+    type Contact = <K::Laws as Laws>::Contact;
 
-    type Contacts<T: Copy> = K::Contacts<T>;
-    type Rows<T: Copy> = K::Contacts<T>;
-    type Groups<T: Copy> = K::Contacts<T>;
-    type Values = Span<f64>;
+    type Contacts<T: Copy> = <K::Sizes as Sizes>::Contacts<T>;
+    type Rows<T: Copy> = <K::Sizes as Sizes>::Rows<T>;
+    type Groups<T: Copy> = <K::Sizes as Sizes>::Groups<T>;
+    type Values = <K::Sizes as Sizes>::Values;
 
     type Forces = K::Forces;
     type Momentum = K::Momentum;
-    type Course = Present;
-    type Prediction = Present;
+    type Course = K::Course;
+    type Prediction = K::Prediction;
     type Coupling = K::Coupling;
     type Watch = K::Watch;
     type Shared = K::Shared;
-    type InverseMasses = Span<f64>;
-    type Prepared = Present;
+    type InverseMasses = <K::Sizes as Sizes>::InverseMasses;
+    type Prepared = K::Prepared;
 
     fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
-        K::follow().filter(|_| Self::moves())
+        K::Laws::follow().filter(|_| Self::moves())
     }
 
     #[inline(always)]
     fn guard() -> Option<Guard<Self>> {
         let words = Self::data().list(List::Guard);
-        if words.is_empty() { None } else { Some(Guard { words: text_of(words), acts: K::guard()? }) }
+        if words.is_empty() { None } else { Some(Guard { words: text_of(words), acts: K::Laws::guard()? }) }
     }
 
     #[inline(always)]
@@ -165,20 +202,25 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
     }
 
     fn follows_rate() -> bool {
-        K::Contact::FOLLOWS_RATE && Self::data().has(Flag::FollowsRate)
+        Self::Contact::FOLLOWS_RATE && Self::data().has(Flag::FollowsRate)
     }
 
     fn derivatives() -> i32 {
-        match K::Contact::FOLLOWS_RATE && !Self::data().has(Flag::FollowsRate) {
+        match Self::Contact::FOLLOWS_RATE && !Self::data().has(Flag::FollowsRate) {
             // the indentation on a plate is not the distance of the bodies
             true => 0,
-            false => K::Contact::DERIVATIVES,
+            false => Self::Contact::DERIVATIVES,
         }
     }
 
     #[inline(always)]
     fn has_course() -> bool {
-        Self::data().has(Flag::Course)
+        <K::Course as Presence>::IS_PRESENT && Self::data().has(Flag::Course)
+    }
+
+    #[inline(always)]
+    fn predicts() -> bool {
+        <K::Prediction as Presence>::IS_PRESENT && Self::data().has(Flag::Predicts)
     }
 
     #[inline(always)]
@@ -198,7 +240,7 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
 
     #[inline(always)]
     fn rows() -> usize {
-        let directions = if Self::is_shared() { K::Contact::DIRECTIONS } else { 0 };
+        let directions = if Self::is_shared() { Self::Contact::DIRECTIONS } else { 0 };
         Self::contacts() * (1 + directions)
     }
 
@@ -222,23 +264,17 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
         if Self::data().has(Flag::Forces) { Self::contacts() } else { 0 }
     }
 
-    /// Those of every law: to make one of data takes longer than a change of branch.
-    fn prepared() -> usize {
-        let groups = Self::groups();
-        if groups <= MOST_PREPARED { groups } else { 0 }
-    }
-
     fn watched() -> usize {
         let watches = <K::Watch as Presence>::IS_PRESENT && Self::data().impact_mass > 0.0;
         if watches { Self::contacts() } else { 0 }
     }
 
     fn verify() -> Result<(), &'static str> {
-        B::block().check(B::words(), B::LIBRARY)
+        B::verify()
     }
 
     fn guid() -> &'static [u8] {
-        &Self::data().guid
+        bytes_of(Self::data().list(List::Guid))
     }
 
     #[inline]
@@ -274,6 +310,7 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
         (data.text(table.name), if table.is_counted { contact + 1 - first as usize } else { 0 })
     }
 
+    #[inline(always)]
     fn settable(index: usize) -> Option<(Settable, Option<usize>)> {
         let data = Self::data();
         let (run, begin) = data.run(index)?;
@@ -287,10 +324,16 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
         Self::data().run(index).is_some_and(|(run, _)| run.is_tunable)
     }
 
+    #[inline(always)]
     fn set_start_values(values: &mut Self::Values) {
-        let mut slots = values.as_mut().iter_mut();
+        let (data, values) = (Self::data(), values.as_mut());
+        if data.has_single_values() {
+            values.iter_mut().zip(data.runs()).for_each(|(value, run)| *value = run.start);
+            return;
+        }
+        let mut slots = values.iter_mut();
         let mut begin = 0;
-        for run in Self::data().runs() {
+        for run in data.runs() {
             let count = run.end.wrapping_sub(begin) as usize;
             slots.by_ref().take(count).for_each(|value| *value = run.start);
             begin = run.end;
@@ -303,12 +346,13 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
         Source::value(source.as_ref(), group, values.as_ref())
     }
 
+    #[inline(always)]
     fn model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model {
         let data = Self::data();
         let table = data.table(Self::table_of(group));
         let surface = if table.is_some_and(|table| table.is_fresh) { Surface::Fresh } else { Surface::Dented };
         let given = Given { pair, surface, density: table.map_or(f64::NAN, |table| table.density) };
-        K::model(data, &given, |parameter| Self::parameter(parameter, group, values))
+        K::Laws::model(&data, &given, |parameter| Self::parameter(parameter, group, values))
     }
 
     fn density(group: usize) -> Option<f64> {
@@ -333,7 +377,7 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
         work: &mut [Work<Self::Contact>],
         step: f64,
     ) -> Result<Outcome, Refused> {
-        K::follow_together(contacts, model, masses, accelerations, rates, work, step)
+        K::Laws::follow_together(contacts, model, masses, accelerations, rates, work, step)
     }
 
     #[inline]
@@ -344,17 +388,22 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
             Real::InverseMass => data.has(Flag::InverseMassInputs),
             _ => match variable.external_acceleration() {
                 Some(row) => data.has(Flag::Acceleration) && row * Self::contacts() < Self::rows(),
-                None => variable.tangential_rate().is_some_and(|direction| direction < K::Contact::DIRECTIONS),
+                None => variable.tangential_rate().is_some_and(|direction| direction < Self::Contact::DIRECTIONS),
             },
         }
     }
 
     #[inline]
     fn real(value_reference: u32) -> Option<(Real, usize)> {
-        let (code, contact, kind) = Self::kind_of(value_reference);
+        let (kind, contact) = Self::kind_of(value_reference);
         let data = Self::data();
-        if u64::from(kind) < data.kinds {
-            return Some((Real::of_number(code?)?, contact));
+        let known = match B::PLACES {
+            Some(places) => Real::found(|number| is_at(places, number, kind)),
+            None if u64::from(kind) < data.kinds => Real::of_number(Self::code(kind)?),
+            None => None,
+        };
+        if let Some(real) = known {
+            return Some((real, contact));
         }
         let index = (value_reference as usize).checked_sub(data.kinds as usize * Self::contacts())?;
         if index < Self::values() {
@@ -365,7 +414,18 @@ impl<K: Kind, B: Memory> Scene for Prebuilt<K, B> {
     }
 
     fn integer(value_reference: u32) -> Option<(Integer, usize)> {
-        let (code, contact, _) = Self::kind_of(value_reference);
-        Some((Integer::of_number(code?.checked_sub(FIRST_INTEGER)?)?, contact))
+        let (kind, contact) = Self::kind_of(value_reference);
+        let integer = match B::PLACES {
+            Some(places) => Integer::found(|number| is_at(places, FIRST_INTEGER + number, kind)),
+            None => Integer::of_number(Self::code(kind)?.checked_sub(FIRST_INTEGER)?),
+        };
+        Some((integer?, contact))
     }
+}
+
+/// Whether the variable with this `code` is of the `kind`.
+#[inline(always)]
+fn is_at(places: &Places, code: u8, kind: u32) -> bool {
+    let place = places[usize::from(code)];
+    place != NO_KIND && u32::from(place) == kind
 }

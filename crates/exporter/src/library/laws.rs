@@ -1,0 +1,51 @@
+//! The laws of a scene as types.
+
+use super::MEMORY;
+use crate::scene::{Loss, Scene};
+use std::fmt::Debug;
+
+/// The laws, as a type of `brinell_fmu::scene::library::kinds`.
+pub fn of(scene: &Scene) -> String {
+    if let Some((_, law)) = &scene.damped {
+        return format!("kinds::RateDependent<{}>", type_of("damped", law));
+    }
+    let loading = type_of("loading", &scene.loading.1);
+    // an elastic contact never unloads by another law; the compiler leaves out whatever is here
+    let unloading = scene
+        .unloading
+        .map_or("contact::unloading::ContactRadius".into(), |_| type_of("unloading", &scene.plain_unloading()));
+    // the form for two bodies
+    let loading = if scene.is_paired() { "contact::loading::Paired".into() } else { loading };
+    let laws = format!("{loading}, {unloading}");
+    let loss = scene.loss.map(|loss| match loss {
+        Loss::Fitted(_) => "contact::losses::Fitted",
+        Loss::Waves => "contact::losses::Waves",
+        Loss::Plate(_) => "contact::losses::Plate",
+    });
+    match loss {
+        _ if scene.has_friction() => rough(scene, &laws, loss),
+        Some(loss) => format!("kinds::Lossy<{laws}, {loss}>"),
+        None if scene.finds_strength() => format!("kinds::Rated<{laws}>"),
+        None => format!("kinds::Plastic<{laws}>"),
+    }
+}
+
+/// Laws with friction. The mean tangential force is computed only if an output needs it.
+fn rough(scene: &Scene, laws: &str, loss: Option<&str>) -> String {
+    let needs_mean = ["mean_tangential_force", "tangential_impulse", "friction_work"];
+    let mean = scene.outputs.iter().any(|output| needs_mean.contains(&output.as_str()));
+    let contact = if scene.directions > 1 { "PlaneContact" } else { "RoughContact" };
+    let normal = loss.map_or(String::new(), |loss| format!(", contact::losses::History<{loss}>"));
+    let loss = loss.unwrap_or("()");
+    format!("kinds::Rough<contact::tangential::{contact}<{MEMORY}, {mean}{normal}>, {laws}, {loss}>")
+}
+
+/// The type of a law in a `module`: the variant of the enum that holds it.
+fn type_of(module: &str, law: &impl Debug) -> String {
+    let text = format!("{law:?}");
+    let (variant, _) = text.split_once('(').expect("a variant of an enum holds the law");
+    match variant.strip_prefix("Guarded") {
+        Some(bare) => format!("contact::{module}::Guarded<contact::{module}::{bare}>"),
+        None => format!("contact::{module}::{variant}"),
+    }
+}

@@ -1,0 +1,342 @@
+//! The laws and the kinds of libraries. A compiled library names the laws of its scene; a prebuilt one takes every scene that needs no
+//! more than it has.
+
+use super::block::{Data, Flag, Loss};
+use super::{Given, Kind, Laws, Sizes};
+use crate::c::span::Span;
+use crate::scene::{
+    Absent, Acts, Coupled, Coupling, Parameter, Presence, Present, impactor_yields, two_bodies, with_friction,
+};
+use brinell_contact::damped::{self, AnyDamped, Damped};
+use brinell_contact::loading::{AnyLoading, Loading};
+use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::motion::{self, Follow};
+use brinell_contact::rate;
+use brinell_contact::shared::{self, InverseMasses, Outcome, Refused, SharedContact, Work};
+use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
+use brinell_contact::unloading::{AnyUnloading, Unloading};
+use brinell_contact::{Contact, History, LawNumbers, Model, Numbered};
+use core::borrow::Borrow;
+use core::marker::PhantomData;
+
+/// Number of segments in which the springs of a contact with friction remember its past.
+pub const MEMORY: usize = 16;
+
+/// Laws of contacts that yield.
+pub struct Plastic<L, U>(PhantomData<(L, U)>);
+
+/// The same with a loss below yield.
+pub struct Lossy<L, U, X>(PhantomData<(L, U, X)>);
+
+/// The same as [`Plastic`] with a strength that is found at the first touch of each impact.
+pub struct Rated<L, U>(PhantomData<(L, U)>);
+
+/// A law that depends on the rate.
+pub struct RateDependent<D>(PhantomData<D>);
+
+/// Contacts with friction, of the type `C`, and a loss below yield or `()`.
+pub struct Rough<C, L, U, X = ()>(PhantomData<(C, L, U, X)>);
+
+/// The law with these numbers.
+#[inline(always)]
+fn law<L: Numbered>(numbers: &LawNumbers) -> L {
+    L::from_numbers(numbers).unwrap_or(L::FIRST)
+}
+
+/// The elastoplastic model of a scene.
+#[inline(always)]
+fn plastic<L: Numbered, U: Numbered>(
+    data: &Data,
+    given: &Given,
+    value: impl Fn(Parameter) -> f64 + Copy,
+) -> Model<L, U> {
+    let Given { pair, surface, .. } = *given;
+    let (loading, unloading) = (law::<L>(&data.loading), law(&data.unloading));
+    let loading = if data.has(Flag::Paired) { loading.of_bodies(two_bodies(value)) } else { loading };
+    Model { pair, loading, unloading, surface }
+}
+
+/// A loss below yield, or none, whose numbers are parameters of a scene.
+pub trait OfScene: Copy {
+    /// The loss with the parameters that `value` gives.
+    fn of_scene(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self;
+}
+
+impl OfScene for () {
+    #[inline(always)]
+    fn of_scene(_data: &Data, _given: &Given, _value: impl Fn(Parameter) -> f64 + Copy) {}
+}
+
+impl OfScene for Fitted {
+    #[inline(always)]
+    fn of_scene(_data: &Data, _given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Fitted {
+        Fitted { restitution: value(Parameter::ElasticRestitution) }
+    }
+}
+
+impl OfScene for Waves {
+    #[inline(always)]
+    fn of_scene(_data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Waves {
+        Waves { target: target(given, value) }
+    }
+}
+
+impl OfScene for Plate {
+    #[inline(always)]
+    fn of_scene(_data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Plate {
+        Plate { thickness: value(Parameter::TargetPlateThickness), target: target(given, value) }
+    }
+}
+
+impl OfScene for AnyLoss {
+    fn of_scene(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> AnyLoss {
+        match data.loss {
+            waves if waves == Loss::Waves as u64 => AnyLoss::Waves(Waves::of_scene(data, given, value)),
+            plate if plate == Loss::Plate as u64 => AnyLoss::Plate(Plate::of_scene(data, given, value)),
+            _ => AnyLoss::Fitted(Fitted::of_scene(data, given, value)),
+        }
+    }
+}
+
+/// The target as a body in which waves travel.
+#[inline(always)]
+fn target(given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Solid {
+    Solid {
+        density: given.density,
+        youngs_modulus: value(Parameter::TargetYoungsModulus),
+        poissons_ratio: value(Parameter::TargetPoissonsRatio),
+    }
+}
+
+/// The functions of laws with a guard.
+macro_rules! guarded {
+    () => {
+        fn guard() -> Option<Acts<Self::Contact, Self::Model>> {
+            Some(Self::Contact::is_held_back)
+        }
+    };
+}
+
+/// The function of laws whose contacts may share bodies.
+macro_rules! together {
+    () => {
+        #[inline(always)]
+        fn follow_together<B: Borrow<Self::Model>>(
+            contacts: &mut [Self::Contact],
+            model: impl Fn(usize) -> B,
+            masses: &InverseMasses,
+            accelerations: &[f64],
+            rates: &mut [f64],
+            work: &mut [Work<Self::Contact>],
+            step: f64,
+        ) -> Result<Outcome, Refused> {
+            shared::follow(contacts, model, masses, accelerations, rates, work, step)
+        }
+    };
+}
+
+impl<L: Loading + Numbered, U: Unloading + Numbered> Laws for Plastic<L, U> {
+    type Model = Model<L, U>;
+    type Contact = History;
+    guarded!();
+    together!();
+
+    fn follow() -> Option<Follow<History, Model<L, U>>> {
+        Some(motion::follow)
+    }
+
+    #[inline(always)]
+    fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Model<L, U> {
+        plastic(data, given, value)
+    }
+}
+
+impl<L: Loading + Numbered, U: Unloading + Numbered, X: losses::Loss + OfScene> Laws for Lossy<L, U, X> {
+    type Model = losses::Model<L, U, X>;
+    type Contact = losses::History<X>;
+    guarded!();
+    together!();
+
+    fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
+        Some(losses::follow)
+    }
+
+    #[inline(always)]
+    fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model {
+        losses::Model { plastic: plastic(data, given, value), loss: X::of_scene(data, given, value) }
+    }
+}
+
+impl<L: Loading + Numbered, U: Unloading + Numbered> Laws for Rated<L, U> {
+    type Model = rate::Model<L, U>;
+    type Contact = rate::History;
+    guarded!();
+
+    fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
+        Some(rate::follow)
+    }
+
+    #[inline(always)]
+    fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model {
+        let [target, impactor] = &data.rates;
+        let (target, impactor) = (target.rate(), impactor.rate());
+        let slow = plastic(data, given, value);
+        match impactor_yields(value) {
+            true => rate::Model { slow, rate: impactor, harder: target },
+            false => rate::Model { slow, rate: target, harder: impactor },
+        }
+    }
+}
+
+impl<D: Damped + Numbered> Laws for RateDependent<D> {
+    type Model = damped::Model<D>;
+    type Contact = damped::History<D>;
+
+    fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
+        Some(damped::follow)
+    }
+
+    #[inline(always)]
+    fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model {
+        damped::Model {
+            pair: given.pair,
+            law: law(&data.loading),
+            restitution: value(Parameter::Restitution),
+            mass: value(Parameter::EffectiveMass),
+        }
+    }
+}
+
+impl<C, L: Loading + Numbered, U: Unloading + Numbered, X: OfScene> Laws for Rough<C, L, U, X>
+where
+    C: Contact<RoughModel<L, U, X>> + SharedContact<RoughModel<L, U, X>>,
+{
+    type Model = RoughModel<L, U, X>;
+    type Contact = C;
+    together!();
+
+    #[inline(always)]
+    fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model {
+        with_friction(plastic(data, given, value), X::of_scene(data, given, value), value)
+    }
+}
+
+/// The sizes of a scene whose numbers the compiler knows: of contacts, of rows, of groups, of values of parameters, and of inverse masses
+/// that are inputs.
+pub struct Fixed<
+    const CONTACTS: usize,
+    const ROWS: usize,
+    const GROUPS: usize,
+    const VALUES: usize,
+    const ENTRIES: usize,
+>;
+
+impl<const CONTACTS: usize, const ROWS: usize, const GROUPS: usize, const VALUES: usize, const ENTRIES: usize> Sizes
+    for Fixed<CONTACTS, ROWS, GROUPS, VALUES, ENTRIES>
+{
+    type Contacts<T: Copy> = [T; CONTACTS];
+    type Rows<T: Copy> = [T; ROWS];
+    type Groups<T: Copy> = [T; GROUPS];
+    type Values = [f64; VALUES];
+    type InverseMasses = [f64; ENTRIES];
+}
+
+/// The sizes of scenes with one contact.
+pub struct One;
+
+impl Sizes for One {
+    type Contacts<T: Copy> = [T; 1];
+    type Rows<T: Copy> = [T; 1];
+    type Groups<T: Copy> = [T; 1];
+    type Values = Span<f64>;
+    type InverseMasses = Span<f64>;
+}
+
+/// The sizes of any scene, which its data say.
+pub struct Spans;
+
+impl Sizes for Spans {
+    type Contacts<T: Copy> = Span<T>;
+    type Rows<T: Copy> = Span<T>;
+    type Groups<T: Copy> = Span<T>;
+    type Values = Span<f64>;
+    type InverseMasses = Span<f64>;
+}
+
+/// Laws as data.
+type AnyLaws = Plastic<AnyLoading, AnyUnloading>;
+
+/// The same with a loss below yield.
+type AnyLossy = Lossy<AnyLoading, AnyUnloading, AnyLoss>;
+
+/// The same as [`AnyLaws`] with friction.
+type AnyRough<C> = Rough<C, AnyLoading, AnyUnloading>;
+
+/// The same with a loss below yield.
+type AnyLossyRough<C> = Rough<C, AnyLoading, AnyUnloading, AnyLoss>;
+
+/// The state of a contact with a loss.
+type LossyHistory = losses::History<AnyLoss>;
+
+/// Any coupling.
+type Any = Coupled<Present, Present, Present>;
+
+/// The library `state`: one contact without its momentum.
+pub struct State;
+
+impl Kind for State {
+    type Laws = AnyLaws;
+    type Sizes = One;
+    type Forces = Absent;
+    type Momentum = Absent;
+    type Course = Present;
+    type Prediction = Present;
+    type Coupling = Absent;
+    type Watch = Present;
+    type Shared = Absent;
+    type Prepared = Present;
+}
+
+/// A library of any contacts with these laws `L` and their momentum: with the coupling `C`, for scenes that watch their steps or not (`W`),
+/// and for contacts that share bodies or not (`S`).
+pub struct Contacts<L, C = Any, W = Present, S = Present>(PhantomData<(L, C, W, S)>);
+
+impl<L: Laws, C: Coupling, W: Presence, S: Presence> Kind for Contacts<L, C, W, S> {
+    type Laws = L;
+    type Sizes = Spans;
+    type Forces = Present;
+    type Momentum = Present;
+    type Course = Present;
+    type Prediction = Present;
+    type Coupling = C;
+    type Watch = W;
+    type Shared = S;
+    type Prepared = Present;
+}
+
+/// The library `momentum`: any contacts, with their momentum.
+pub type Momentum = Contacts<AnyLaws, Absent, Present, Absent>;
+
+/// The library `moved`: contacts that move their bodies, each for itself or together.
+pub type Moved = Contacts<AnyLaws, Any, Absent>;
+
+/// The library `lossy`: contacts with losses below yield, which may move their bodies.
+pub type Losses = Contacts<AnyLossy>;
+
+/// The library `rate`: contacts that move their bodies and find their strength at the first touch of each impact.
+pub type Strengths = Contacts<Rated<AnyLoading, AnyUnloading>, Any, Absent, Absent>;
+
+/// The library `damped`: contacts with a rate-dependent law, which may move their bodies.
+pub type Dampings = Contacts<RateDependent<AnyDamped>, Any, Present, Absent>;
+
+/// The library `friction`: contacts with friction in one direction, which may move their bodies together.
+pub type Friction = Contacts<AnyRough<RoughContact<MEMORY, true>>>;
+
+/// The library `friction-2`: the same with friction in two directions.
+pub type Friction2 = Contacts<AnyRough<PlaneContact<MEMORY, true>>>;
+
+/// The library `lossy-friction`: the same as [`Friction`] with losses below yield.
+pub type LossyFriction = Contacts<AnyLossyRough<RoughContact<MEMORY, true, LossyHistory>>>;
+
+/// The library `lossy-friction-2`: the same as [`Friction2`] with losses below yield.
+pub type LossyFriction2 = Contacts<AnyLossyRough<PlaneContact<MEMORY, true, LossyHistory>>>;
