@@ -22,8 +22,6 @@ pub enum ExportError {
     Prebuilt(#[from] PrebuiltError),
     #[error("there is no Rust toolchain on PATH (see rustup.rs), and without one: {0}")]
     NoCompiler(PrebuiltError),
-    #[error("c-code is made from a prebuilt library, and then all libraries of the FMU are: leave out --compile")]
-    CompiledSource,
     #[error("C source needs wasm2c {WASM2C} (Debian's package wabt, or that of packaging/toolchain.py): {reason}")]
     NoWasm2c { reason: String },
     #[error("no C source can be made of the prebuilt library `{kind}`: {reason}")]

@@ -107,12 +107,6 @@ pub struct Origin {
 /// # Errors
 /// [`ExportError`]
 pub fn make(plan: &Plan, way: LibraryWay, platforms: &[Platform]) -> Result<Libraries, ExportError> {
-    // one GUID, and states that all libraries of the FMU take
-    let way = match (way, platforms.iter().any(Platform::is_source)) {
-        (LibraryWay::Compiled, true) => return Err(ExportError::CompiledSource),
-        (_, true) => LibraryWay::Prebuilt,
-        (way, false) => way,
-    };
     match way {
         LibraryWay::Compiled => compile(plan, platforms),
         LibraryWay::Prebuilt => Ok(fill_in(plan, platforms)?),
@@ -147,7 +141,15 @@ fn no_compiler() -> Option<ExportError> {
 fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Libraries, ExportError> {
     let begin = Instant::now();
     let guid = guid_of(plan, sources::hash());
-    let libraries = library::build(&Source::Scene { plan, text: &write(plan, &guid) }, platforms)?;
+    let (sources, native): (Vec<_>, Vec<_>) = platforms.iter().copied().partition(Platform::is_source);
+    let mut libraries = library::build(&Source::Scene { plan, text: &write(plan, &guid) }, &native)?;
+    // the last of all platforms; no C source is compiled from Rust
+    if !sources.is_empty() {
+        let unit = StoredUnit::of(plan)?;
+        for platform in &sources {
+            libraries.push(unit.library(platform)?);
+        }
+    }
     Ok(Libraries { guid, libraries, origin: Origin { prebuilt: None, time: begin.elapsed() } })
 }
 

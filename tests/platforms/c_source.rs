@@ -42,9 +42,14 @@ struct Fmu {
 
 impl Fmu {
     fn of(text: &str) -> Option<Fmu> {
+        Fmu::made(text, without_compiler)
+    }
+
+    /// The FMU that `program` makes, in a folder and with the prebuilt libraries in another.
+    fn made(text: &str, program: impl Fn(&Path, &Path) -> Command) -> Option<Fmu> {
         let folder = empty_folder();
         fs::write(folder.path().join("scene.toml"), text).unwrap();
-        let mut export = without_compiler(folder.path(), STORE.as_ref()?);
+        let mut export = program(folder.path(), STORE.as_ref()?);
         export.args(["export", "scene.toml", "--platforms", "c-code,linux64", "-o", "unit.fmu", "--json"]);
         let said = output(&mut export).with_status(0).json();
         let mut unzip = Command::new("python3");
@@ -52,7 +57,7 @@ impl Fmu {
             .with_status(0);
         let library = fs::read_dir(folder.path().join("binaries/linux64")).unwrap().next().unwrap().unwrap().path();
         let name = library.file_stem().unwrap().to_string_lossy().into_owned();
-        let kind = said["made"]["prebuilt"].as_str().unwrap().into();
+        let kind = said["made"]["prebuilt"].as_str().unwrap_or("compiled").into();
         Some(Fmu { folder, name, kind })
     }
 
@@ -107,6 +112,27 @@ fn headers() -> &'static Path {
 
 /// Options with which nothing is warned of.
 const STRICT: [&str; 5] = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror"];
+
+/// With a compiler the native library is compiled. It goes on from states of the C source, and the C source from its states.
+#[test]
+fn a_compiled_library_and_c_source_are_one_fmu() {
+    let with_compiler = |folder: &Path, store: &Path| {
+        let mut program = command::brinell(folder);
+        program.env("BRINELL_PREBUILT", store);
+        program
+    };
+    let mut random = Random(29);
+    // a library that computes no mean tangential force, and one that makes no prediction
+    for kind in ["friction", "moved"] {
+        let (_, text) = of_each_kind().into_iter().find(|(other, _)| *other == kind).expect("a scene of this kind");
+        let text = text.replace("\"mean_tangential_force\", ", "").replace("\"friction_work\", ", "");
+        let Some(fmu) = Fmu::made(&text, with_compiler) else { return };
+        assert_eq!(fmu.kind, "compiled");
+        let both = Both::between(&fmu.native(), &fmu.compiled("gcc", &["-O1"]), kind);
+        let messages: usize = (0..5).map(|_| both.compare(100, &mut random)).sum();
+        assert!(messages > 0, "{kind}: nothing was refused");
+    }
+}
 
 #[test]
 fn c_source_of_every_kind_gives_the_bits_and_messages_of_the_native_library() {
