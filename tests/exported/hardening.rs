@@ -4,6 +4,7 @@
 use crate::command::{empty_folder, run};
 use crate::prebuilt;
 use crate::refusal::refused_text;
+use crate::written::Written;
 use std::fs;
 use std::path::Path;
 
@@ -29,13 +30,6 @@ fn predicted(text: &str, arguments: &[&str]) -> serde_json::Value {
     run(folder.path(), all).with_status(0).json()["laws"][0].clone()
 }
 
-/// The Rust source of the scene.
-fn constants(text: &str) -> String {
-    let folder = empty_folder();
-    write(folder.path(), text);
-    run(folder.path(), ["constants", "scene.toml"]).with_status(0).out
-}
-
 #[test]
 fn an_fmu_that_hardens_agrees_with_the_prediction() {
     let folder = empty_folder();
@@ -57,19 +51,19 @@ fn an_fmu_that_hardens_agrees_with_the_prediction() {
 #[test]
 fn only_the_law_brinell_has_the_form_for_two_bodies() {
     for (law, has) in [(BRINELL, true), ("loading = \"johnson\"", false)] {
-        let rust = constants(&scene("poissons_ratio = 0.3", law, "parameters = [\"target.yield_strength\"]"));
-        let forms = rust.matches("paired").count();
-        assert_eq!(forms, usize::from(has), "{law}:\n{rust}");
+        let rust = Written::of(&scene("poissons_ratio = 0.3", law, "parameters = [\"target.yield_strength\"]")).rust;
+        assert_eq!(rust.contains("loading::Paired"), has, "{law}:\n{rust}");
     }
-    let other = constants(&scene("poissons_ratio = 0.4", "loading = \"brinell\"\nunloading = \"thornton\"", ""));
-    assert!(other.contains("paired Brinell") && other.contains("plain Thornton"), "{other}");
+    let other = Written::of(&scene("poissons_ratio = 0.4", "loading = \"brinell\"\nunloading = \"thornton\"", "")).rust;
+    assert!(other.contains("loading::Paired, contact::unloading::Thornton"), "{other}");
 }
 
 #[test]
 fn an_fmu_whose_target_does_not_harden_has_no_such_parameter() {
-    assert!(!constants(&scene("poissons_ratio = 0.3", BRINELL, "")).contains("\"target.hardening_modulus\""));
-    let hardens = constants(&scene("poissons_ratio = 0.3\nhardening_modulus = 1e9", BRINELL, ""));
-    assert!(hardens.contains("\"target.hardening_modulus\""), "{hardens}");
+    for (more, has) in [("", false), ("\nhardening_modulus = 1e9", true)] {
+        let written = Written::of(&scene(&format!("poissons_ratio = 0.3{more}"), BRINELL, ""));
+        assert_eq!(written.has_text("target.hardening_modulus"), has, "{}", written.rust);
+    }
 }
 
 #[test]
@@ -86,9 +80,9 @@ fn a_tangent_modulus_is_equivalent_to_a_hardening_modulus() {
     // for a material, and for a contact with the modulus of the scene
     let of_material = "name = \"unit\"\nimpactor = { radius = 5e-3 }\nlaw = { loading = \"brinell\" }\n\
                        target = { material = \"mild steel\" }\n[[contact]]\nname = \"one\"\n";
-    let rust = constants(&format!("{of_material}target = {{ tangent_modulus = 2e9 }}\n"));
+    let written = Written::of(&format!("{of_material}target = {{ tangent_modulus = 2e9 }}\n"));
     let modulus = 2e9 / (1.0 - 2e9 / 206e9);
-    assert!(rust.contains(&format!("{modulus:e}")), "{modulus:e} in {rust}");
+    assert!(written.has_number(modulus), "{modulus:e} in {}", written.rust);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use std::process::Command;
 
 /// Largest size of a library [bytes]: that of an FMU that knows the mass, with the law `brinell`. It holds both the table of the curve of a
 /// pair and the construction that makes it, so that a contact deeper than the table has the same law.
-const LARGEST: u64 = 101_000;
+const LARGEST: u64 = 106_000;
 
 /// The same with friction: the springs, their growth with the dent, and their merge.
 const LARGEST_WITH_FRICTION: u64 = 140_000;

@@ -4,7 +4,7 @@
 
 use brinell_testing::{
     archive, both_ways, command, courses, hostile, hosts, kinds, loaded, physics, prebuilt, pytest, refusal, skips,
-    unit,
+    unit, written,
 };
 
 /// Cargo builds the program before these tests; without its feature they do not compile.

@@ -3,6 +3,7 @@
 use crate::command::{empty_folder, run};
 use crate::prebuilt;
 use crate::refusal::refused_text;
+use crate::written::Written;
 use serde_json::Value;
 use std::fs;
 
@@ -68,10 +69,8 @@ fn the_fmu_starts_with_the_strength_of_the_impact_and_agrees_with_the_prediction
         let text = scene(target, law, more);
         fs::write(folder.path().join("scene.toml"), &text).unwrap();
         let strength = predicted(&text, &[])["strength"].clone();
-        let rust = run(folder.path(), ["constants", "scene.toml"]).with_status(0).out;
-        // the words of the data that are numbers
-        let bits = |word: &str| u64::from_str_radix(word.strip_prefix("0x")?.trim_end_matches(','), 16).ok();
-        let numbers: Vec<f64> = rust.split_whitespace().filter_map(bits).map(f64::from_bits).collect();
+        let written = Written::of(&text);
+        let numbers: Vec<f64> = written.words.iter().copied().map(f64::from_bits).collect();
         // a unit that knows the mass multiplies by the factor itself
         let factor = if more.is_empty() { 1.0 } else { number(&strength["factor"]) };
         for name in ["yield_strength", "hardening_modulus"] {
@@ -79,7 +78,7 @@ fn the_fmu_starts_with_the_strength_of_the_impact_and_agrees_with_the_prediction
             // reading the JSON may change the last digit
             let is_near = |found: &f64| (found - value).abs() < 1e-12 * value;
             let found = numbers.iter().any(is_near) || !more.is_empty() && numbers.contains(&value.round());
-            assert!(value == 0.0 || found, "{name} = {value:e} in {rust}");
+            assert!(value == 0.0 || found, "{name} = {value:e} in {}", written.rust);
         }
         prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);

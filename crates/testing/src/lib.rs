@@ -45,6 +45,7 @@ pub mod toolchain;
 pub mod unit;
 #[cfg(unix)]
 pub mod windows;
+pub mod written;
 
 /// The Rust code of the guide, as tests.
 #[cfg(doctest)]

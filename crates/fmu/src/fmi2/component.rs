@@ -9,7 +9,7 @@ use crate::c::complaint::Complaint;
 use crate::c::handle::Handle;
 use crate::c::memory::Memory;
 use crate::c::text::Text;
-use crate::instance::{Instance, Phase, Warning};
+use crate::instance::{Checked, Instance, Warning};
 use crate::scene::{Presence, Scene};
 use core::ffi::c_char;
 
@@ -33,11 +33,11 @@ impl<S: Scene> Component<S> {
     /// type. All fields that are not listed here are numbers, `bool`s, pointers that may be null, or arrays of them.
     ///
     /// Newly allocated memory consists of zeros. A component of 100,000 contacts would not fit on every stack.
-    pub const ZEROS: (S::Contact, Option<S::Model>, S::Values, Phase, Logger, Memory) =
+    pub const ZEROS: (Checked<S>, Logger, Memory) =
         // SAFETY: the evaluation of the constant is the proof.
         unsafe {
             use core::mem::zeroed;
-            (zeroed(), zeroed(), zeroed(), zeroed(), zeroed(), zeroed())
+            (zeroed(), zeroed(), zeroed())
         };
 }
 

@@ -127,8 +127,12 @@ struct Settings<S: Scene> {
     bodies: S::Groups<BodiesOf<S>>,
     values: S::Values,
     /// The models of the groups, if the instance keeps them. They lie outside of it, and a saved state has no room for them.
-    prepared: <S::Prepared as Presence>::Of<Option<S::Model>, Span<Option<S::Model>>>,
+    prepared: KeptModels<S>,
 }
+
+/// The models that an instance keeps, if it does.
+type KeptModels<S> =
+    <<S as Scene>::Prepared as Presence>::Of<Option<<S as Scene>::Model>, Span<Option<<S as Scene>::Model>>>;
 
 /// Calls `each` for every array of an instance whose length follows from the scene, with this length.
 macro_rules! arrays {
@@ -203,10 +207,13 @@ struct Deep {
     indentation: f64,
 }
 
+/// The fields of an instance for which zeros could be no value.
+pub type Checked<S> = (<S as Scene>::Contact, Option<<S as Scene>::Model>, <S as Scene>::Values, Phase, Limit);
+
 /// A limit of the width of contacts. Zero is the first one, as in memory full of zeros.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
-enum Limit {
+pub enum Limit {
     /// The law becomes [invalid](brinell_contact::validity): a warning.
     Valid = 0,
     /// A contact is as wide as its smaller body: no further step.
