@@ -45,7 +45,7 @@ def throw(path, step, end):
             ball.step()
             balance.step()
     if step == STEP:
-        balance.told("kinetic energy of the throw", 0.5 * MASS * (THROW**2 + 0.2**2), 3e-8)
+        balance.told("kinetic energy of the throw", 0.5 * MASS * (THROW**2 + 0.2**2), 5e-7)
     normals = [data.geom(side).xmat.reshape(3, 3)[:, 2] for side in ("left", "right")]
     return np.array(rows).T, ball.forces[:, None] * normals + ball.tangential_forces
 

@@ -249,13 +249,13 @@ def test_a_bouncing_ball_ends_and_starts_again():
 def test_steps_that_are_unstable_with_the_mass_of_the_impact_are_told_once():
     contact = unit("coupled").instance()
     contact.initialize(initial_gap=1e-4)
-    speed, size = 1.0, 2e-3
+    speed, size = 1.0, 2e-4
     for _ in range(4):
         contact.step(size, rate=speed)
         speed -= size * contact.get("force") / MASS
     assert abs(speed) > 100.0
     told = [message for *_, category, message in contact.log if "unstable" in message and category == "logStatusWarning"]
-    assert told == ["fmi2DoStep: steps of 0.002 s are unstable with a mass of 0.004 kg: make them shorter, or let the unit move it by [coupling]"]
+    assert told == ["fmi2DoStep: steps of 0.0002 s are unstable with a mass of 0.004 kg: make them shorter, or let the unit move it by [coupling]"]
 
 
 def test_a_force_that_is_late_is_told_once():

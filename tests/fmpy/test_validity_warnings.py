@@ -90,11 +90,11 @@ def test_it_is_told_in_whatever_steps_the_way_is_made(name):
 @pytest.mark.parametrize("name", PLAIN)
 def test_it_is_told_without_logging_unless_the_category_is_switched_off(name):
     instance = ready(name, logging=False)
-    press(instance, RADIUS, 10)
+    press(instance, 0.1 * RADIUS, 10)
     assert len(warnings(instance)) == 1
     instance = ready(name)
     switch(instance, False)
-    press(instance, RADIUS, 10)
+    press(instance, 0.1 * RADIUS, 10)
     assert instance.log == []
 
 
@@ -102,7 +102,7 @@ def test_it_is_told_without_logging_unless_the_category_is_switched_off(name):
 def test_it_is_told_again_after_a_reset(name):
     instance = ready(name, logging=False)
     for count in (1, 2, 3):
-        press(instance, RADIUS, 10)
+        press(instance, 0.1 * RADIUS, 10)
         assert len(warnings(instance)) == count
         instance.call("Reset")
         instance.initialize()
@@ -118,7 +118,7 @@ def test_it_is_told_by_the_first_step_of_a_contact_that_begins_beyond():
 def test_it_is_told_again_when_the_category_is_switched_on_again():
     instance = ready("plain")
     switch(instance, False)
-    press(instance, RADIUS, 10)
+    press(instance, 0.1 * RADIUS, 10)
     switch_on(instance)
     assert instance.log == [], "nothing is told before a step"
     press(instance, 1e-9, 3)
@@ -257,7 +257,7 @@ def test_the_speed_follows_the_parameters_and_is_told_before_the_first_step():
 
 def test_the_speed_is_told_again_and_independently_of_the_width():
     instance = ready("steel_ball")
-    instance.step(1e-3, 60.0)
+    instance.step(1e-5, 60.0)
     assert len(warnings(instance)) == 2
     switch_on(instance)
     instance.step(1e-9)

@@ -260,7 +260,9 @@ fn at_0_3_without_hardening_and_for_small_strain_it_is_the_law_itself() {
                 let path = model.unloading_path(largest);
                 let middle = 0.5 * (path.lower + path.upper);
                 let mut back = pressed(model, largest);
-                let numbers = [force(model, largest), model.loading.contact_radius(&pair, largest), path.lower];
+                // a dent is a part of the indentation
+                let recovered = largest - path.lower;
+                let numbers = [force(model, largest), model.loading.contact_radius(&pair, largest), recovered];
                 advance(&mut back, model, middle - largest);
                 let more = [back.contact_radius(model), model.loading.work(&pair, largest), back.force()];
                 (numbers, more, model.loading.regime(&pair, largest))

@@ -208,7 +208,7 @@ def test_the_impulse_makes_the_rebound(unit):
 
 def test_an_impact_that_is_longer_than_a_step_is_run_to_its_end(unit):
     table = quick(
-        unit, {"mass": [4e-3, 1e12]}, speed=1e-6, parameters={"target.youngs_modulus": 1e3}
+        unit, {"mass": [4e-3, 1e7]}, speed=1e-6, parameters={"target.youngs_modulus": 1e3}
     )
     assert list(table["error"]) == ["", ""]
     assert (table["restitution"] > 0.0).all() and (table["restitution"] <= 1.0 + 1e-12).all()
