@@ -33,12 +33,12 @@
 //! contacts amplify rounding as the motion itself does. The work of a contact with a loss is right to 1e-6 of itself where it is far
 //! below the energy of the motion.
 //!
+//! With friction, rates are off by some 1e-6, on growing dents 1e-4, in two directions 2e-4 of that scale after an event
+//! (`chords`); the balance of work is exact, and Coulomb's bound holds to 1e-9.
+//!
 //! # Evaluations
 //! An impact of one contact takes some hundred evaluations in a step, and at most 3,000 if its laws have segments. A longer step takes
 //! as many for each touch, and some hundred for each oscillation of a contact that is pressed.
-//!
-//! With friction, rates are off by some 1e-6, on growing dents 1e-4, in two directions 2e-4 of that scale after an event
-//! (`chords`); the balance of work is exact, and Coulomb's bound holds to 1e-9.
 //!
 //! # Rest
 //! Bodies come to rest with a [fitted](crate::losses::Fitted) loss, as fast as it damps a lasting contact. The

@@ -17,9 +17,6 @@ use libm::{fabs, sqrt};
 /// The amplitude that counts as none, relative to the static indentation: its square is the part of the energy.
 pub(super) const STILL: f64 = 1e-6;
 
-/// The rate of indentation, relative to a given rate, at which the target counts as giving way at that rate.
-const STEADY: f64 = 1e-11;
-
 /// Accelerations of this part of those of all forces are rounding: the balance needs no correction.
 const BALANCED: f64 = 1e-13;
 
@@ -43,11 +40,6 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
             let stiffness = self.stiffness(place, member);
             stored = largest(quotient(elastic * elastic, stiffness, stiffness > 1e-100 * fabs(elastic), 0.0), stored);
             stiffest = largest(stiffness, stiffest);
-        }
-        if let Some((_, member)) = self.members().find(|(_, member)| member.is_held) {
-            // the target gives way at the given rate
-            let steady = member.loss.map_or(0.0, |loss| loss.easing(member.now.elastic));
-            return member.now.rate() > 0.0 && fabs(member.now.approach) <= STEADY * steady;
         }
         let slow = STILL * sqrt(stored);
         let is_slow = |member: &Work<C>| fabs(member.now.approach) <= slow * sqrt(member.inverse_mass);
