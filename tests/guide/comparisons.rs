@@ -6,7 +6,7 @@ use crate::tables::{heading, row, shows};
 use crate::{is_writing, read, root};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::regime::LARGEST_INDENTATION;
-use brinell_contact::{Loading, Model, Pair, Surface, TwoBodies};
+use brinell_contact::{Loading, Model, Numbered, Pair, Surface, TwoBodies};
 use brinell_testing::laws::{entries, entry, says, text};
 use std::fs;
 use std::path::Path;
@@ -20,7 +20,7 @@ pub fn yielding() -> impl Iterator<Item = &'static str> {
 fn model(name: &str, pair: Pair, hardening_modulus: f64) -> AnyModel {
     let (loading, unloading) = (physics::loading(name), physics::unloading(unloading_with(name)));
     let bodies = TwoBodies { hardening_modulus, curvature: 0.0, other: physics::elastic_partner(&pair) };
-    Model { pair, loading: loading.paired(bodies).unwrap_or(loading), unloading, surface: Surface::Dented }.prepared()
+    Model { pair, loading: loading.of_bodies(bodies), unloading, surface: Surface::Dented }.prepared()
 }
 
 /// The unloading law of a scene that names none.

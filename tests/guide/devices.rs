@@ -4,7 +4,7 @@ use crate::comparisons::{larger, numbers, unloading_with};
 use crate::physics::AnyModel;
 use brinell_contact::impact::{Impact, Prediction, predict};
 use brinell_contact::rate::{self, FIRST_STRAIN, Rate, STEPS};
-use brinell_contact::{Body, Model, OtherBody, Pair, Surface, TwoBodies};
+use brinell_contact::{Body, Model, Numbered, OtherBody, Pair, Surface, TwoBodies};
 use brinell_exporter::measured::{self, Metal, STEEL_RATE};
 use brinell_exporter::table::Class;
 use brinell_testing::physics;
@@ -39,7 +39,7 @@ pub fn on_steel(law: &str, ball: &Body, yield_strength: f64) -> AnyModel {
     let bodies = TwoBodies { hardening_modulus: 0.0, curvature: 0.0, other };
     Model {
         pair: Pair::new(ball, &STEEL, yield_strength).expect("a ball on a plane touches in one point"),
-        loading: loading.paired(bodies).unwrap_or(loading),
+        loading: loading.of_bodies(bodies),
         unloading,
         surface: Surface::Dented,
     }

@@ -5,7 +5,7 @@ use brinell_contact::impact::{Impact, predict};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::{self, Rate};
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Body, Loading, Model, OtherBody, Pair, Surface, TwoBodies};
+use brinell_contact::{Body, Loading, Model, Numbered, OtherBody, Pair, Surface, TwoBodies};
 use std::collections::BTreeSet;
 
 /// A ball against an equal one, and the same ball against a rigid plane, with this hardening modulus \[Pa\] and these laws.
@@ -20,7 +20,7 @@ fn both(ball: &Body, strength: f64, hardening: f64, laws: (AnyLoading, AnyUnload
     [(ball, equal), (&plane, OtherBody::RIGID)].map(|(partner, body)| {
         let pair = Pair::new(ball, partner, strength).expect("they touch").yielding_in(ball, strength);
         let bodies = TwoBodies { hardening_modulus: hardening, curvature: ball.curvature(partner), other: body };
-        let loading = laws.0.paired(bodies).unwrap_or(laws.0);
+        let loading = laws.0.of_bodies(bodies);
         Model { pair, loading, unloading: laws.1, surface: Surface::Dented }
     })
 }

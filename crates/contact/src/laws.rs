@@ -95,6 +95,7 @@ macro_rules! laws {
             $(fn of_bodies(self, bodies: TwoBodies) -> $any {
                 match self {
                     $($any::$plain(law) => $any::$paired(Paired::new(law, bodies)),)+
+                    $($any::$paired(form) => $any::$paired(form.of_bodies(bodies)),)+
                     law => law,
                 }
             })?
@@ -133,15 +134,6 @@ macro_rules! laws {
                 /// Whether the law takes each of two bodies for itself.
                 pub fn takes_both_bodies(&self) -> bool {
                     matches!(self, $($any::$plain(_) | $any::$paired(_))|+)
-                }
-
-                /// The law for these two bodies, with their Poisson's ratios; `None` for a law that has no such form.
-                pub fn paired(self, bodies: TwoBodies) -> Option<$any> {
-                    match self {
-                        $($any::$plain(law) => Some($any::$paired(Paired::new(law, bodies))),)+
-                        $($any::$paired(form) => Some($any::$paired(Paired::new(form.law, bodies))),)+
-                        _ => None,
-                    }
                 }
 
                 /// Its form for two bodies, if it is one.

@@ -8,7 +8,7 @@ use brinell_contact::impact::{self, Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Loading, Model, Pair, TwoBodies};
+use brinell_contact::{Loading, Model, Numbered, Pair, TwoBodies};
 
 // number of predictions that this thread has made
 #[cfg(test)]
@@ -195,7 +195,7 @@ impl AnyModel {
 
 /// The model with the form of its loading law for these two bodies, if it has one.
 pub fn paired(model: &Model<AnyLoading, AnyUnloading>, bodies: TwoBodies) -> Model<AnyLoading, AnyUnloading> {
-    let Some(loading) = model.loading.paired(bodies) else { return *model };
+    let loading = model.loading.of_bodies(bodies);
     Model { loading, ..*model }
 }
 

@@ -4,7 +4,7 @@ use crate::laws;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::material::YieldPoint;
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Body, History, Loading, Model, OtherBody, Pair, Surface, TwoBodies};
+use brinell_contact::{Body, History, Loading, Model, Numbered, OtherBody, Pair, Surface, TwoBodies};
 use std::f64::consts::PI;
 use std::mem::discriminant;
 
@@ -55,7 +55,7 @@ pub fn brinell(pair: Pair, bodies: TwoBodies) -> AnyModel {
 /// The same, which asks the construction at each point.
 pub fn construction(pair: Pair, bodies: TwoBodies) -> AnyModel {
     let plain = AnyModel { pair, ..model("brinell", "brinell") };
-    AnyModel { loading: plain.loading.paired(bodies).expect("brinell has such a form"), ..plain }
+    AnyModel { loading: plain.loading.of_bodies(bodies), ..plain }
 }
 
 /// The unit of indentation and force of every table: the point where the mean pressure reaches 1.1 S.
