@@ -241,14 +241,14 @@ fn widen<S: Scene>(name: &str, effective: f64, size: f64) {
     let what = format!("{name} with {size} m: refused between {before:e} and {:e} m", width(&instance));
     assert!(before < size && width(&instance) >= size * (1.0 - 1e-12), "{what}");
     assert_eq!(words(&instance), state, "{name}: a refused step changes nothing");
-    // nor does a copy go on, nor the same state from its words, after the step that looks
+    // nor does a copy go on, nor the same state from its words
     let time = instance.time();
     assert_ne!(instance.do_plain_step(time, 1e-9), Plain::Done);
     let mut copy = ready::<S>();
     copy.copy(&instance);
     assert_eq!(step(&mut copy, 1e-9).0, Err(fault), "{name}: a copy");
     let bytes: Vec<_> = state.iter().map(|word| word.to_le_bytes()).collect();
-    assert!(copy.load(&bytes) && step(&mut copy, 1e-9).1.is_some(), "{name}: warned again");
+    assert!(copy.load(&bytes), "{name}: a state");
     assert_eq!(step(&mut copy, 1e-9).0, Err(fault), "{name}: from words");
     // a state from before goes on
     copy.copy(&ready::<S>());

@@ -218,8 +218,8 @@ pub enum Limit {
     Valid = 0,
     /// A contact is as wide as its smaller body: no further step.
     Wide = 1,
-    /// None: this contact has reached the last one.
-    None(u32) = 2,
+    /// This contact has reached the last one.
+    Reached(u32) = 2,
 }
 
 /// One instance of a scene: everything that a saved state contains.

@@ -83,7 +83,7 @@ impl<S: Scene> Instance<S> {
         self.clock = other.clock;
         // what has been told remains told
         let [present, restored] =
-            [self.settings.limit, other.settings.limit].map(|limit| matches!(limit, Limit::None(_)));
+            [self.settings.limit, other.settings.limit].map(|limit| matches!(limit, Limit::Reached(_)));
         if present || restored {
             self.settings.set_limit(Limit::Wide);
         }
@@ -113,7 +113,9 @@ impl<S: Scene> Instance<S> {
     /// Passes the [`Instance::words`] words of the instance to `store`. Equal instances have equal words.
     pub fn save(&self, mut store: impl FnMut(u64)) {
         let last_step = self.contacts.last_step.as_ref().first().copied().unwrap_or(0.0);
-        let flags = u64::from(self.clock.experiment_defined) | u64::from(self.clock.curved) << 1;
+        // a contact that has become too wide, counted from 1, lies above the flags
+        let wide = if let Limit::Reached(contact) = self.settings.limit { u64::from(contact) + 1 } else { 0 };
+        let flags = u64::from(self.clock.experiment_defined) | u64::from(self.clock.curved) << 1 | wide << 2;
         store(self.clock.phase as u64);
         store(flags);
         store_kept([self.clock.time, self.clock.stop(), last_step], Self::kept_times(), &mut store);
@@ -153,7 +155,7 @@ impl<S: Scene> Instance<S> {
     #[inline(never)]
     fn read(&mut self, words: &[[u8; 8]]) -> Option<()> {
         let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
-        let (phase, flags) = (words.next()?, words.next().filter(|&flags| flags <= 3)?);
+        let (phase, flags) = (words.next()?, words.next().filter(|&flags| flags >> 2 <= S::contacts() as u64)?);
         let phase = Phase::ALL.into_iter().find(|&known| known as u64 == phase)?;
         let [time, stop, last_step] = load_kept(Self::kept_times(), &mut words)?;
         let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
@@ -229,6 +231,9 @@ impl<S: Scene> Instance<S> {
         self.contacts.last_step.as_mut().fill(last_step);
         // the earlier warnings are not known here
         self.settings.set_limit(Limit::Valid);
+        if let Some(contact) = (flags >> 2).checked_sub(1) {
+            self.settings.limit = Limit::Reached(contact as u32);
+        }
         self.look();
         self.forget_importer();
         self.note_forces();

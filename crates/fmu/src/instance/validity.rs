@@ -57,7 +57,7 @@ impl<S: Scene> Instance<S> {
     /// # Errors
     /// [`Fault::TooWide`]
     pub(super) fn check_width(&self) -> Result<(), Fault> {
-        let Limit::None(contact) = self.settings.limit else { return Ok(()) };
+        let Limit::Reached(contact) = self.settings.limit else { return Ok(()) };
         let contact = contact as usize;
         Err(Fault::TooWide { contact, size: size::<S>(S::group(contact), &self.settings.values) })
     }
@@ -73,7 +73,7 @@ impl<S: Scene> Instance<S> {
             }
         }
         if let Some(contact) = reached {
-            settings.limit = Limit::None(contact as u32);
+            settings.limit = Limit::Reached(contact as u32);
             self.clock.hold();
         }
     }
