@@ -424,6 +424,10 @@ fn refusal(fault: &Fault) -> String {
         Fault::TooDeep { indentation, .. } => {
             format!("the FMU refuses a step: at {} the law can't be evaluated", quantity(*indentation, "m"))
         }
+        Fault::TooWide { size, .. } => format!(
+            "the FMU refuses a step: a contact is as wide as the smaller body, whose radius is {}, and no law holds",
+            quantity(*size, "m")
+        ),
         Fault::NoInputDerivatives => "the FMU takes no input derivatives: its law depends on the rate".into(),
         other => format!("the FMU refuses a step: {other:?}"),
     }

@@ -168,6 +168,13 @@ fn the_wrong_master_is_warned_of() {
 }
 
 #[test]
+fn a_step_that_throws_a_ball_deeper_than_its_radius_is_refused_in_words() {
+    let (_, messages) = rebounds(BALL, "leap-frog", 9e-3);
+    let refused = "a contact is as wide as the smaller body, whose radius is 5 mm, and no law holds";
+    assert!(messages.iter().any(|it| it.as_str().unwrap().contains(refused)), "{messages:?}");
+}
+
+#[test]
 fn every_scene_of_the_repository_bounces() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
     let mut count = 0;
