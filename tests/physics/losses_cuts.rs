@@ -141,7 +141,9 @@ fn the_contact_time_of_a_prediction_is_that_of_the_force() {
         for kind in 0..3 {
             let Some(case) = draw(&mut random, &model, kind) else { continue };
             let found = impact::predict(&case.model, &Impact { mass: case.drive.mass, speed: case.speed });
-            let Some(expected) = found.map(|found| found.contact_time()) else { continue };
+            let Some(found) = found else { continue };
+            // in a target that gives way easily the force fades out
+            let (expected, least) = (found.contact_time(), 1e-12 * found.max_force);
             let mut history = History::start(&case.model, 0.0).expect("a touch");
             let (drive, mut speed) = (Drive { acceleration: 0.0, ..case.drive }, case.speed);
             // to a quarter beyond, so that a force that lasts longer is seen
@@ -149,7 +151,7 @@ fn the_contact_time_of_a_prediction_is_that_of_the_force() {
             let mut last = 0;
             for number in 1..=STEPS + STEPS / 4 {
                 speed = follow(&mut history, &case.model, &drive, speed, step).expect("within range").speed;
-                last = if history.force(speed) > 0.0 { number } else { last };
+                last = if history.force(speed) > least { number } else { last };
             }
             assert!(STEPS.abs_diff(last) <= 1, "{case:?}: the force ends after {last} of {STEPS} steps");
             cases += 1;

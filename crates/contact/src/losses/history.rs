@@ -3,10 +3,9 @@
 mod behaviour;
 mod shared;
 
-use super::bodies;
+use super::bodies::driven;
 use super::held::{Spent, on_segment, on_the_way};
 use super::{Damping, Form, Loss, Model};
-use crate::Surface;
 use crate::loading::Loading;
 use crate::numbers::{largest, quotient};
 use crate::path::Sum;
@@ -90,7 +89,9 @@ impl<K: Loss> History<K> {
             return Ok((flown, 0.0));
         }
         if self.loss.form() == Form::Mobility {
-            return bodies::driven(self, model, rate, step);
+            let mut next = *self;
+            let impulse = driven(&mut next, model, rate, step)?;
+            return Ok((next, impulse));
         }
         let (mut next, increment) = (*self, rate * step);
         let from = self.plastic.indentation();
@@ -212,10 +213,5 @@ impl<K: Loss> History<K> {
     /// Energy lost without yield \[J\].
     pub fn heat(&self) -> f64 {
         self.heat.total()
-    }
-
-    /// Whether a fresh surface waits for the bodies below zero.
-    pub(super) fn forgets<L, U>(model: &crate::Model<L, U>) -> bool {
-        model.surface == Surface::Fresh
     }
 }

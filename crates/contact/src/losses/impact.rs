@@ -1,12 +1,13 @@
 //! Prediction of an impact on a contact with losses.
 
-use super::bodies::{Bodies, short_time};
+use super::bodies::alone;
 use super::history::History;
 use super::{Loss, Model};
 use crate::impact::{Impact, Prediction};
 use crate::loading::Loading;
+use crate::numbers::largest;
 use crate::unloading::Unloading;
-use libm::pow;
+use libm::{fabs, pow};
 
 /// An instant of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,23 +20,34 @@ pub struct State {
     pub speed: f64,
 }
 
-/// More stretches than an impact has.
-const MOST_STRETCHES: u32 = 1000;
+/// Parts in which the bodies would cover the depth of an elastic impact with their first speed.
+const PARTS: f64 = 64.0;
 
-/// The time after which an impact is given up, relative to that of an elastic one.
-const LONGEST: f64 = 1e9;
+/// The number of such parts after which they grow, by this factor. Most impacts last some hundred.
+const MANY: (u32, f64) = (2000, 1.05);
 
-/// The impact `impact` on an untouched contact: the motion `m d'' = -F` is integrated until the bodies separate. The results
-/// are accurate to about 1e-9; the largest force is that at the steps of the integration.
+/// More parts than an impact has.
+const MOST_PARTS: u32 = 3000;
+
+/// The part of the first speed and of the largest force of which nothing is left.
+const FADED: f64 = 1e-12;
+
+/// Halvings that find an instant in a part to its last digit.
+const HALVINGS: u32 = 60;
+
+/// Thirds that find the largest force in two parts.
+const THIRDS: u32 = 40;
+
+/// The impact `impact` on an untouched contact: the motion `m d'' = -F` is followed until the bodies separate. The results are
+/// accurate to about 1e-11.
 ///
 /// `None` if the mass or the speed is not positive and finite, if the energy is below the smallest normal number, if the
-/// motion leaves the range of the law, or if it never ends.
+/// motion leaves the range of the law, or if it never ends: a plate may take the body along.
 pub fn predict<L: Loading, U: Unloading, K: Loss>(model: &Model<L, U, K>, impact: &Impact) -> Option<Prediction> {
     follow(model, impact, |_, _| {})
 }
 
-/// [`predict`] that also passes every instant of the integration, from first contact to the end, to `watch`, together with
-/// the force \[N\].
+/// [`predict`] that also passes instants of the motion, from first contact to the end, to `watch`, together with the force \[N\].
 pub fn follow<L: Loading, U: Unloading, K: Loss>(
     model: &Model<L, U, K>,
     impact: &Impact,
@@ -43,67 +55,147 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
 ) -> Option<Prediction> {
     let Impact { mass, speed } = *impact;
     let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
-    let energy = 0.5 * mass * speed * speed;
+    let energy = impact.energy();
     if !positive(mass) || !positive(speed) || !positive(energy) || energy < f64::MIN_POSITIVE {
         return None;
     }
-    let contact = History::start(model, 0.0).ok()?;
-    let hertz = pow(energy / (0.4 * model.plastic.pair.hertz_stiffness()), 0.4);
-    let scale = short_time(hertz, speed);
-    let longest = 1e3 * LONGEST * scale;
-    let mut bodies = Bodies::new(&contact, model, (1.0 / mass, 0.0, speed), longest).ok()?;
-    bodies.guess = scale;
-    bodies.contact.swiftest = speed;
-    let (mut time, mut largest, mut turning) = (0.0, 0.0, 0.0);
-    // the time up to which the force lasted, and whether it lasts; a surface that lags behind the bodies has none
-    let (mut force_end, mut pushes) = (0.0, true);
-    watch(&State { time, indentation: 0.0, speed }, bodies.contact.force(speed));
-    for _ in 0..MOST_STRETCHES {
-        let start = bodies.contact.plastic().indentation();
-        let (mut last, mut deepest) = (0.0, (0.0, start));
-        bodies
-            .press(&mut |state, force| {
-                let indentation = start + (state.way - state.retreat);
-                largest = if force > largest { force } else { largest };
-                deepest = if indentation > deepest.1 { (state.time, indentation) } else { deepest };
-                last = state.time;
-                force_end = if pushes { time + last } else { force_end };
-                pushes = force > 0.0;
-                watch(&State { time: time + state.time, indentation, speed: state.speed }, force);
-            })
-            .ok()?;
-        if deepest.1 >= bodies.deepest() && deepest.0 > 0.0 {
-            turning = time + deepest.0;
+    let mut contact = History::start(model, 0.0).ok()?;
+    contact.swiftest = speed;
+    let mut bodies = Bodies { contact, model, inverse_mass: 1.0 / mass, speed, time: 0.0, deepest: 0.0 };
+    let depth = pow(energy / (0.4 * model.plastic.pair.hertz_stiffness()), 0.4);
+    let mut part = depth / speed / PARTS;
+    let (many, growth) = MANY;
+    let (mut strongest, mut turning, mut force_end) = ((bodies.force(), bodies, part), 0.0, None);
+    watch(&bodies.state(), bodies.force());
+    for number in 0..MOST_PARTS {
+        let before = bodies;
+        bodies = before.after(part)?;
+        if bodies.deepest > before.deepest && bodies.rate() <= 0.0 {
+            let turn = before.after(before.part_until(part, |bodies| bodies.rate() <= 0.0)?)?;
+            turning = turn.time;
+            watch(&turn.state(), turn.force());
         }
-        time += last;
-        if bodies.is_apart() {
-            return Some(prediction(model, impact, &bodies, (largest, turning, force_end)));
+        let force = bodies.force();
+        // on a target that gives way easily, force and speed may fade out
+        let faded = FADED * strongest.0;
+        if force > faded {
+            force_end = None;
+        } else if force_end.is_none() {
+            let end = before.after(before.part_until(part, |bodies| bodies.force() <= faded)?)?;
+            watch(&end.state(), end.force());
+            force_end = Some(end.time);
         }
+        if force > strongest.0 {
+            strongest = (force, before, part * (1.0 + growth));
+        }
+        let is_over = force <= faded && fabs(bodies.speed) <= FADED * speed;
+        if is_over && bodies.speed > 0.0 {
+            // the target has taken it all
+            return None;
+        }
+        if is_over || bodies.contact.is_apart() && bodies.speed < 0.0 {
+            let end = if is_over { part } else { before.part_until(part, |bodies| bodies.contact.is_apart())? };
+            let end = before.after(end)?;
+            watch(&end.state(), 0.0);
+            let (_, from, length) = strongest;
+            let max_force = from.largest_force(length)?;
+            return Some(end.prediction(impact, max_force, turning, force_end.unwrap_or(end.time)));
+        }
+        watch(&bodies.state(), force);
+        part *= if number > many { growth } else { 1.0 };
     }
     None
 }
 
-/// The prediction from the bodies after their separation, with the largest force \[N\], and the times of the turning point
-/// and of the end of the force \[s\].
-fn prediction<L: Loading, U: Unloading, K: Loss>(
-    model: &Model<L, U, K>,
-    impact: &Impact,
-    bodies: &Bodies<L, U, K>,
-    (max_force, turning, force_end): (f64, f64, f64),
-) -> Prediction {
-    // the contact of a fresh surface has forgotten the impact
-    let (plastic, max_indentation) = (&model.plastic, bodies.deepest());
-    let end = bodies.speed;
-    Prediction {
-        max_indentation,
-        max_force,
-        max_contact_radius: plastic.loading.contact_radius(&plastic.pair, max_indentation),
-        regime: plastic.loading.regime(&plastic.pair, max_indentation),
-        residual_indentation: plastic.residual_indentation(max_indentation),
-        energy: impact.energy(),
-        rebound_energy: 0.5 * impact.mass * end * end,
-        restitution: -end / impact.speed,
-        loading_time: turning,
-        unloading_time: force_end - turning,
+/// The bodies at an instant of their impact.
+struct Bodies<'a, L, U, K> {
+    contact: History<K>,
+    model: &'a Model<L, U, K>,
+    inverse_mass: f64,
+    /// Closing speed \[m/s\].
+    speed: f64,
+    /// Time since first contact \[s\].
+    time: f64,
+    /// The largest indentation so far \[m\], which a fresh surface forgets.
+    deepest: f64,
+}
+
+impl<L, U, K: Copy> Clone for Bodies<'_, L, U, K> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L, U, K: Copy> Copy for Bodies<'_, L, U, K> {}
+
+impl<L: Loading, U: Unloading, K: Loss> Bodies<'_, L, U, K> {
+    /// The bodies `time` \[s\] later; `None` beyond the range of the law.
+    fn after(&self, time: f64) -> Option<Self> {
+        let mut next = *self;
+        if time > 0.0 {
+            let (speed, _, work) =
+                alone(&mut next.contact, self.model, (self.inverse_mass, 0.0, self.speed), time).ok()?;
+            (next.speed, next.time, next.deepest) = (speed, self.time + time, largest(self.deepest, work.deepest()));
+        }
+        Some(next)
+    }
+
+    fn state(&self) -> State {
+        State { time: self.time, indentation: self.contact.plastic.indentation(), speed: self.speed }
+    }
+
+    fn force(&self) -> f64 {
+        self.contact.force(self.speed)
+    }
+
+    /// Rate of indentation \[m/s\].
+    fn rate(&self) -> f64 {
+        self.speed - self.contact.damping_for(0.0).retreat(self.force())
+    }
+
+    /// The time within `part` \[s\] at which something `happens`; the whole part if it doesn't.
+    fn part_until(&self, part: f64, happens: impl Fn(&Self) -> bool) -> Option<f64> {
+        let (mut low, mut high) = (0.0, part);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            *(if happens(&self.after(middle)?) { &mut high } else { &mut low }) = middle;
+        }
+        Some(high)
+    }
+
+    /// The largest force in the next `time` \[s\], by section search.
+    fn largest_force(&self, time: f64) -> Option<f64> {
+        let (mut low, mut high) = (0.0, time);
+        let force = |time: f64| Some(self.after(time)?.force());
+        let mut most = largest(force(low)?, force(high)?);
+        for _ in 0..THIRDS {
+            let third = (high - low) / 3.0;
+            let [one, other] = [force(low + third)?, force(high - third)?];
+            most = largest(most, largest(one, other));
+            if one < other {
+                low += third;
+            } else {
+                high -= third;
+            }
+        }
+        Some(most)
+    }
+
+    /// The prediction from the bodies at their separation, with the largest force \[N\], and the times of the turning point and of
+    /// the end of the force \[s\]. A surface that lags behind the bodies has none.
+    fn prediction(&self, impact: &Impact, max_force: f64, turning: f64, force_end: f64) -> Prediction {
+        let (plastic, max_indentation) = (&self.model.plastic, self.deepest);
+        Prediction {
+            max_indentation,
+            max_force,
+            max_contact_radius: plastic.loading.contact_radius(&plastic.pair, max_indentation),
+            regime: plastic.loading.regime(&plastic.pair, max_indentation),
+            residual_indentation: plastic.residual_indentation(max_indentation),
+            energy: impact.energy(),
+            rebound_energy: 0.5 * impact.mass * self.speed * self.speed,
+            restitution: -self.speed / impact.speed,
+            loading_time: turning,
+            unloading_time: force_end - turning,
+        }
     }
 }

@@ -9,13 +9,12 @@
 //! `F_s` and `K_s` are force and stiffness of the elastoplastic law, `v` is the rate of indentation. The contact never
 //! pulls.
 //!
-//! A contact on a plate is moved as bodies of no mass are: [`history`] calls [`bodies`], which moves a history.
+//! [`bodies`] move as those that [share](super::shared) contacts, also where they press on a plate at a given rate.
 
 pub mod bodies;
 mod held;
 pub mod history;
 pub mod impact;
-mod stretch;
 
 pub use bodies::follow;
 pub use history::History;

@@ -5,14 +5,14 @@ use super::clock::Clock;
 use super::dop853::{self, Slopes};
 use super::inverse_masses::InverseMasses;
 use super::loss::Loss;
-use super::scales::Scales;
+use super::scales::{Scales, energy_of_load, stiffness_at};
 use super::targets::Target;
 use super::work::Work;
 use super::{Refused, SharedContact};
 use crate::Model;
 use crate::losses::Damping;
 use crate::motion::MOST_EVALUATIONS;
-use crate::numbers::{largest, root, smallest};
+use crate::numbers::{largest, quotient, root, smallest};
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 use libm::fabs;
@@ -157,6 +157,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         }
         self.evaluate_now();
         self.scale_losses();
+        self.scale_held();
     }
 
     /// Gives a scale to the damping of contacts that are pressed at the start and have never moved.
@@ -174,6 +175,22 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             if loss.damping.swiftest == 0.0 {
                 loss.begin();
             }
+        }
+    }
+
+    /// Gives bodies that close at a given rate the inverse mass at which a target that gives way would take their energy in a swing: it
+    /// serves as the scale of their motion. No load is larger than that of the way of the step.
+    fn scale_held(&mut self) {
+        let left = self.left;
+        for (_, member) in self.members_mut().filter(|(_, member)| member.inverse_mass == 0.0) {
+            let (mobility, rate) = (member.loss.map_or(0.0, |loss| loss.easing(1.0)), fabs(member.now.rate()));
+            let steady = quotient(rate, mobility, mobility > 0.0, 0.0);
+            let deepest = member.branch.stiffest.force(member.now.indentation() + rate * left);
+            let energy =
+                energy_of_load(&member.branch.stiffest, largest(smallest(steady, deepest), member.now.elastic));
+            let stiffness = stiffness_at(&member.branch.stiffest, energy);
+            member.inverse_mass = largest(mobility * mobility * stiffness, f64::MIN_POSITIVE);
+            member.is_held = true;
         }
     }
 
@@ -316,7 +333,8 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             if let Some(loss) = &member.loss {
                 let is_apart = member.branch.kind == Kind::Apart;
                 let swiftest = if is_apart { 0.0 } else { loss.swiftest(member.now.approach) };
-                let heat = member.now.work - (member.contact.plastic().work(plastic) - loss.before);
+                let stored = member.contact.plastic().work(plastic) - loss.before;
+                let heat = member.now.work - if member.is_held { 0.0 } else { stored };
                 member.contact.lose(model.borrow(), swiftest, heat).map_err(refused)?;
             }
             member.deepest = largest(member.deepest, member.contact.plastic().max_indentation());

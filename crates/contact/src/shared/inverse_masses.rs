@@ -57,6 +57,11 @@ impl<'a> InverseMasses<'a> {
     /// That of no contact.
     pub const NONE: InverseMasses<'a> = InverseMasses { count: 0, entries: &[] };
 
+    /// That of one contact; zero for bodies that close at a given rate, whatever the force.
+    pub(crate) fn single(entry: &'a [f64; 1]) -> InverseMasses<'a> {
+        InverseMasses { count: 1, entries: entry }
+    }
+
     /// The matrix of `count` contacts from its upper triangle, row by row \[1/kg\].
     ///
     /// # Errors

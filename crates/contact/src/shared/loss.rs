@@ -132,8 +132,7 @@ impl Loss {
     }
 
     /// A number with the sign of the force before it is cut at zero, for a force that follows the stiffness \[m/s\]. It is
-    /// `F_s/K^2 + kappa v`, which also at the surface does not touch zero.
-    /// For a target that holds it is the rate of indentation.
+    /// `F_s/K^2 + kappa v`, which also at the surface does not touch zero. For a target that holds it is the rate of indentation.
     pub fn pull(&self, elastic: f64, stiffness: f64, approach: f64) -> f64 {
         if self.damping.form == Form::Mobility {
             return approach;

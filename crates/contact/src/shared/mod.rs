@@ -265,7 +265,7 @@ pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
         member.acceleration = acceleration;
         member.now = Instant::at(indentation, rate);
         member.trial = member.now;
-        member.deepest = 0.0;
+        (member.deepest, member.is_held) = (0.0, false);
     }
     find_blocks(work, masses);
     if C::DIRECTIONS > 0 {

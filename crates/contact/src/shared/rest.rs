@@ -17,6 +17,9 @@ use libm::{fabs, sqrt};
 /// The amplitude that counts as none, relative to the static indentation: its square is the part of the energy.
 pub(super) const STILL: f64 = 1e-6;
 
+/// The rate of indentation, relative to the largest one, at which a target counts as giving way at a given rate.
+const STEADY: f64 = 1e-11;
+
 /// Accelerations of this part of those of all forces are rounding: the balance needs no correction.
 const BALANCED: f64 = 1e-13;
 
@@ -27,6 +30,11 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         let quick = |member: &Work<C>| fabs(member.now.approach) > 2.0 * STILL * member.speed(&self.scales);
         if self.members().any(|(_, member)| quick(member)) {
             return false;
+        }
+        if let Some((_, member)) = self.members().find(|(_, member)| member.is_held) {
+            // the target gives way at the given rate
+            let is_pressed = member.branch.kind != Kind::Apart && member.now.rate() > 0.0;
+            return is_pressed && fabs(member.now.approach) <= STEADY * member.speed(&self.scales);
         }
         let (mut stored, mut stiffest) = (0.0, 0.0);
         for (place, member) in self.members() {

@@ -22,6 +22,9 @@ const ROUNDING: f64 = 2e-15;
 /// The largest error of the work of a contact with a loss as a part of itself: it may be far below the scales of the motion.
 const OWN_TOLERANCE: f64 = 1e-6;
 
+/// The same for the heat of a target that gives way to bodies at a given rate.
+const HELD_TOLERANCE: f64 = 1e-11;
+
 /// The place of no contact.
 const NO_CLOCK: usize = usize::MAX;
 
@@ -109,7 +112,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                 let Instant { numbers: [_, rate, impulse, _], force, net, approach, .. } = member.trial;
                 member.slopes.set(stage, [pace * approach, pace * net, pace * force, pace * impulse]);
                 if member.loss.is_some() {
-                    member.power.set(stage, [pace * force * rate]);
+                    member.power.set(stage, [pace * force * if member.is_held { rate - approach } else { rate }]);
                 }
                 if clock.is_some_and(|clock| clock.place == place) {
                     rate_of_clock = approach;
@@ -136,7 +139,8 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                 let [work] = member.power.at_end(&[member.now.work], length);
                 let ([work5], [work3]) = member.power.differences();
                 let least = member.unresolved_part(&scales) * scales.root_energy * scales.root_energy;
-                note(work5, work3, 0.0, OWN_TOLERANCE * largest(fabs(work), least));
+                let own = if member.is_held { HELD_TOLERANCE } else { OWN_TOLERANCE };
+                note(work5, work3, 0.0, own * largest(fabs(work), least));
                 member.trial.work = work;
             }
             let ([way5, rate5, ..], [way3, rate3, ..]) = member.slopes.differences();

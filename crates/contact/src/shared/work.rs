@@ -24,6 +24,8 @@ pub struct Work<C> {
     pub(super) branch: Branch,
     /// `W_ii` \[1/kg\].
     pub(super) inverse_mass: f64,
+    /// Whether the bodies close at a given rate; the inverse mass is then a scale only.
+    pub(super) is_held: bool,
     /// Closing acceleration by all other forces \[m/s^2\].
     pub(super) acceleration: f64,
     pub(super) now: Instant,
@@ -143,7 +145,7 @@ pub(super) struct Instant {
     pub approach: f64,
     /// The rate at which a target gives way per rate of indentation \[1/s\].
     pub easing: f64,
-    /// Work of the force of a contact with a loss \[J\].
+    /// Work of the force of a contact with a loss \[J\]; at a given rate, the heat.
     pub work: f64,
 }
 
@@ -194,6 +196,7 @@ impl<C: Copy> Work<C> {
             active: false,
             branch: Branch::NOTHING,
             inverse_mass: 0.0,
+            is_held: false,
             acceleration: 0.0,
             now: Instant::NOTHING,
             trial: Instant::NOTHING,
