@@ -1,10 +1,14 @@
 //! Bodies of known mass on a target whose strength depends on the strain rate, without FMI.
 
-use crate::physics::{Random, elastic_partner};
+use crate::physics::{AnyModel, Random, elastic_partner};
+use crate::shared_losses::{LosingModel, random_losing_bodies};
+use crate::shared_motion::{Group, random_bodies};
 use brinell_contact::impact::{self, Impact};
 use brinell_contact::loading::{self, AnyLoading, Loading};
-use brinell_contact::motion::Drive;
-use brinell_contact::rate::{self, History, Model, Rate};
+use brinell_contact::losses::{self, AnyLoss, Fitted};
+use brinell_contact::motion::{self, Drive};
+use brinell_contact::rate::{self, History, Rate, Slow};
+use brinell_contact::shared::SharedContact;
 use brinell_contact::unloading::{self, AnyUnloading, Unloading};
 use brinell_contact::{Contact, Pair, Surface, TwoBodies};
 
@@ -15,6 +19,8 @@ fn pair() -> Pair {
     Pair { radius: 5e-3, modulus: 115e9, yield_strength: 300e6, youngs_modulus: 210e9, poissons_ratio: 0.3 }
 }
 
+type Model<L, U> = rate::Model<brinell_contact::Model<L, U>>;
+
 type Hard = (loading::Paired, unloading::Brinell);
 
 fn hardening() -> Hard {
@@ -23,7 +29,7 @@ fn hardening() -> Hard {
 }
 
 fn model<L, U>((loading, unloading): (L, U), rate: Rate, surface: Surface) -> Model<L, U> {
-    Model { slow: brinell_contact::Model { pair: pair(), loading, unloading, surface }, rate, harder: Rate::NONE }
+    rate::Model { slow: brinell_contact::Model { pair: pair(), loading, unloading, surface }, rate, harder: Rate::NONE }
 }
 
 /// Moves the bodies from `speed` in steps of `step` until they part; returns their closing speed then.
@@ -35,8 +41,8 @@ fn bounce<L: Loading + Copy, U: Unloading + Copy>(
 ) -> f64 {
     for _ in 0..1_000_000 {
         let drive = Drive { mass: MASS, acceleration: 0.0 };
-        speed = rate::follow(history, model, &drive, speed, step).expect("within range").speed;
-        if speed < 0.0 && history.plastic().force() == 0.0 {
+        speed = motion::follow(history, model, &drive, speed, step).expect("within range").speed;
+        if speed < 0.0 && history.contact().force() == 0.0 {
             return speed;
         }
     }
@@ -59,7 +65,7 @@ fn every_impact_has_the_strength_of_its_closing_speed() {
                 let model = model((laws.0, laws.1), rate, Surface::Dented);
                 let (expected, factor) = restitution(&model, speed);
                 for step in [1e-6, 17e-6, 2e-3] {
-                    let mut history = History::start(&model, 0.3 * speed * step).unwrap();
+                    let mut history: History = Contact::start(&model, 0.3 * speed * step).unwrap();
                     let found = -bounce(&model, &mut history, speed, step) / speed;
                     assert!((found / expected - 1.0).abs() < 1e-11, "{rate:?} {speed} {step}: {found} {expected}");
                     assert!(factor > 1.0);
@@ -115,7 +121,7 @@ fn the_strength_of_an_impact_takes_few_predictions_whatever_the_bodies() {
         // speeds from a ten-millionth to a tenth of that of waves
         let mass = 3e4 * pair.radius.powi(3) * random.log_uniform(0.1, 10.0);
         let speed = (modulus / 8000.0).sqrt() * random.log_uniform(1e-7, 0.1);
-        let found = Model { slow, rate, harder }.in_impact(&Impact { mass, speed });
+        let found = rate::Model { slow, rate, harder }.in_impact(&Impact { mass, speed });
         let steps = found.unwrap_or_else(|| panic!("{pair:?} {other:?} {rate:?} {harder:?} {mass} {speed}")).steps;
         (all, most, many) = (all + steps, most.max(steps), many + u32::from(steps > 16));
     }
@@ -126,7 +132,7 @@ fn the_strength_of_an_impact_takes_few_predictions_whatever_the_bodies() {
 fn below_the_reference_rate_the_factor_is_one() {
     let rate = Rate::JohnsonCook { c: 0.5, reference_rate: 1e8 };
     let model = model(hardening(), rate, Surface::Dented);
-    let mut history = History::start(&model, 0.0).unwrap();
+    let mut history: History = Contact::start(&model, 0.0).unwrap();
     bounce(&model, &mut history, 20.0, 1e-5);
     assert_eq!(history.factors().softer, 1.0);
 }
@@ -137,7 +143,7 @@ fn a_dent_keeps_the_strength_that_made_it_and_a_fresh_surface_has_that_of_each_i
         for (surface, keeps) in [(Surface::Dented, true), (Surface::Fresh, false)] {
             for (first, second) in [(5.0, 0.3), (0.3, 5.0)] {
                 let model = model(hardening(), rate, surface);
-                let mut history = History::start(&model, 1e-6).unwrap();
+                let mut history: History = Contact::start(&model, 1e-6).unwrap();
                 bounce(&model, &mut history, first, 1e-5);
                 let made = history.factors().softer;
                 // away beyond the original surface, and back
@@ -162,7 +168,7 @@ fn a_dent_keeps_the_strength_that_made_it_and_a_fresh_surface_has_that_of_each_i
 fn an_elastic_impact_makes_no_dent_for_a_slower_one() {
     // a strength that grows fast: the first impact stays elastic, the second one is slower and yields earlier
     let model = model(hardening(), Rate::CowperSymonds { d: 1e-6, q: 5.0 }, Surface::Dented);
-    let mut history = History::start(&model, 1e-6).unwrap();
+    let mut history: History = Contact::start(&model, 1e-6).unwrap();
     for speed in [1.0, 0.1, 0.01] {
         let end = bounce(&model, &mut history, speed, 1e-5);
         assert!((end / -speed - 1.0).abs() < 1e-11, "{speed}: {end}");
@@ -175,7 +181,7 @@ fn an_elastic_impact_makes_no_dent_for_a_slower_one() {
 fn a_saved_contact_goes_on_to_the_same_bits() {
     let model = model(hardening(), RATES[1], Surface::Fresh);
     let drive = Drive { mass: MASS, acceleration: 9.81 };
-    let mut history = History::start(&model, 1e-5).unwrap();
+    let mut history: History = Contact::start(&model, 1e-5).unwrap();
     let mut speed = 2.0;
     for step in 0..400 {
         let mut words = Vec::new();
@@ -183,9 +189,103 @@ fn a_saved_contact_goes_on_to_the_same_bits() {
         assert_eq!(words.len(), 17);
         let mut copy: History = Contact::load(&mut words.iter().copied(), &model).expect("just saved");
         assert_eq!(copy, history, "step {step}");
-        let one = rate::follow(&mut history, &model, &drive, speed, 5e-6).unwrap();
-        let other = rate::follow(&mut copy, &model, &drive, speed, 5e-6).unwrap();
+        let one = motion::follow(&mut history, &model, &drive, speed, 5e-6).unwrap();
+        let other = motion::follow(&mut copy, &model, &drive, speed, 5e-6).unwrap();
         assert_eq!((one, copy), (other, history), "step {step}");
         speed = one.speed;
+    }
+}
+
+/// Random bodies whose contacts find their strengths, by one of the [`RATES`] each.
+fn rated<M: Slow, C: Contact<M> + SharedContact<M>>(
+    (start, kinetic): (Group<M, C>, f64),
+    random: &mut Random,
+) -> (Group<rate::Model<M>, History<C>>, f64) {
+    let mut any = || RATES[usize::from(random.next() < 0.5)];
+    let models = start.models.iter().map(|&slow| rate::Model { slow, rate: any(), harder: any() }).collect();
+    let gaps: Vec<f64> = start.depths().iter().map(|depth| -depth).collect();
+    (Group::new(models, &gaps, start.entries, start.accelerations, start.rates), kinetic)
+}
+
+/// The largest difference of the end in parts, as a part of the speed and of the largest depth, with that of a motion that starts with
+/// nearly the same rates, for each number of `parts`. Asserts the balance of work.
+fn cuts<M: Slow, C: Contact<M> + SharedContact<M>>(
+    (start, kinetic): (Group<rate::Model<M>, History<C>>, f64),
+    name: &str,
+) -> (u32, u32) {
+    let most = (0..start.contacts.len()).map(|i| start.masses().of(i, i)).fold(0.0, f64::max);
+    let (speed, radius) = ((2.0 * kinetic * most).sqrt(), { start.models[0].slow }.plastic().pair.radius);
+    let step = (1e-1 * radius / speed).min(1e-2);
+    let mut whole = start.clone();
+    whole.step(step);
+    assert!(whole.imbalance < 1e-10 * kinetic, "{name}: {:e} of {kinetic:e} J", whole.imbalance);
+    let stronger = whole.contacts.iter().filter(|contact| contact.factors().softer > 1.0).count();
+    let mut sensitive = 0;
+    for parts in [7, 100, 1000] {
+        let mut cut = start.clone();
+        (0..parts).for_each(|_| cut.step(step / f64::from(parts)));
+        let difference = whole.difference(&cut, speed, 1e-2 * radius);
+        if difference > 1e-9 {
+            let mut near = start.clone();
+            let nudge = |i: usize| 1e-11 * speed * ((i * 7 % 5) as f64 - 2.0);
+            near.rates.iter_mut().enumerate().for_each(|(i, rate)| *rate += nudge(i));
+            near.step(step);
+            let nudged = whole.difference(&near, speed, 1e-2 * radius);
+            assert!(difference < nudged, "{name} in {parts} parts: {difference:.1e}, {nudged:.1e} if nudged");
+            sensitive += 1;
+        }
+    }
+    (stronger as u32, sensitive)
+}
+
+#[test]
+fn bodies_that_share_contacts_keep_the_balance_of_work_and_do_not_care_how_time_is_cut() {
+    let mut random = Random(31);
+    let (mut stronger, mut sensitive, mut contacts) = (0, 0, 0);
+    for index in 0..36 {
+        let count = 2 + index % 5;
+        let bodies = random_bodies(&mut random, count);
+        let (plain, off) = cuts(rated(bodies, &mut random), &format!("{index}"));
+        let bodies = random_losing_bodies(&mut random, count);
+        let (losing, other) = cuts(rated(bodies, &mut random), &format!("{index} with losses"));
+        (stronger, sensitive, contacts) = (stronger + plain + losing, sensitive + off + other, contacts + 2 * count);
+    }
+    println!("{stronger} of {contacts} contacts found a strength, {sensitive} sensitive cuts of 216");
+    assert!(stronger > contacts as u32 / 3 && sensitive < 10, "{stronger} of {contacts}, {sensitive}");
+}
+
+/// The second contact is far away, so that the first one moves as if it were alone, but by the motion of bodies that share contacts.
+#[test]
+fn an_impact_of_bodies_that_share_contacts_is_that_of_a_single_contact() {
+    fn check<M: Slow, C: Contact<M> + SharedContact<M>>(slow: M, name: &str, allowed: f64) {
+        for rate in RATES {
+            for speed in [0.01, 0.1, 1.0, 10.0, 100.0] {
+                let model = rate::Model { slow, rate, harder: Rate::NONE };
+                let drive = Drive { mass: MASS, acceleration: 0.0 };
+                let mut alone: History<C> = Contact::start(&model, 1e-6).unwrap();
+                let end = losses::follow(&mut alone, &model, &drive, speed, 1e-3).unwrap().speed;
+                for parts in [1, 10, 1000] {
+                    let entries = vec![1.0 / MASS, 1e-9 / MASS, 1.0 / MASS];
+                    let (gaps, rates) = ([1e-6, 1.0], vec![speed, 0.0]);
+                    let mut group: Group<_, History<C>> =
+                        Group::new(vec![model; 2], &gaps, entries, vec![0.0; 2], rates);
+                    (0..parts).for_each(|_| group.step(1e-3 / f64::from(parts)));
+                    let error = (group.rates[0] - end).abs() / speed;
+                    let factors = [alone, group.contacts[0]].map(|contact| contact.factors().softer);
+                    assert!(error < allowed, "{name}, {rate:?}, {speed} in {parts}: {error:e}");
+                    assert!((factors[0] / factors[1] - 1.0).abs() < 1e-10, "{name}, {rate:?}, {speed}: {factors:?}");
+                    assert!(factors[1] > 1.0);
+                }
+            }
+        }
+    }
+    let (loading, unloading) = hardening();
+    let hard = (AnyLoading::PairedBrinell(loading), AnyUnloading::Brinell(unloading));
+    let johnson = (AnyLoading::Johnson(loading::Johnson::REFERENCE), AnyUnloading::HertzShift(unloading::HertzShift));
+    for ((loading, unloading), name) in [(hard, "brinell"), (johnson, "johnson")] {
+        let plastic = AnyModel { pair: pair(), loading, unloading, surface: Surface::Dented };
+        check::<_, brinell_contact::History>(plastic, name, 1e-10);
+        let loss = AnyLoss::Fitted(Fitted { restitution: 0.7 });
+        check::<LosingModel, losses::History<AnyLoss>>(losses::Model { plastic, loss }, name, 1e-10);
     }
 }

@@ -7,7 +7,7 @@ use crate::physics::{MASS, mild, model};
 use brinell_contact::damped::{self, Adams, AnyDamped, KelvinVoigt, KuwabaraKono};
 use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell_contact::motion::{self, Drive, Follow};
-use brinell_contact::{Contact, rate};
+use brinell_contact::{Contact, History, rate};
 
 /// Length of the steps, about that of an impact [s].
 const STEP: f64 = 1e-4;
@@ -45,7 +45,7 @@ const LAWS: [(&str, &str); 4] =
 #[test]
 fn a_ball_of_any_mass_goes_the_same_way() {
     for (loading, unloading) in LAWS {
-        check(loading, |_| model(loading, unloading), motion::follow);
+        check(loading, |_| model(loading, unloading), motion::follow::<History, _>);
     }
 }
 
@@ -63,7 +63,7 @@ fn a_ball_of_any_mass_has_the_same_losses_and_comes_to_the_same_rest() {
         let plastic = model(loading, unloading);
         for (index, loss) in losses(1.0).into_iter().enumerate() {
             let of = |k: f64| losses::Model { plastic, loss: losses(k)[index] };
-            check(&format!("{loading} with {loss:?}"), of, losses::follow);
+            check(&format!("{loading} with {loss:?}"), of, losses::follow::<losses::History<_>, _>);
         }
     }
 }
@@ -77,7 +77,7 @@ fn a_ball_of_any_mass_meets_the_same_strength_if_the_rates_are_as_much_slower() 
             rate: rate::Rate::CowperSymonds { d: 40.4 / k, q: 5.0 },
             harder: rate::Rate::NONE,
         };
-        check(loading, of, rate::follow);
+        check(loading, of, motion::follow::<rate::History, _>);
     }
 }
 

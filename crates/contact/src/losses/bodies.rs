@@ -34,16 +34,16 @@ pub(super) fn alone<M, C: SharedContact<M>>(
 /// Moves the contact through `step` \[s\] > 0, with the closing speed `speed` \[m/s\] at the start.
 ///
 /// # Errors
-/// [`NoMotion`]; the history is then unchanged.
-pub fn follow<L: Loading, U: Unloading, K: Loss>(
-    history: &mut History<K>,
-    model: &Model<L, U, K>,
+/// [`NoMotion`]; the contact is then unchanged.
+pub fn follow<C: SharedContact<M>, M>(
+    contact: &mut C,
+    model: &M,
     drive: &Drive,
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
     let inverse_mass = 1.0 / drive.mass;
-    let (speed, evaluations, work) = alone(history, model, (inverse_mass, drive.acceleration, speed), step)?;
+    let (speed, evaluations, work) = alone(contact, model, (inverse_mass, drive.acceleration, speed), step)?;
     let taken = largest(work.impulse() * inverse_mass, 0.0);
     Ok(Outcome { speed, taken, evaluations, deepest: work.deepest() })
 }

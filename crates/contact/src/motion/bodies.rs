@@ -125,11 +125,12 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         Ok(self.left > 0.0)
     }
 
-    /// The time left \[s\] of bodies that close at a new speed on a surface without a dent, which they have just reached.
-    pub fn before_touch(&self, is_new: &dyn Fn(f64) -> bool) -> Option<f64> {
+    /// Closing speed \[m/s\] and time left \[s\] of bodies that have just reached a surface without a dent, at a speed that `is_new`
+    /// accepts.
+    #[inline(always)]
+    pub fn before_touch(&self, is_new: impl FnOnce(f64) -> bool) -> Option<(f64, f64)> {
         let touches = self.indentation == 0.0 && self.speed > 0.0 && self.left > 0.0;
-        let found = touches && self.model.is_elastic_at(self.largest) && is_new(self.speed);
-        found.then_some(self.left)
+        (touches && is_new(self.speed) && self.model.is_elastic_at(self.largest)).then_some((self.speed, self.left))
     }
 
     /// The time left \[s\] of bodies that have just turned at their largest indentation.

@@ -22,11 +22,13 @@ mod turning;
 
 use super::Model;
 use super::history::History;
+use super::impact::Impact;
 use super::loading::Loading;
 use super::numbers::largest;
 use super::regime::{Regime, TooDeep};
 use super::unloading::Unloading;
 use bodies::Bodies;
+use core::borrow::Borrow;
 use field::Start;
 use field::{Ended, Stretch};
 use flight::Flight;
@@ -84,6 +86,9 @@ pub const SMALLEST_MOTION: f64 = 1e-300;
 /// The number of evaluations that one evaluation of a law without segments counts for.
 pub(crate) const COSTLY: u32 = 10;
 
+/// Largest number of impacts in a step that find strengths of their own.
+const MOST_IMPACTS: u32 = 1000;
+
 /// Largest number of periods of an oscillation, or of lossless rebounds, in a step. The phase at the end is then known to a
 /// thousandth of a period.
 pub const MOST_PERIODS: f64 = 1e12;
@@ -91,50 +96,101 @@ pub const MOST_PERIODS: f64 = 1e12;
 /// Shorter distances \[m\] count as zero, because their products lose digits.
 const SMALLEST: f64 = 1e-290;
 
+/// A contact whose elastoplastic part a motion follows, between bodies of a model `M`.
+pub trait PlasticContact<M>: Copy {
+    /// The loading law.
+    type Loading: Loading;
+
+    /// The unloading law.
+    type Unloading: Unloading;
+
+    /// The elastoplastic part of a model, or one of the contact's own.
+    type PlasticModel<'a>: Borrow<Model<Self::Loading, Self::Unloading>>
+    where
+        M: 'a;
+
+    /// The elastoplastic part of the model, as it is for this contact.
+    fn plastic_model<'a>(&self, model: &'a M) -> Self::PlasticModel<'a>;
+
+    /// The elastoplastic state.
+    fn plastic(&self) -> &History;
+
+    /// The same to change.
+    fn plastic_mut(&mut self) -> &mut History;
+
+    /// Whether an `impact` on a surface without a dent has a strength of its own, other than that of the last one.
+    #[inline(always)]
+    fn is_new(&self, _impact: &Impact) -> bool {
+        false
+    }
+
+    /// Finds the strength of an `impact` that begins now and [is new](PlasticContact::is_new), on a surface without a dent. Returns the
+    /// model for this impact, and the number of evaluations that it took.
+    ///
+    /// # Errors
+    /// [`TooDeep`] outside the range of the law.
+    fn strengthen<'a>(&mut self, model: &'a M, _impact: &Impact) -> Result<(Self::PlasticModel<'a>, u32), TooDeep> {
+        Ok((self.plastic_model(model), 0))
+    }
+}
+
+impl<L: Loading, U: Unloading> PlasticContact<Model<L, U>> for History {
+    type Loading = L;
+    type Unloading = U;
+    type PlasticModel<'a>
+        = &'a Model<L, U>
+    where
+        Model<L, U>: 'a;
+
+    fn plastic_model<'a>(&self, model: &'a Model<L, U>) -> &'a Model<L, U> {
+        model
+    }
+
+    fn plastic(&self) -> &History {
+        self
+    }
+
+    fn plastic_mut(&mut self) -> &mut History {
+        self
+    }
+}
+
 /// Moves the contact through `step` \[s\] > 0, with the closing speed `speed` \[m/s\] at the start.
 ///
 /// # Errors
-/// [`NoMotion`]; the history is then at an intermediate state.
-pub fn follow<L: Loading, U: Unloading>(
-    history: &mut History,
-    model: &Model<L, U>,
+/// [`NoMotion`]; the contact is then at an intermediate state.
+pub fn follow<C: PlasticContact<M>, M>(
+    contact: &mut C,
+    model: &M,
     drive: &Drive,
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
-    if let Some(outcome) = at_once(history, drive, speed, step) {
+    if let Some(outcome) = at_once(contact.plastic_mut(), drive, speed, step) {
         return Ok(outcome);
     }
-    let mut bodies = Bodies::new(history, model, drive, speed, step)?;
-    while bodies.go_on()? {}
-    bodies.stop()
-}
-
-/// [`follow`] that ends early where the bodies are about to touch a surface without a dent at a closing speed that `is_new`
-/// accepts. Then it also returns the time left \[s\].
-///
-/// # Errors
-/// As for [`follow`].
-pub(crate) fn follow_to_touch<L: Loading, U: Unloading>(
-    history: &mut History,
-    model: &Model<L, U>,
-    drive: &Drive,
-    speed: f64,
-    step: f64,
-    is_new: &dyn Fn(f64) -> bool,
-) -> Result<(Outcome, Option<f64>), NoMotion> {
-    if let Some(outcome) = at_once(history, drive, speed, step) {
-        return Ok((outcome, None));
-    }
-    let mut bodies = Bodies::new(history, model, drive, speed, step)?;
-    loop {
-        if let Some(left) = bodies.before_touch(is_new) {
-            return Ok((bodies.stop()?, Some(left)));
+    let mut whole = Outcome { speed, taken: 0.0, evaluations: 0, deepest: 0.0 };
+    let (mut left, mut plastic, mut known) = (step, contact.plastic_model(model), *contact);
+    for _ in 0..MOST_IMPACTS {
+        let mut bodies = Bodies::new(contact.plastic_mut(), plastic.borrow(), drive, whole.speed, left)?;
+        let is_new = |speed: f64| known.is_new(&Impact { mass: drive.mass, speed });
+        let mut touch = bodies.before_touch(is_new);
+        while touch.is_none() && bodies.go_on()? {
+            touch = bodies.before_touch(is_new);
         }
-        if !bodies.go_on()? {
-            return Ok((bodies.stop()?, None));
+        let Outcome { speed, taken, evaluations, deepest } = bodies.stop()?;
+        whole.taken += taken;
+        whole.evaluations = whole.evaluations.saturating_add(evaluations);
+        (whole.speed, whole.deepest) = (speed, largest(whole.deepest, deepest));
+        let Some((speed, rest)) = touch else { return Ok(whole) };
+        let (found, spent) = contact.strengthen(model, &Impact { mass: drive.mass, speed })?;
+        whole.evaluations = whole.evaluations.saturating_add(spent);
+        if whole.evaluations > MOST_EVALUATIONS {
+            break;
         }
+        (left, plastic, known) = (rest, found, *contact);
     }
+    Err(NoMotion::TooLong)
 }
 
 /// The time \[s\] from the touch of an untouched surface to the largest indentation; `None` if it is not shorter than `longest` \[s\].

@@ -5,15 +5,17 @@
 //! so that it is a fixed point. `R_i` is the radius of the rigid sphere that a body [sees](Loading::share): each of the two bodies has
 //! its own strain, strain rate and strength.
 
+//!
+//! The [hook](PlasticContact::strengthen) of a touch finds it, in any motion: of one contact, of those that share bodies, with losses.
+
 mod behaviour;
-mod follow;
 pub mod history;
 
-pub use follow::follow;
 pub use history::History;
 
 use super::impact::{self, Impact, Prediction};
 use super::loading::Loading;
+use super::losses;
 use super::motion::{Drive, time_to_turn};
 use super::numbers::{largest, quotient};
 use super::unloading::Unloading;
@@ -277,40 +279,78 @@ pub fn strains<L: Loading, U>(model: &super::Model<L, U>, prediction: &Predictio
     strains_of(prediction.max_contact_radius / model.pair.radius, share)
 }
 
-/// Tabor's strains at a contact radius over `R`, where the softer body takes on this `share` of the curvature.
+/// Tabor's strains at a contact radius over `R`, where the softer body takes on this `share` of the curvature. That of a rigid other body
+/// is 1 but for rounding.
 fn strains_of(width: f64, share: f64) -> Strains {
-    Strains { softer: share * TABOR * width, harder: (1.0 - share) * TABOR * width }
+    Strains { softer: share * TABOR * width, harder: largest(1.0 - share, 0.0) * TABOR * width }
+}
+
+/// The bodies in contact and their laws, with what else a contact of constant strength has.
+pub trait Slow: Copy {
+    /// The loading law.
+    type Loading: Loading + Copy;
+
+    /// The unloading law.
+    type Unloading: Unloading + Copy;
+
+    /// The elastoplastic part.
+    fn plastic(&mut self) -> &mut super::Model<Self::Loading, Self::Unloading>;
+}
+
+impl<L: Loading + Copy, U: Unloading + Copy> Slow for super::Model<L, U> {
+    type Loading = L;
+    type Unloading = U;
+
+    fn plastic(&mut self) -> &mut super::Model<L, U> {
+        self
+    }
+}
+
+impl<L: Loading + Copy, U: Unloading + Copy, X: Copy> Slow for losses::Model<L, U, X> {
+    type Loading = L;
+    type Unloading = U;
+
+    fn plastic(&mut self) -> &mut super::Model<L, U> {
+        &mut self.plastic
+    }
 }
 
 /// The bodies in contact, their quasi-static law, and how they resist fast indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Model<L, U> {
-    /// The bodies and the law under a slow load.
-    pub slow: super::Model<L, U>,
+pub struct Model<M> {
+    /// The bodies and their laws under a slow load.
+    pub slow: M,
     /// The strength of the softer body over the strain rate.
     pub rate: Rate,
     /// That of the harder body, which only the law `brinell` asks for.
     pub harder: Rate,
 }
 
-impl<L: Loading + Copy, U: Unloading + Copy> Model<L, U> {
-    /// The law of bodies with these factors on their strengths.
-    pub fn at(&self, Factors { softer, harder }: Factors) -> super::Model<L, U> {
-        let mut model = self.slow;
-        model.pair.yield_strength *= softer;
-        model.loading = model.loading.strengthened_by(softer, harder);
-        model
+impl<M: Slow> Model<M> {
+    /// The bodies with these factors on their strengths.
+    pub fn at(&self, Factors { softer, harder }: Factors) -> M {
+        let mut strong = self.slow;
+        let plastic = strong.plastic();
+        plastic.pair.yield_strength *= softer;
+        plastic.loading = plastic.loading.strengthened_by(softer, harder);
+        strong
+    }
+
+    /// The elastoplastic part of these bodies.
+    pub fn plastic_at(&self, factors: Factors) -> super::Model<M::Loading, M::Unloading> {
+        *self.at(factors).plastic()
     }
 
     /// About the strains and factors of an `impact` in which the softer body flows everywhere below the contact at [Tabor's](TABOR) mean
     /// pressure, three times its strength: `a^2 = 2 R d`, and a quarter of a period under a force that is proportional to `d`.
     fn guess(&self, impact: &Impact) -> (Strains, Factors) {
-        let Pair { radius, yield_strength, .. } = self.slow.pair;
+        let pair = { self.slow }.plastic().pair;
+        let Pair { radius, yield_strength, .. } = pair;
         let (mut strains, mut factors) = (FIRST, Factors::SLOW);
         for _ in 0..GUESSES {
             let stiffness = 6.0 * PI * radius * yield_strength * factors.softer;
             let deepest = sqrt(2.0 * impact.energy() / stiffness);
-            strains = strains_of(sqrt(2.0 * deepest / radius), self.slow.pair.share());
+            strains = strains_of(sqrt(2.0 * deepest / radius), pair.share());
             let time = 0.5 * PI * sqrt(impact.mass / stiffness);
             let factor = |rate: &Rate, strain: f64| {
                 let factor = rate.factor(strain / time);
@@ -322,11 +362,11 @@ impl<L: Loading + Copy, U: Unloading + Copy> Model<L, U> {
         (strains, factors)
     }
 
-    /// The strength in an `impact`; `None` where it cannot be predicted.
+    /// The strength in an `impact`, in which a loss below yield doesn't count; `None` where it cannot be predicted.
     pub fn in_impact(&self, impact: &Impact) -> Option<InImpact> {
         in_impact([Some(&self.rate), Some(&self.harder)], self.guess(impact), |_, factors| {
             let Impact { mass, speed } = *impact;
-            let model = self.at(factors).prepared_for(impact.energy());
+            let model = self.plastic_at(factors).prepared_for(impact.energy());
             let (_, deepest) = impact::turning_point(&model, impact)?;
             // with a constant force it would be twice as long as without any
             let longest = 4.0 * deepest / speed;

@@ -9,10 +9,11 @@ use super::scales::{Scales, energy_of_load, stiffness_at};
 use super::targets::Target;
 use super::work::Work;
 use super::{Refused, SharedContact};
-use crate::Model;
+use crate::impact::Impact;
 use crate::losses::Damping;
 use crate::motion::MOST_EVALUATIONS;
 use crate::numbers::{largest, quotient, root, smallest};
+use crate::{Model, TooDeep};
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 use libm::fabs;
@@ -115,7 +116,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
     /// # Errors
     /// [`Refused`].
     pub fn run(&mut self) -> Result<(), Refused> {
-        self.enter();
+        self.enter()?;
         self.rescale();
         self.count(self.cost)?;
         if self.cost > 0 {
@@ -140,12 +141,17 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
     }
 
     /// Finds the branches on which the contacts start, and their forces.
-    fn enter(&mut self) {
+    fn enter(&mut self) -> Result<(), Refused> {
         let Block { model, first, .. } = *self;
+        let mut spent = 0;
         for (place, member) in self.members_mut() {
             let model = model(first + place);
+            if member.now.indentation() == 0.0 {
+                spent += meet(member, model.borrow()).map_err(|deep| Refused::TooDeep(first + place, deep))?;
+            }
             let (history, rate) = (member.contact.plastic(), member.now.rate());
-            let plastic = C::plastic_model(model.borrow());
+            let plastic = member.contact.plastic_model(model.borrow());
+            let plastic = plastic.borrow();
             member.branch = Branch::of(history, plastic, rate);
             member.loss = member.contact.damping().map(|damping| Loss {
                 damping: Damping { swiftest: largest(fabs(rate), damping.swiftest), ..damping },
@@ -158,6 +164,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         self.evaluate_now();
         self.scale_losses();
         self.scale_held();
+        self.count(spent)
     }
 
     /// Gives a scale to the damping of contacts that are pressed at the start and have never moved.
@@ -219,9 +226,12 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
     fn happen(&mut self, place: usize, watched: &Watched) -> Result<(), Refused> {
         self.count(EVENT)?;
         let event = watched.event();
-        let model = (self.model)(self.first + place);
-        let model = C::plastic_model(model.borrow());
+        let (first, model) = (self.first, (self.model)(self.first + place));
+        let refused = |deep| Refused::TooDeep(first + place, deep);
         let Some(member) = self.work.get_mut(place) else { return Ok(()) };
+        let spent = if event == Event::Touch { meet(member, model.borrow()).map_err(refused)? } else { 0 };
+        let model = member.contact.plastic_model(model.borrow());
+        let model = model.borrow();
         let is_still = member.is_still(&self.scales);
         if let Some(loss) = &mut member.loss {
             let sign = if let Watched::Rate { sign, .. } = watched { *sign } else { 0.0 };
@@ -235,7 +245,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         if forgets && member.branch.forgets {
             let at = parts_from.unwrap_or(0.0);
             member.deepest = largest(member.deepest, member.branch.largest);
-            settle(member, model, at, false).map_err(|deep| Refused::TooDeep(self.first + place, deep))?;
+            settle(member, model, at, false).map_err(refused)?;
             let rate = smallest(member.now.rate(), -f64::MIN_POSITIVE);
             member.branch = Branch::of(member.contact.plastic(), model, rate);
             return Ok(());
@@ -250,7 +260,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             loss.hold(loading, path, member.now.rate());
         }
         self.touched |= event == Event::Touch;
-        Ok(())
+        self.count(spent)
     }
 
     /// The contact in whose clock the next step is smooth, if it is not in time \[s\].
@@ -325,8 +335,9 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
     fn leave(&mut self) -> Result<(), Refused> {
         for place in 0..self.work.len() {
             let model = (self.model)(self.first + place);
-            let plastic = C::plastic_model(model.borrow());
             let Some(member) = self.work.get_mut(place).filter(|member| member.block == self.first) else { continue };
+            let plastic = member.contact.plastic_model(model.borrow());
+            let plastic = plastic.borrow();
             let (at, rising) = (member.now.indentation(), member.now.approach > 0.0);
             let refused = |deep| Refused::TooDeep(self.first + place, deep);
             settle(member, plastic, at, rising).map_err(refused)?;
@@ -349,10 +360,32 @@ pub(super) fn present_stiffness<C: SharedContact<M>, M, B: Borrow<M>>(
     model: impl FnOnce() -> B,
 ) -> f64 {
     let indentation = member.now.indentation();
-    member
-        .branch
-        .stiffness(indentation)
-        .unwrap_or_else(|| member.branch.stiffness_without_segments(indentation, C::plastic_model(model().borrow())))
+    member.branch.stiffness(indentation).unwrap_or_else(|| {
+        let model = model();
+        member.branch.stiffness_without_segments(indentation, member.contact.plastic_model(model.borrow()).borrow())
+    })
+}
+
+/// Lets a contact find the strength of an impact that begins now on a surface without a dent, if it has one of its own. Returns the number
+/// of evaluations that it took.
+fn meet<C: SharedContact<M>, M>(member: &mut Work<C>, model: &M) -> Result<u32, TooDeep> {
+    let is_free = !member.is_held && member.inverse_mass > 0.0;
+    let mass = quotient(1.0, member.inverse_mass, is_free, 0.0);
+    let impact = Impact { mass, speed: member.now.approach };
+    let may_be_new = is_free && impact.speed > 0.0 && member.branch.surface() <= 0.0;
+    if !(may_be_new && member.contact.is_new(&impact)) {
+        return Ok(0);
+    }
+    let plastic = member.contact.plastic_model(model);
+    settle(member, plastic.borrow(), 0.0, true)?;
+    let reached = member.contact.plastic().max_indentation();
+    if !plastic.borrow().is_elastic_at(reached) {
+        return Ok(0);
+    }
+    let (plastic, spent) = member.contact.strengthen(model, &impact)?;
+    member.branch = Branch::of(member.contact.plastic(), plastic.borrow(), impact.speed);
+    member.deepest = largest(member.deepest, reached);
+    Ok(spent)
 }
 
 /// Moves the history of a contact to the indentation `at` \[m\], over the largest one on its way.
@@ -361,7 +394,7 @@ fn settle<C: SharedContact<M>, M>(
     model: &Model<C::Loading, C::Unloading>,
     at: f64,
     rising: bool,
-) -> Result<(), crate::TooDeep> {
+) -> Result<(), TooDeep> {
     let most = member.branch.largest;
     let history = member.contact.plastic_mut();
     if most > history.max_indentation() {

@@ -123,7 +123,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             member.deepest = member.contact.plastic().max_indentation();
             let model = model(place);
             member.ratio = C::stiffness_ratio(model.borrow());
-            if C::plastic_model(model.borrow()).loading.can_yield() {
+            if member.contact.plastic_model(model.borrow()).borrow().loading.can_yield() {
                 tolerance = largest(tolerance, YIELDING);
             }
             // a contact that is pressed at the start and has never moved needs a scale for its damping

@@ -96,7 +96,7 @@ use crate::Model;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
-use crate::motion::{self, Drive, NoMotion};
+use crate::motion::{self, Drive, NoMotion, PlasticContact};
 use crate::numbers::largest;
 use crate::regime::TooDeep;
 use crate::segment::Segment;
@@ -107,21 +107,9 @@ use core::borrow::Borrow;
 use work::Instant;
 
 /// A contact whose motion can be coupled with that of others.
-pub trait SharedContact<M>: Copy {
-    /// The loading law.
-    type Loading: Loading;
-
-    /// The unloading law.
-    type Unloading: Unloading;
-
-    /// The elastoplastic part of the model.
-    fn plastic_model(model: &M) -> &Model<Self::Loading, Self::Unloading>;
-
-    /// The elastoplastic state.
-    fn plastic(&self) -> &History;
-
-    /// The same to change.
-    fn plastic_mut(&mut self) -> &mut History;
+pub trait SharedContact<M>: PlasticContact<M> {
+    /// Whether the motion of one such contact alone has a closed form: [`motion::follow`].
+    const HAS_CLOSED_FORM: bool = false;
 
     /// The loss, with the largest rate since the touch; `None` for a contact that loses nothing without yield.
     fn damping(&self) -> Option<Damping> {
@@ -167,44 +155,10 @@ pub trait SharedContact<M>: Copy {
 
     /// Notes what friction did over a `step` \[s\].
     fn end_step(&mut self, _rows: &[Row; 3], _step: f64) {}
-
-    /// Moves a contact that is not coupled with others, if its motion alone has a closed form.
-    fn follow_alone(
-        &mut self,
-        _model: &M,
-        _drive: &Drive,
-        _rate: f64,
-        _step: f64,
-    ) -> Option<Result<motion::Outcome, NoMotion>> {
-        None
-    }
 }
 
 impl<L: Loading, U: Unloading> SharedContact<Model<L, U>> for History {
-    type Loading = L;
-    type Unloading = U;
-
-    fn plastic_model(model: &Model<L, U>) -> &Model<L, U> {
-        model
-    }
-
-    fn plastic(&self) -> &History {
-        self
-    }
-
-    fn plastic_mut(&mut self) -> &mut History {
-        self
-    }
-
-    fn follow_alone(
-        &mut self,
-        model: &Model<L, U>,
-        drive: &Drive,
-        rate: f64,
-        step: f64,
-    ) -> Option<Result<motion::Outcome, NoMotion>> {
-        Some(motion::follow(self, model, drive, rate, step))
-    }
+    const HAS_CLOSED_FORM: bool = true;
 }
 
 /// The result of a step. Impulses and their moments are in the [`Work`] of each contact.
@@ -276,17 +230,15 @@ pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
         let Some(row) = work.get_mut(first..) else { break };
         let is_alone = !row.iter().skip(1).any(|member| member.block == first);
         let Some(member) = row.first_mut().filter(|member| member.block == first) else { continue };
-        let alone = if is_alone { follow_alone(member, model(first).borrow(), step) } else { None };
-        let spent = match alone {
-            Some(result) => result.map_err(|reason| match reason {
+        let spent = if is_alone && C::HAS_CLOSED_FORM {
+            follow_alone(member, model(first).borrow(), step).map_err(|reason| match reason {
                 NoMotion::TooDeep(deep) => Refused::TooDeep(first, deep),
                 NoMotion::TooLong => Refused::TooLong { left: step },
-            })?,
-            None => {
-                let mut block = Block::new(row, masses, &model, first, step);
-                block.run()?;
-                block.evaluations
-            }
+            })?
+        } else {
+            let mut block = Block::new(row, masses, &model, first, step);
+            block.run()?;
+            block.evaluations
         };
         evaluations = evaluations.saturating_add(spent);
     }
@@ -296,24 +248,21 @@ pub fn follow<C: SharedContact<M>, M, B: Borrow<M>>(
     Ok(Outcome { evaluations })
 }
 
-/// Moves a contact that is coupled with no other, if its motion has a closed form. Returns the number of evaluations.
-fn follow_alone<C: SharedContact<M>, M>(member: &mut Work<C>, model: &M, step: f64) -> Option<Result<u32, NoMotion>> {
+/// Moves a contact that is coupled with no other and whose motion has a closed form. Returns the number of evaluations.
+fn follow_alone<C: SharedContact<M>, M>(member: &mut Work<C>, model: &M, step: f64) -> Result<u32, NoMotion> {
     let Work { acceleration, inverse_mass, .. } = *member;
     let [before, rate, ..] = member.now.numbers;
     let mass = 1.0 / inverse_mass;
     let drive = Drive { mass, acceleration };
     let motion::Outcome { speed, taken, evaluations, deepest } =
-        match member.contact.follow_alone(model, &drive, rate, step)? {
-            Ok(outcome) => outcome,
-            Err(reason) => return Some(Err(reason)),
-        };
+        motion::follow(&mut member.contact, model, &drive, rate, step)?;
     let after = member.contact.plastic().indentation();
     // what the force has kept the bodies from coming closer
     let kept = step * (rate + 0.5 * acceleration * step) - (after - before);
     let moment = if taken > 0.0 { mass * largest(kept, 0.0) } else { 0.0 };
     member.now.numbers = [after, speed, mass * taken, moment];
     member.deepest = deepest;
-    Some(Ok(evaluations))
+    Ok(evaluations)
 }
 
 /// The same with friction, for which the motion is followed in straight parts.

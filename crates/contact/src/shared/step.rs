@@ -58,7 +58,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
             let known = if by_root { branch.force_of_root(w) } else { branch.force(indentation) };
             let elastic = known.unwrap_or_else(|| {
                 let model = model(first + place);
-                let force = branch.force_without_segments(at, C::plastic_model(model.borrow()));
+                let force = branch.force_without_segments(at, member.contact.plastic_model(model.borrow()).borrow());
                 if by_root && w < 0.0 { -force } else { force }
             });
             let trial = &mut member.trial;
@@ -71,7 +71,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                     let known = if by_root { branch.stiffness_of_root(w) } else { branch.stiffness(indentation) };
                     trial.stiffness = known.unwrap_or_else(|| {
                         let model = model(first + place);
-                        branch.stiffness_without_segments(at, C::plastic_model(model.borrow()))
+                        branch.stiffness_without_segments(at, member.contact.plastic_model(model.borrow()).borrow())
                     });
                     trial.easing = loss.easing(trial.stiffness);
                 }

@@ -8,6 +8,7 @@ use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
+use crate::motion::PlasticContact;
 use crate::numbers::{largest, quotient};
 use crate::regime::TooDeep;
 use crate::segment::Segment;
@@ -15,14 +16,16 @@ use crate::shared::{Row, SharedContact};
 use crate::unloading::Unloading;
 
 impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
-    SharedContact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
+    PlasticContact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
 {
     type Loading = L;
     type Unloading = U;
+    type PlasticModel<'a>
+        = &'a Model<L, U>
+    where
+        RoughModel<L, U, N::Loss>: 'a;
 
-    const DIRECTIONS: usize = D;
-
-    fn plastic_model(model: &RoughModel<L, U, N::Loss>) -> &Model<L, U> {
+    fn plastic_model<'a>(&self, model: &'a RoughModel<L, U, N::Loss>) -> &'a Model<L, U> {
         &model.normal
     }
 
@@ -33,6 +36,12 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
     fn plastic_mut(&mut self) -> &mut History {
         self.normal.plastic_mut()
     }
+}
+
+impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
+    SharedContact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
+{
+    const DIRECTIONS: usize = D;
 
     fn damping(&self) -> Option<Damping> {
         self.normal.loss()

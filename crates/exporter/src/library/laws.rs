@@ -25,7 +25,7 @@ pub fn of(scene: &Scene) -> String {
     match loss {
         _ if scene.has_friction() => rough(scene, &laws, loss),
         Some(loss) => format!("kinds::Lossy<{laws}, {loss}>"),
-        None if scene.finds_strength() => format!("kinds::Rated<{laws}>"),
+        None if scene.finds_strength() => format!("kinds::Rated<kinds::Plastic<{laws}>>"),
         None => format!("kinds::Plastic<{laws}>"),
     }
 }

@@ -75,12 +75,12 @@ impl<C: Coupling> Kind for Massive<C> {
 }
 
 impl<C: Coupling> Kind for Rated<C> {
-    type Model = rate::Model<AnyLoading, AnyUnloading>;
+    type Model = rate::Model<Model<AnyLoading, AnyUnloading>>;
     type Contact = rate::History;
     type Course = Present;
     type Coupling = C;
     type Watch = Absent;
-    const FOLLOW: Option<Follow<rate::History, Self::Model>> = Some(rate::follow);
+    const FOLLOW: Option<Follow<rate::History, Self::Model>> = Some(follow);
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
         rate::Model { slow: elastoplastic(pair), rate: chosen().rate, harder: rate::Rate::NONE }
     }

@@ -3,15 +3,20 @@
 use super::History;
 use crate::loading::Loading;
 use crate::losses::{Damping, Loss, Model};
+use crate::motion::PlasticContact;
 use crate::regime::TooDeep;
 use crate::shared::SharedContact;
 use crate::unloading::Unloading;
 
-impl<L: Loading, U: Unloading, K: Loss> SharedContact<Model<L, U, K>> for History<K> {
+impl<L: Loading, U: Unloading, K: Loss> PlasticContact<Model<L, U, K>> for History<K> {
     type Loading = L;
     type Unloading = U;
+    type PlasticModel<'a>
+        = &'a crate::Model<L, U>
+    where
+        Model<L, U, K>: 'a;
 
-    fn plastic_model(model: &Model<L, U, K>) -> &crate::Model<L, U> {
+    fn plastic_model<'a>(&self, model: &'a Model<L, U, K>) -> &'a crate::Model<L, U> {
         &model.plastic
     }
 
@@ -22,7 +27,9 @@ impl<L: Loading, U: Unloading, K: Loss> SharedContact<Model<L, U, K>> for Histor
     fn plastic_mut(&mut self) -> &mut crate::History {
         self.elastoplastic_mut()
     }
+}
 
+impl<L: Loading, U: Unloading, K: Loss> SharedContact<Model<L, U, K>> for History<K> {
     fn damping(&self) -> Option<Damping> {
         Some(self.loss_at_present())
     }

@@ -11,7 +11,7 @@ use brinell_contact::damped::{self, AnyDamped, Damped};
 use brinell_contact::loading::{AnyLoading, Loading};
 use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell_contact::motion::{self, Follow};
-use brinell_contact::rate;
+use brinell_contact::rate::{self, Slow};
 use brinell_contact::shared::{self, InverseMasses, Outcome, Refused, SharedContact, Work};
 use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
 use brinell_contact::unloading::{AnyUnloading, Unloading};
@@ -28,8 +28,8 @@ pub struct Plastic<L, U>(PhantomData<(L, U)>);
 /// The same with a loss below yield.
 pub struct Lossy<L, U, X>(PhantomData<(L, U, X)>);
 
-/// The same as [`Plastic`] with a strength that is found at the first touch of each impact.
-pub struct Rated<L, U>(PhantomData<(L, U)>);
+/// The same as the laws `X` with a strength that is found at the first touch of each impact.
+pub struct Rated<X>(PhantomData<X>);
 
 /// A law that depends on the rate.
 pub struct RateDependent<D>(PhantomData<D>);
@@ -167,20 +167,25 @@ impl<L: Loading + Numbered, U: Unloading + Numbered, X: losses::Loss + OfScene> 
     }
 }
 
-impl<L: Loading + Numbered, U: Unloading + Numbered> Laws for Rated<L, U> {
-    type Model = rate::Model<L, U>;
-    type Contact = rate::History;
+impl<X: Laws> Laws for Rated<X>
+where
+    X::Model: Slow,
+    X::Contact: SharedContact<X::Model>,
+{
+    type Model = rate::Model<X::Model>;
+    type Contact = rate::History<X::Contact>;
     guarded!();
+    together!();
 
     fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
-        Some(rate::follow)
+        Some(if X::Contact::HAS_CLOSED_FORM { motion::follow } else { losses::follow })
     }
 
     #[inline(always)]
     fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model {
         let [target, impactor] = &data.rates;
         let (target, impactor) = (target.rate(), impactor.rate());
-        let slow = plastic(data, given, value);
+        let slow = X::model(data, given, value);
         match impactor_yields(value) {
             true => rate::Model { slow, rate: impactor, harder: target },
             false => rate::Model { slow, rate: target, harder: impactor },
@@ -323,8 +328,8 @@ pub type Moved = Contacts<AnyLaws, Any, Absent>;
 /// The library `lossy`: contacts with losses below yield, which may move their bodies.
 pub type Losses = Contacts<AnyLossy>;
 
-/// The library `rate`: contacts that move their bodies and find their strength at the first touch of each impact.
-pub type Strengths = Contacts<Rated<AnyLoading, AnyUnloading>, Any, Absent, Absent>;
+/// The library `rate`: contacts that move their bodies, each for itself or together, and find their strength at the first touch of each impact.
+pub type Strengths = Contacts<Rated<AnyLaws>, Any, Absent>;
 
 /// The library `damped`: contacts with a rate-dependent law, which may move their bodies.
 pub type Dampings = Contacts<RateDependent<AnyDamped>, Any, Present, Absent>;
