@@ -3,6 +3,7 @@
 use super::{Row, oblique};
 use crate::importer::{Archive, ImportError, Unit};
 use brinell_contact::losses::{self, AnyLoss};
+use brinell_contact::rate;
 use brinell_contact::shared::{InverseMasses, Refused, SharedContact, Work, follow};
 use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
 use brinell_contact::{Contact, History};
@@ -127,7 +128,10 @@ pub fn compare(
 
 /// The prediction of the library, and the length of its steps \[s\].
 fn predicted(start: &Start, step: f64) -> (Vec<Vec<f64>>, f64) {
-    let scene = start.scene;
+    // each contact finds the strength of its own impact
+    let is_rated = start.scene.finds_strength();
+    let slow = is_rated.then(|| start.scene.clone().without_factors());
+    let scene = slow.as_ref().unwrap_or(start.scene);
     let models: Vec<_> = start.contacts.iter().map(|(group, _)| scene.any_model_of(*group)).collect();
     let lossy: Vec<_> = models.iter().filter_map(AnyModel::lossy).copied().collect();
     let plastic: Vec<_> = models.iter().filter_map(AnyModel::elastoplastic).copied().collect();
@@ -145,8 +149,14 @@ fn predicted(start: &Start, step: f64) -> (Vec<Vec<f64>>, f64) {
         })
         .collect()
     };
+    fn rated<M: Copy>(start: &Start, models: &[M]) -> Vec<rate::Model<M>> {
+        let all = start.contacts.iter().zip(models);
+        all.map(|((group, _), &slow)| start.scene.at_any_rate(*group, slow)).collect()
+    }
     type Lossy = losses::History<AnyLoss>;
     match (scene.directions, lossy.is_empty()) {
+        (0, true) if is_rated => start.predicted::<_, rate::History>(&rated(start, &plastic), step),
+        (0, false) if is_rated => start.predicted::<_, rate::History<Lossy>>(&rated(start, &lossy), step),
         (0, true) => start.predicted::<_, History>(&plastic, step),
         (0, false) => start.predicted::<_, Lossy>(&lossy, step),
         (1, true) => start.predicted::<_, RoughContact<MEMORY>>(&rough(), step),

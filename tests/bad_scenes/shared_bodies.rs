@@ -384,12 +384,20 @@ fn laws_of_the_rate_are_refused() {
             &with(law),
             &["law.loading = \"tsuji\"", "share bodies", "depends on the rate", "\"hertz\""],
         );
+    }
+}
+
+/// Without friction it is no mistake.
+#[test]
+fn a_strength_at_the_rate_is_refused_with_friction() {
+    let inputs = INPUTS.replacen("[coupling]", "[friction]\ncoefficient = 0.3\n\n[coupling]", 1);
+    for scene in [rough_box(), inputs] {
         let rate = "rate = §{ model = \"johnson-cook\", c = 0.014, reference_rate = 1.0 }";
         let text = scene.replacen("\"mild steel\"\n", &format!("\"mild steel\"\n{rate}\n"), 1);
-        refused_text(&text, &["target.rate", "share bodies", "yield_strength"]);
+        refused_text(&text, &["target.rate", "share bodies and have friction", "yield_strength"]);
         let hard = "radius = 5e-3\nmaterial = \"titanium Ti-6Al-4V\"\nyield_strength = 9e8\n";
         let text = scene.replacen("radius = 5e-3\n", &format!("{hard}{rate}\n"), 1);
-        refused_text(&text, &["impactor.rate", "share bodies", "yield_strength"]);
+        refused_text(&text, &["impactor.rate", "share bodies and have friction", "yield_strength"]);
     }
 }
 

@@ -75,10 +75,6 @@ fn use_of(scene: &Scene) -> &'static str {
              from the closing speed and the mass, for a free impact. It keeps this strength until the bodies part. A dent that \
              is met again keeps the strength that made it. A contact that starts indented has the strength under a slow load."
         }
-        false if scene.loss.is_some() && scene.coupling.is_some() => {
-            "The parameters, and every contact, have the strength of the scene's impact: with a loss below yield, the FMU \
-             does not find a strength for each impact."
-        }
         false => {
             "The parameters, and every contact, have the strength of the scene's impact: an FMU that doesn't know the mass \
              can't find another one."

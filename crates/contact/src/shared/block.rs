@@ -146,19 +146,17 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         let mut spent = 0;
         for (place, member) in self.members_mut() {
             let model = model(first + place);
+            let (rate, plastic) = (member.now.rate(), member.contact.plastic_model(model.borrow()));
+            member.branch = Branch::of(member.contact.plastic(), plastic.borrow(), rate);
             if member.now.indentation() == 0.0 {
                 spent += meet(member, model.borrow()).map_err(|deep| Refused::TooDeep(first + place, deep))?;
             }
-            let (history, rate) = (member.contact.plastic(), member.now.rate());
-            let plastic = member.contact.plastic_model(model.borrow());
-            let plastic = plastic.borrow();
-            member.branch = Branch::of(history, plastic, rate);
             member.loss = member.contact.damping().map(|damping| Loss {
                 damping: Damping { swiftest: largest(fabs(rate), damping.swiftest), ..damping },
                 leads: 0.0,
                 slack: false,
                 most: 0.0,
-                before: history.work(plastic),
+                before: member.contact.plastic().work(plastic.borrow()),
             });
         }
         self.evaluate_now();

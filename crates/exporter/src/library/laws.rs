@@ -24,9 +24,10 @@ pub fn of(scene: &Scene) -> String {
     });
     match loss {
         _ if scene.has_friction() => rough(scene, &laws, loss),
-        Some(loss) => format!("kinds::Lossy<{laws}, {loss}>"),
-        None if scene.finds_strength() => format!("kinds::Rated<kinds::Plastic<{laws}>>"),
-        None => format!("kinds::Plastic<{laws}>"),
+        _ => {
+            let plain = loss.map_or(format!("kinds::Plastic<{laws}>"), |loss| format!("kinds::Lossy<{laws}, {loss}>"));
+            if scene.finds_strength() { format!("kinds::Rated<{plain}>") } else { plain }
+        }
     }
 }
 

@@ -15,7 +15,7 @@ pub struct Library {
 }
 
 /// All libraries, in ascending order of cost.
-pub const LIBRARIES: [Library; 10] = [
+pub const LIBRARIES: [Library; 11] = [
     Library { name: "state", kind: "State", says: "one contact with plastic laws" },
     Library {
         name: "momentum",
@@ -24,7 +24,8 @@ pub const LIBRARIES: [Library; 10] = [
     },
     Library { name: "moved", kind: "Moved", says: "plastic laws with `[coupling]`, and with `[[body]]`" },
     Library { name: "lossy", kind: "Losses", says: "plastic laws with losses below yield" },
-    Library { name: "rate", kind: "Strengths", says: "plastic laws with `rate` and `[coupling]`" },
+    Library { name: "rate", kind: "Strengths", says: "plastic laws with `rate`, and `[coupling]` or `[[body]]`" },
+    Library { name: "lossy-rate", kind: "LossyStrengths", says: "the same with losses below yield" },
     Library { name: "damped", kind: "Dampings", says: "rate-dependent laws" },
     Library { name: "friction", kind: "Friction", says: "`[friction]` in one direction" },
     Library { name: "friction-2", kind: "Friction2", says: "`[friction]` in two directions" },
@@ -50,8 +51,9 @@ impl Library {
             () if scene.has_friction() && scene.loss.is_some() => "lossy-friction",
             () if scene.has_friction() && scene.directions > 1 => "friction-2",
             () if scene.has_friction() => "friction",
-            () if scene.loss.is_some() => "lossy",
+            () if scene.finds_strength() && scene.loss.is_some() => "lossy-rate",
             () if scene.finds_strength() => "rate",
+            () if scene.loss.is_some() => "lossy",
             () if scene.coupling.is_some() => "moved",
             () if outputs(&["impulse", "mean_force"]) || scene.contact_count() > 1 => "momentum",
             () => "state",

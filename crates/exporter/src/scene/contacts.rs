@@ -455,7 +455,7 @@ impl Contacts {
     }
 
     /// The strain-rate dependence of a `body`, by the `table` of all contacts. Steel whose strength was measured slowly, in every contact,
-    /// has one also if the scene gives none, unless contacts share bodies, which have no rate.
+    /// has one also if the scene gives none, unless contacts share bodies.
     fn rate_of(&self, body: Body, table: &BodyTable, share_bodies: bool) -> Result<Option<Spanned<Rate>>, Mistake> {
         fn measured(flow: Option<&Arc<Flow>>) -> Option<&MeasuredStrength> {
             flow.and_then(|flow| flow.measured())

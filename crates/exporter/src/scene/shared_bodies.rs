@@ -151,7 +151,7 @@ fn refuse_masses(file: &SceneFile, why: &str) -> Result<(), Mistake> {
     }
 }
 
-/// Rejects laws whose force or strength depends on the rate.
+/// Rejects laws whose force depends on the rate, and with friction a strength at the strain rate.
 fn refuse_rates(file: &SceneFile, damped: Option<&str>) -> Result<(), Mistake> {
     if let (Some(name), Some(loading)) = (damped, &file.law.loading) {
         let message = format!(
@@ -162,12 +162,13 @@ fn refuse_rates(file: &SceneFile, damped: Option<&str>) -> Result<(), Mistake> {
     }
     let impactor = file.impactor.as_ref().and_then(|impactor| impactor.get_ref().0.rate.as_ref());
     let target = file.target.as_ref().and_then(|target| target.get_ref().rate.as_ref());
-    let Some((body, rate)) = impactor.map(|rate| ("impactor", rate)).or(target.map(|rate| ("target", rate))) else {
+    let rate = impactor.map(|rate| ("impactor", rate)).or(target.map(|rate| ("target", rate)));
+    let Some((body, rate)) = rate.filter(|_| file.friction.is_some()) else {
         return Ok(());
     };
     let message = format!(
-        "{body}.rate doesn't go with contacts that share bodies: the strength of an impact follows from its mass and speed, and \
-         theirs depend on the other contacts; give the strength of the impact (yield_strength)"
+        "{body}.rate doesn't go with contacts that share bodies and have friction: they move in straight parts, which don't end where \
+         one touches while others press, so that its closing speed isn't known; give the strength of the impact (yield_strength)"
     );
     Err(Mistake(rate.span(), message))
 }

@@ -7,7 +7,7 @@ use super::quantities::{check_quantity, quantity_of};
 use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
-use crate::model::paired;
+use crate::model::{AnyModel, paired};
 use crate::nearest::unknown;
 use crate::numbers::{cell, in_message, in_range, quantity};
 use crate::table::{Class, Material};
@@ -479,7 +479,9 @@ impl Scene {
         let softer = self.softer(group);
         let predict = |strains, factors| {
             let model = self.with_strengths_at(group, strains, factors);
-            let prediction = self.with_loss(group, model).predict(impact)?;
+            // a unit finds the strength of an impact without the loss
+            let lossless = self.finds_strength().then_some(AnyModel::Elastoplastic(model));
+            let prediction = lossless.unwrap_or_else(|| self.with_loss(group, model)).predict(impact)?;
             Some((prediction.loading_time, rate::strains(&model, &prediction)))
         };
         let rates = [softer, softer.other()].map(|body| self.rates.of(body).as_ref());
@@ -611,11 +613,24 @@ impl Scene {
         self.flow_at(group, body, strain).times(if self.finds_strength() { 1.0 } else { factor })
     }
 
+    /// The scene under a slow load, of which a unit finds the strengths.
+    pub fn without_factors(mut self) -> Scene {
+        self.factors.fill(Factors::SLOW);
+        self
+    }
+
+    /// The contacts of `group`, of the model `slow` under a slow load, as they resist fast indentation.
+    pub fn at_any_rate<M>(&self, group: usize, slow: M) -> rate::Model<M> {
+        let softer = self.softer(group);
+        let [rate, harder] = [softer, softer.other()].map(|body| self.rates.of(body).unwrap_or(Rate::NONE));
+        rate::Model { slow, rate, harder }
+    }
+
     /// Whether the unit finds the strength of its bodies by itself, at the first touch of each impact: it knows the mass and
     /// moves the bodies.
     pub fn finds_strength(&self) -> bool {
         let has_rate = self.rates.impactor.is_some() || self.rates.target.is_some();
-        has_rate && self.coupling.is_some() && self.loss.is_none()
+        has_rate && self.coupling.is_some()
     }
 }
 

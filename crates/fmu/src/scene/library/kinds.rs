@@ -331,6 +331,9 @@ pub type Losses = Contacts<AnyLossy>;
 /// The library `rate`: contacts that move their bodies, each for itself or together, and find their strength at the first touch of each impact.
 pub type Strengths = Contacts<Rated<AnyLaws>, Any, Absent>;
 
+/// The library `lossy-rate`: the same as [`Strengths`] with losses below yield.
+pub type LossyStrengths = Contacts<Rated<AnyLossy>, Any, Absent>;
+
 /// The library `damped`: contacts with a rate-dependent law, which may move their bodies.
 pub type Dampings = Contacts<RateDependent<AnyDamped>, Any, Present, Absent>;
 
