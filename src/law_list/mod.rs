@@ -4,9 +4,10 @@ mod text;
 
 use crate::messages::WrongCall;
 use crate::scene_file;
-use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::energy;
 use brinell_exporter::law_text::{self, LawText};
@@ -158,11 +159,11 @@ fn load(name: &'static str, law: &AnyLoading) -> Loads {
 /// The law with the scene's bodies and mass.
 fn rate(scene: &Scene, name: &str, variant: String, law: AnyDamped) -> Rated {
     let impact = Impact { mass: scene.impact.mass, speed: 1.0 };
-    let model = damped::Model { pair: scene.model().pair, law, restitution: ASKED, mass: impact.mass };
-    let prediction = damped::impact::predict(&model, &impact).expect("an impact within range");
-    let mut touched = damped::History::start(&model, 0.0).expect("zero is within range");
+    let model = law.model(scene.model().pair, ASKED, impact.mass);
+    let prediction = losses::impact::predict(&model, &impact).expect("an impact within range");
+    let mut touched = losses::History::start(&model, 0.0).expect("zero is within range");
     let hardly = 1e-12 * prediction.max_indentation;
-    touched.advance(impact.speed, hardly / impact.speed).expect("within range");
+    touched.advance(&model, impact.speed, hardly / impact.speed).expect("within range");
     let text = law_text::damped(name, &law);
     let parameters = parameters::constants(&law, text.law);
     Rated {

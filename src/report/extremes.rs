@@ -282,8 +282,8 @@ fn without_prediction(contact: &mut Contact, name: &str, bodies: &Bodies, steps:
     let case = |step| Case::new(name, f64::NAN, step, TOLERANCE);
     let not_judged = |why| case(f64::NAN).with(Outcome::NotJudged, why);
     match bodies.model {
-        AnyModel::Damped(_) => return not_judged("the bodies creep apart without end"),
-        AnyModel::Lossy(_) => return not_judged("the loss leaves no rebound that can be predicted"),
+        AnyModel::Lossy(_, Some(_)) => return not_judged("the bodies creep apart without end"),
+        AnyModel::Lossy(_, None) => return not_judged("the loss leaves no rebound that can be predicted"),
         AnyModel::Elastoplastic(_) => {}
     }
     let Impact { mass, speed } = bodies.impact;

@@ -5,7 +5,6 @@ use brinell_contact::impact::Prediction;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::material::{Pair, YieldPoint};
 use brinell_exporter::laws::{Choice, UnknownLaw, choose};
-use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::percent;
 use brinell_exporter::predict;
 use brinell_exporter::scene::Scene;
@@ -95,7 +94,7 @@ impl Laws {
         // The scene's law always counts. Hertz's law loses no energy, so it does not describe a target that yields.
         // Rate-dependent laws do not describe dents.
         let counts = |index: usize, choice: &Choice| {
-            let no_dent = quantity == "dent" && matches!(choice.model, AnyModel::Damped(_));
+            let no_dent = quantity == "dent" && choice.model.rate_law().is_some();
             index == 0 || choice.name != "hertz" && !no_dent
         };
         let all = self.choices.iter().zip(&self.predictions).enumerate();

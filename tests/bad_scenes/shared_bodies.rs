@@ -382,7 +382,7 @@ fn laws_of_the_rate_are_refused() {
             scene,
             table,
             &with(law),
-            &["law.loading = \"tsuji\"", "share bodies", "depends on the rate", "\"hertz\""],
+            &["law.loading = \"tsuji\"", "share bodies", "follows from one mass", "\"hertz\""],
         );
     }
 }

@@ -16,7 +16,7 @@ const LARGEST: u64 = 106_000;
 const LARGEST_WITH_FRICTION: u64 = 151_000;
 
 /// The same where contacts share bodies: the integration of all contacts, optimized for speed.
-const LARGEST_OF_SHARED_BODIES: u64 = 177_000;
+const LARGEST_OF_SHARED_BODIES: u64 = 182_000;
 
 /// The same with friction in two directions, whose springs are followed along chords.
 const LARGEST_OF_SHARED_BODIES_WITH_FRICTION: u64 = 240_000;

@@ -42,7 +42,7 @@ fn missing_or_damaged_libraries_and_those_of_another_version_are_reported() {
     let none = empty_folder();
     let said = refusal(&text, none.path());
     assert!(said.contains("no prebuilt libraries in") && said.contains("BRINELL_PREBUILT"), "{said}");
-    let few = prebuilt::made_once("damped", &["--kinds", "damped"]);
+    let few = prebuilt::made_once("rate", &["--kinds", "rate"]);
     let said = refusal(&text, &few);
     assert!(said.contains("no prebuilt library `state`"), "{said}");
     type Change<'a> = &'a dyn Fn(Vec<u8>) -> Vec<u8>;

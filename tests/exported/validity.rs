@@ -5,7 +5,8 @@ use crate::command::{empty_folder, run};
 use crate::physics::{AnyModel, Random, all_models, mild, pair_of};
 use crate::prebuilt;
 use crate::written::Written;
-use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::damped::{AnyDamped, Damped};
+use brinell_contact::losses;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, largest_speed};
 use brinell_contact::{Contact, History, Loading};
 use std::fs;
@@ -27,8 +28,8 @@ fn at_the_valid_depth_the_contact_radius_is_three_tenths_of_the_smaller_radius_w
                 right(&name, model.loading.contact_radius(&pair, model.valid_depth(size)));
             }
             for (name, law) in AnyDamped::ALL {
-                let model = damped::Model { pair, law, restitution: 0.5, mass: 1.0 };
-                let history = damped::History::start(&model, -model.valid_depth(size)).unwrap();
+                let model = law.model(pair, 0.5, 1.0);
+                let history = losses::History::start(&model, -model.plastic.valid_depth(size)).unwrap();
                 right(name, history.contact_radius(&model));
             }
         }

@@ -1,14 +1,14 @@
 //! Every word of a saved state matters: a restored instance shows what the saved one has shown, at once and later, and another
 //! word in any place shows, or is refused.
 
-use crate::physics::Random;
+use crate::physics::{Random, mild};
 use crate::scenes::{
     Choice, Chosen, Damped, DampedMassive, Elastoplastic, Held, Lossy, LossyMassive, Massive, OUTPUTS, Rated, Rough,
     RoughPlane, choose, frictions, outputs, ready, set_rate, words,
 };
 use crate::{LOSSES, some_pairings};
 use brinell_contact::damped::{AnyDamped, Damped as _};
-use brinell_contact::losses::{AnyLoss, Form, Loss};
+use brinell_contact::losses::{Form, Loss};
 use brinell_contact::{Contact, Surface};
 use brinell_fmu::instance::{Instance, Phase};
 use brinell_fmu::scene::{Absent, Coupled, Coupling, Presence, Present, Real, Scene, Store};
@@ -307,13 +307,8 @@ const ENDS_OF_TWO: [usize; 4] = [102, 103, 107, 108];
 const ENDS: [usize; 2] = [3, 4];
 
 /// The largest speed since the touch is the scale of a fitted loss, and of nothing else.
-fn idle_of(loss: AnyLoss) -> Option<usize> {
+fn idle_of(loss: impl Loss) -> Option<usize> {
     (loss.form() != Form::Proportional).then_some(14)
-}
-
-/// The speed of the touch is the scale of some damped laws, and of nothing else.
-fn idle_of_damped(law: AnyDamped) -> Option<usize> {
-    (!law.scaled_by_touch()).then_some(3)
 }
 
 fn every_elastoplastic_kind(claim: &impl Claim) {
@@ -369,11 +364,12 @@ fn every_lossy_kind(claim: &impl Claim) {
 fn every_damped_kind(claim: &impl Claim) {
     for (name, damped) in AnyDamped::ALL {
         choose(Choice { damped, ..some_pairings()[0].1 });
-        let known: Vec<usize> = idle_of_damped(damped).into_iter().collect();
-        claim.of::<Chosen<Damped, 1, Absent>>(name, &known);
-        claim.of::<Chosen<Damped, 1, Present>>(&format!("{name}, with momentum"), &known);
-        claim.of::<Chosen<DampedMassive, 1, Present>>(&format!("{name}, moved"), &known);
-        claim.of::<Chosen<DampedMassive<Coupled<Present>>, 1, Present>>(&format!("{name}, parallel"), &known);
+        let own: Vec<usize> = idle_of(damped.model(mild(), 0.5, 1.0).loss).into_iter().collect();
+        let moved: Vec<usize> = ENDS.into_iter().chain(own.clone()).collect();
+        claim.of::<Chosen<Damped, 1, Absent>>(name, &own);
+        claim.of::<Chosen<Damped, 1, Present>>(&format!("{name}, with momentum"), &own);
+        claim.of::<Chosen<DampedMassive, 1, Present>>(&format!("{name}, moved"), &moved);
+        claim.of::<Chosen<DampedMassive<Coupled<Present>>, 1, Present>>(&format!("{name}, parallel"), &moved);
     }
 }
 

@@ -2,9 +2,10 @@
 
 use crate::friction::assert_close;
 use crate::physics::{MASS, Random, mild};
+use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::path::Course;
 use brinell_contact::tangential::{Friction, Mean, Quantity, RoughContact, RoughModel, Sliding, Springs};
-use brinell_contact::{Contact, History, damped, loading, losses, rate, unloading};
+use brinell_contact::{Contact, History, loading, losses, rate, unloading};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const STEP: f64 = 1e-6;
@@ -193,7 +194,7 @@ fn a_contact_without_friction_has_no_tangential_quantities_whatever_its_law() {
     );
     let loss = losses::Fitted { restitution: 0.9 };
     check::<_, losses::History<_>>("losses", &losses::Model { plastic: slow, loss });
-    for (name, law) in damped::AnyDamped::ALL {
-        check::<_, damped::History<_>>(name, &damped::Model { pair: mild(), law, restitution: 0.6, mass: MASS });
+    for (name, law) in AnyDamped::ALL {
+        check::<_, losses::History<_>>(name, &law.model(mild(), 0.6, MASS));
     }
 }

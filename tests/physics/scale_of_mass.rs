@@ -4,7 +4,7 @@
 //! law are as much slower. With a power of two as `k` the numbers differ in their exponents only.
 
 use crate::physics::{MASS, mild, model};
-use brinell_contact::damped::{self, Adams, AnyDamped, KelvinVoigt, KuwabaraKono};
+use brinell_contact::damped::{Adams, AnyDamped, Damped, KelvinVoigt, KuwabaraKono};
 use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell_contact::motion::{self, Drive, Follow};
 use brinell_contact::{Contact, History, rate};
@@ -95,7 +95,7 @@ fn a_ball_of_any_mass_is_damped_alike() {
             AnyDamped::Adams(law) => AnyDamped::Adams(Adams { full_damping: law.full_damping * k, ..law }),
             law => law,
         };
-        let of = |k: f64| damped::Model { pair: mild(), law: scaled(k), restitution: 0.6, mass: MASS * k * k };
-        check(name, of, damped::follow);
+        let of = |k: f64| scaled(k).model(mild(), 0.6, MASS * k * k);
+        check(name, of, losses::follow::<losses::History<_>, _>);
     }
 }

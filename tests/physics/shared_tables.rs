@@ -2,7 +2,7 @@
 
 use crate::physics::{AnyModel, model, pair_of};
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{self, Form, Loss};
+use brinell_contact::losses::{self, Form, Growth, Loss};
 use brinell_contact::shared::{InverseMasses, SharedContact, Work, follow, work_of_step};
 use brinell_contact::tangential::{Friction, Rough, RoughModel};
 use brinell_contact::unloading::AnyUnloading;
@@ -91,7 +91,7 @@ impl Row {
         let forms = self.text("loss").into_iter().zip(factors).map(|(loss, factor)| {
             let form = match loss {
                 "fitted" => Form::Proportional,
-                "waves" => Form::Radiation,
+                "waves" => Form::Viscous(Growth::Square),
                 "plate" => Form::Mobility,
                 other => panic!("no loss {other}"),
             };

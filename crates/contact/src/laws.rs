@@ -1,5 +1,6 @@
 //! The list of the laws of a kind, written once.
 
+use super::loading::Elastic;
 use super::two_bodies::TwoBodies;
 
 /// Makes the laws of a kind public, and an enum of them for programs that choose a law while they run.
@@ -18,8 +19,10 @@ macro_rules! laws {
         }
         $(guarded { $($bare:ident as $guarded:ident),+ $(,)? })?
         $(paired { $($plain:ident as $paired:ident),+ $(,)? })?
+        $(springs { $others_module:ident::$spring:ident })?
     ) => {
         $(pub use $module::$law;)+
+        $(pub use $others_module::$spring;)?
 
         /// Numbers of the laws.
         #[derive(Clone, Copy)]
@@ -36,6 +39,7 @@ macro_rules! laws {
             $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)+
             $($(#[doc = "See [`Guarded`]."] $guarded(Guarded<$bare>),)+)?
             $($(#[doc = "See [`Paired`]."] $paired(Paired),)+)?
+            $(#[doc = "The spring of a rate-dependent law, which is no law of its own."] $spring($spring),)?
         }
 
         impl $any {
@@ -54,6 +58,7 @@ macro_rules! laws {
                         LawNumbers { law: Code::$guarded as u64, ..plain }
                     })+)?
                     $($($any::$paired(form) => $any::$plain(form.law).numbers(),)+)?
+                    $($any::$spring(_) => LawNumbers::NONE,)?
                 }
             }
 
@@ -62,6 +67,7 @@ macro_rules! laws {
                     $($any::$law(law) => law,)+
                     $($($any::$guarded(law) => law,)+)?
                     $($($any::$paired(law) => law,)+)?
+                    $($any::$spring(law) => law,)?
                 }
             }
         }
@@ -99,7 +105,24 @@ macro_rules! laws {
                     law => law,
                 }
             })?
+
+            $(fn of_spring(spring: $spring) -> Option<$any> {
+                Some($any::$spring(spring))
+            })?
         }
+
+        $(impl Numbered for $spring {
+            const FIRST: $spring = $spring { force: 0.0, depth: 1.0, exponent: 1.0 };
+
+            fn from_numbers(_numbers: &LawNumbers) -> Option<$spring> {
+                None
+            }
+
+            #[inline(always)]
+            fn of_spring(spring: $spring) -> Option<$spring> {
+                Some(spring)
+            }
+        })?
 
         $(
             $(impl guarded::Hertzian for $bare {})+
@@ -195,6 +218,12 @@ pub trait Numbered: Copy {
     #[inline(always)]
     fn of_bodies(self, _bodies: TwoBodies) -> Self {
         self
+    }
+
+    /// The law of this spring, if it can be one.
+    #[inline(always)]
+    fn of_spring(_spring: Elastic) -> Option<Self> {
+        None
     }
 }
 

@@ -108,7 +108,6 @@ pub mod piece;
 pub mod quadrature;
 pub mod rate;
 pub mod regime;
-pub mod runge_kutta;
 pub mod segment;
 pub mod shared;
 pub mod strength;
@@ -210,6 +209,18 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         self.unloading.is_segmented() && self.loading.is_segmented()
     }
 
+    /// Whether the elastic part is one segment: it is that of Hertz, or a power of its own.
+    #[inline(always)]
+    pub(crate) fn has_elastic_segment(&self) -> bool {
+        self.loading.can_yield() || self.loading.is_segmented()
+    }
+
+    /// The elastic part: its segment, or the tangent at `indentation` \[m\].
+    #[inline(always)]
+    pub(crate) fn elastic_segment(&self, indentation: f64) -> Segment {
+        self.loading.segment(&self.pair, if self.has_elastic_segment() { 0.0 } else { indentation })
+    }
+
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
         Peak { work: self.work_for_unloading(indentation), ..self.point_of_loading(indentation) }
@@ -282,6 +293,9 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The segment of the unloading path at `indentation` \[m\].
     pub fn unloading_segment(&self, max_indentation: f64, indentation: f64) -> Segment {
+        if !self.has_elastic_segment() {
+            return self.elastic_segment(indentation);
+        }
         let path = self.unloading_path(max_indentation);
         if self.unloading.is_segmented() || self.is_elastic_at(max_indentation) {
             return path;
@@ -291,6 +305,9 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// Work returned on the unloading path from `indentation` \[m\] down to the residual indentation \[J\].
     pub fn recovered_work(&self, max_indentation: f64, indentation: f64) -> f64 {
+        if !self.has_elastic_segment() {
+            return self.loading.work(&self.pair, indentation);
+        }
         let path = self.unloading_path(max_indentation);
         if self.unloading.is_segmented() || self.is_elastic_at(max_indentation) {
             return path.work(indentation);

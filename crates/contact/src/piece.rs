@@ -89,8 +89,9 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     pub fn at(model: &'a Model<L, U>, indentation: f64, largest: f64, rising: bool) -> Piece<'a, L, U> {
         let upper = model.loading.yield_point(&model.pair).indentation;
         if largest <= upper && !(rising && indentation >= upper) {
-            let (kind, segment) = (Kind::Elastic, model.loading.segment(&model.pair, 0.0));
-            return Piece { model, kind, lower: 0.0, upper, segment, is_whole: true, unloading: None };
+            let (kind, segment) = (Kind::Elastic, model.elastic_segment(0.0));
+            let is_whole = model.has_elastic_segment();
+            return Piece { model, kind, lower: 0.0, upper, segment, is_whole, unloading: None };
         }
         if rising && indentation >= largest {
             let upper = model.loading.next_corner(&model.pair, indentation);

@@ -4,8 +4,10 @@ use crate::columns::{Column, Columns};
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::plot::{Picture, Series};
-use brinell_contact::damped::{self, AnyDamped, Damped};
 use brinell_contact::impact::Impact;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses::{self, AnyLoss};
+use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{History, TooDeep};
 use std::f64::consts::PI;
 
@@ -30,8 +32,8 @@ fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<CurveRow>,
     let model = match choice.model {
         // the curve of a slow motion: losses begin with the speed
         AnyModel::Elastoplastic(model) => model,
-        AnyModel::Lossy(model) => model.plastic,
-        AnyModel::Damped(model) => return Ok(damped_rows(&model, impact)),
+        AnyModel::Lossy(model, None) => model.plastic,
+        AnyModel::Lossy(model, Some(_)) => return Ok(damped_rows(&model, impact)),
     };
     let mut history = History::start(&model, 0.0)?;
     let mut rows = Vec::new();
@@ -58,30 +60,26 @@ fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<CurveRow>,
 }
 
 /// The motion during `impact` with a rate-dependent law, which has no curve without a motion.
-fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<CurveRow> {
+fn damped_rows(model: &losses::Model<AnyLoading, AnyUnloading, AnyLoss>, impact: &Impact) -> Vec<CurveRow> {
     let mut rows = Vec::new();
-    let factors = model.law.factors(&model.pair, model.restitution, model.mass);
-    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
-    damped::impact::follow(model, impact, |state, force| {
-        let indentation = state.indentation.max(0.0);
-        let shape = model.law.elastic(indentation);
-        let by_touch = if model.law.scaled_by_touch() { impact.speed } else { 1.0 };
-        let damping = factors.damping / by_touch * model.law.damping(indentation).slope * state.speed;
-        let elastic_energy = factors.elastic * shape.integral;
-        let contact_radius = (model.pair.radius * indentation).sqrt();
+    losses::impact::follow(model, impact, |state, force| {
+        let (contact, speed) = (&state.contact, state.speed);
+        let (indentation, plastic) = (state.indentation.max(0.0), contact.plastic());
+        let (elastic_energy, contact_radius) =
+            (plastic.elastic_energy(&model.plastic), (model.plastic.pair.radius * indentation).sqrt());
         let area = PI * contact_radius * contact_radius;
         rows.push(CurveRow {
             indentation,
             force,
             contact_radius,
             mean_pressure: if area > 0.0 { force / area } else { 0.0 },
-            stiffness: if force > 0.0 { factors.elastic * shape.slope + damping } else { 0.0 },
+            stiffness: if force > 0.0 { contact.stiffness(speed) } else { 0.0 },
             elastic_energy,
-            dissipated_energy: energy - 0.5 * impact.mass * state.speed * state.speed - elastic_energy,
+            dissipated_energy: impact.energy() - 0.5 * impact.mass * speed * speed - elastic_energy,
             regime: i32::from(force > 0.0),
         });
     });
-    // the method takes a few thousand steps; this leaves as many points as the other laws have
+    // this leaves as many points as the other laws have
     let every = rows.len().div_ceil(4 * POINTS as usize).max(1);
     rows.into_iter().step_by(every).collect()
 }

@@ -233,7 +233,7 @@ fn start(variable: &Variable, scene: &Scene, group: usize) -> f64 {
 /// Whether the elastic part of a rate-dependent law also depends on the mass.
 fn elastic_part_follows_mass(scene: &Scene) -> bool {
     let pair = scene.model().pair;
-    scene.damped.is_some_and(|(_, law)| law.factors(&pair, 0.5, 1.0).elastic != law.factors(&pair, 0.5, 2.0).elastic)
+    scene.damped.is_some_and(|(_, law)| law.parts(&pair, 0.5, 1.0).0 != law.parts(&pair, 0.5, 2.0).0)
 }
 
 /// A parameter that can be set.

@@ -1,10 +1,10 @@
 //! The models of a scene's bodies with laws chosen by name, as commands compare them. `scene/laws.rs` checks those of the scene.
 
-use crate::model::{AnyModel, Dampings, paired};
+use crate::model::{AnyModel, Dampings, RateLaw, paired};
 use crate::nearest::unknown;
 use crate::pairing::{self, unloading_of};
 use crate::scene::Scene;
-use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Model, Pair};
@@ -157,7 +157,7 @@ fn choose_damped(scene: &Scene, name: &str, law: AnyDamped, damping: Option<&str
     let given = scene.value("restitution");
     let restitution = given.or_else(|| scene.any_model().restitution(&scene.impact_of(0))).filter(|e| *e > 0.0);
     let restitution = restitution.map_or(1.0, |e| e.min(1.0));
-    let model = damped::Model { pair: scene.model().pair, law, restitution, mass: scene.impact_of(0).mass };
+    let model = RateLaw { law, restitution, mass: scene.impact_of(0).mass }.on(scene.model().pair);
     let laws = damped_laws(name.split('/').next().unwrap_or_default(), &law);
-    Ok(Choice { name: name.into(), laws, model: AnyModel::Damped(model) })
+    Ok(Choice { name: name.into(), laws, model })
 }

@@ -3,7 +3,7 @@
 use crate::numbers::significant;
 use brinell_contact::damped::hunt_crossley::DampingFactor;
 use brinell_contact::damped::tsuji::TsujiDamping;
-use brinell_contact::damped::{self, AnyDamped, HuntCrossley, Tsuji};
+use brinell_contact::damped::{AnyDamped, Damped, HuntCrossley, Tsuji};
 use brinell_contact::impact::{self, Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, AnyLoss};
@@ -43,10 +43,29 @@ pub fn speed_of_height(height: f64) -> f64 {
 pub enum AnyModel {
     /// The force depends on the indentation and the largest indentation.
     Elastoplastic(Model<AnyLoading, AnyUnloading>),
-    /// The same, with a loss below yield.
-    Lossy(losses::Model<AnyLoading, AnyUnloading, AnyLoss>),
-    /// The force depends on the indentation and the rate.
-    Damped(damped::Model<AnyDamped>),
+    /// The same with a loss below yield; or a rate-dependent law, which is given.
+    Lossy(losses::Model<AnyLoading, AnyUnloading, AnyLoss>, Option<RateLaw>),
+}
+
+/// A rate-dependent law with what its damping is for.
+#[derive(Clone, Copy, Debug)]
+pub struct RateLaw {
+    pub law: AnyDamped,
+    /// Coefficient of restitution; ignored by laws that need none.
+    pub restitution: f64,
+    /// Effective mass \[kg\]; ignored by laws that need none.
+    pub mass: f64,
+}
+
+impl RateLaw {
+    /// The law on the bodies `pair`.
+    pub fn on(self, pair: Pair) -> AnyModel {
+        let losses::Model { plastic, loss } = self.law.model(pair, self.restitution, self.mass);
+        let Model { loading, unloading, surface, .. } = plastic;
+        let (loading, unloading) = (AnyLoading::Elastic(loading), AnyUnloading::ContactRadius(unloading));
+        let plastic = Model { pair, loading, unloading, surface };
+        AnyModel::Lossy(losses::Model { plastic, loss: AnyLoss::Damper(loss) }, Some(self))
+    }
 }
 
 impl AnyModel {
@@ -56,8 +75,7 @@ impl AnyModel {
         PREDICTIONS.set(PREDICTIONS.get() + 1);
         match self {
             AnyModel::Elastoplastic(model) => impact::predict(model, impact),
-            AnyModel::Lossy(model) => losses::impact::predict(model, impact),
-            AnyModel::Damped(model) => damped::impact::predict(model, impact),
+            AnyModel::Lossy(model, _) => losses::impact::predict(model, impact),
         }
     }
 
@@ -65,8 +83,9 @@ impl AnyModel {
     pub fn restitution(&self, impact: &Impact) -> Option<f64> {
         match self {
             AnyModel::Elastoplastic(model) => impact::restitution(model, impact),
-            AnyModel::Lossy(model) => losses::impact::predict(model, impact).map(|prediction| prediction.restitution),
-            AnyModel::Damped(model) => damped::impact::predict(model, impact).map(|prediction| prediction.restitution),
+            AnyModel::Lossy(model, _) => {
+                losses::impact::predict(model, impact).map(|prediction| prediction.restitution)
+            }
         }
     }
 
@@ -74,15 +93,20 @@ impl AnyModel {
     pub fn elastoplastic(&self) -> Option<&Model<AnyLoading, AnyUnloading>> {
         match self {
             AnyModel::Elastoplastic(model) => Some(model),
-            AnyModel::Lossy(model) => Some(&model.plastic),
-            AnyModel::Damped(_) => None,
+            AnyModel::Lossy(model, None) => Some(&model.plastic),
+            AnyModel::Lossy(_, Some(_)) => None,
         }
+    }
+
+    /// The rate-dependent law, if it has one.
+    pub fn rate_law(&self) -> Option<RateLaw> {
+        if let AnyModel::Lossy(_, law) = self { *law } else { None }
     }
 
     /// The same contact by another elastoplastic `model`, with the same loss.
     pub fn with_plastic(&self, plastic: Model<AnyLoading, AnyUnloading>) -> AnyModel {
         match self {
-            AnyModel::Lossy(model) => AnyModel::Lossy(losses::Model { plastic, ..*model }),
+            AnyModel::Lossy(model, None) => AnyModel::Lossy(losses::Model { plastic, ..*model }, None),
             _ => AnyModel::Elastoplastic(plastic),
         }
     }
@@ -91,8 +115,7 @@ impl AnyModel {
     pub fn pair(&self) -> Pair {
         match self {
             AnyModel::Elastoplastic(model) => model.pair,
-            AnyModel::Lossy(model) => model.plastic.pair,
-            AnyModel::Damped(model) => model.pair,
+            AnyModel::Lossy(model, _) => model.plastic.pair,
         }
     }
 
@@ -100,16 +123,15 @@ impl AnyModel {
     pub fn valid_depth(&self, size: f64) -> f64 {
         match self {
             AnyModel::Elastoplastic(model) => model.valid_depth(size),
-            AnyModel::Lossy(model) => model.plastic.valid_depth(size),
-            AnyModel::Damped(model) => model.valid_depth(size),
+            AnyModel::Lossy(model, _) => model.plastic.valid_depth(size),
         }
     }
 
-    /// The model with a loss below yield, if it is one.
+    /// The model with a loss below yield, or with the damping of a rate-dependent law, if it is one.
     pub fn lossy(&self) -> Option<&losses::Model<AnyLoading, AnyUnloading, AnyLoss>> {
         match self {
-            AnyModel::Lossy(model) => Some(model),
-            _ => None,
+            AnyModel::Lossy(model, _) => Some(model),
+            AnyModel::Elastoplastic(_) => None,
         }
     }
 
@@ -123,10 +145,10 @@ impl AnyModel {
     pub fn on(&self, pair: Pair, yield_strength: Option<f64>) -> AnyModel {
         let pair = Pair { yield_strength: yield_strength.unwrap_or(self.pair().yield_strength), ..pair };
         match self {
-            AnyModel::Elastoplastic(model) | AnyModel::Lossy(losses::Model { plastic: model, .. }) => {
+            AnyModel::Lossy(_, Some(law)) => law.on(pair),
+            AnyModel::Elastoplastic(model) | AnyModel::Lossy(losses::Model { plastic: model, .. }, None) => {
                 self.with_plastic(Model { pair, ..*model }.prepared())
             }
-            AnyModel::Damped(model) => AnyModel::Damped(damped::Model { pair, ..*model }),
         }
     }
 
@@ -138,22 +160,15 @@ impl AnyModel {
 
     /// The stiffness of the way back from `indentation` \[m\]; of a rate-dependent law that of its elastic part \[N/m\].
     pub fn stiffness(&self, indentation: f64) -> f64 {
-        match self {
-            AnyModel::Elastoplastic(model) | AnyModel::Lossy(losses::Model { plastic: model, .. }) => {
-                model.unloading_segment(indentation, indentation).stiffness(indentation)
-            }
-            AnyModel::Damped(model) => {
-                let contact = damped::History::start(model, -indentation);
-                contact.expect("a checked scene is within range").stiffness(0.0)
-            }
-        }
+        let (AnyModel::Elastoplastic(model) | AnyModel::Lossy(losses::Model { plastic: model, .. }, _)) = self;
+        model.unloading_segment(indentation, indentation).stiffness(indentation)
     }
 
     /// The method of a prediction, in words.
     pub fn method(&self) -> &'static str {
         match self {
             AnyModel::Elastoplastic(_) => "by energy balance",
-            AnyModel::Lossy(_) | AnyModel::Damped(_) => "by integrating the motion",
+            AnyModel::Lossy(..) => "by integrating the motion",
         }
     }
 
@@ -172,15 +187,7 @@ impl AnyModel {
                 let unloading = way(largest, dent).map(|d| (d, back(d))).collect();
                 Some(if model.is_elastic_at(largest) { vec![loading] } else { vec![loading, unloading] })
             }
-            AnyModel::Damped(model) => {
-                let (mut there, mut back) = (Vec::new(), Vec::new());
-                damped::impact::follow(model, impact, |state, force| {
-                    let branch = if state.speed > 0.0 { &mut there } else { &mut back };
-                    branch.push((state.indentation, force));
-                })?;
-                Some(joined(there, back))
-            }
-            AnyModel::Lossy(model) => {
+            AnyModel::Lossy(model, _) => {
                 let (mut all, mut deepest) = (Vec::new(), 0);
                 losses::impact::follow(model, impact, |state, force| {
                     all.push((state.indentation, force));

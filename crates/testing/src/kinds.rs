@@ -96,9 +96,13 @@ pub fn of_each_kind() -> Vec<(&'static str, String)> {
         ("lossy", with(scene(law, &momentum[..], ""), "elastic_restitution = \"waves\"")),
         ("rate", scene(law, &["indentation", "closing_speed"], &format!("{rate}[coupling]\neffective_mass = 4e-3\n"))),
         ("rate", scene(law, &["indentation", "closing_speed"], &format!("{rate}{}", bodies(STACK, "")))),
-        ("lossy-rate", with(coupled(law, &["work", "closing_speed"], rate), "elastic_restitution = 0.9")),
-        ("damped", scene("hunt-crossley/flores", &momentum, IMPACT)),
-        ("damped", coupled("tsuji/original", &["closing_speed"], "")),
+        (
+            "lossy-rate",
+            with(coupled(law, &["indentation", "work", "closing_speed"], rate), "elastic_restitution = 0.9"),
+        ),
+        ("lossy", scene("kuwabara-kono", &["closing_speed", "impulse_moment"], &bodies(STACK, ""))),
+        ("lossy", scene("hunt-crossley/flores", &momentum, IMPACT)),
+        ("lossy", coupled("tsuji/original", &["closing_speed"], "")),
         ("friction", scene(law, &slides, &friction(""))),
         ("friction-2", scene(law, &slides, &friction("directions = 2\n"))),
         (

@@ -12,8 +12,7 @@ use brinell_fmu::scene::Scene;
 use brinell_fmu::scene::library::block::Block;
 use brinell_fmu::scene::library::block::Contents;
 use brinell_fmu::scene::library::kinds::{
-    Dampings, Friction, Friction2, Losses, LossyFriction, LossyFriction2, LossyStrengths, Momentum, Moved, State,
-    Strengths,
+    Friction, Friction2, Losses, LossyFriction, LossyFriction2, LossyStrengths, Momentum, Moved, State, Strengths,
 };
 use brinell_fmu::scene::library::{LibraryScene, Memory};
 use std::cell::Cell;
@@ -102,7 +101,6 @@ pub fn instances(unit: &PrebuiltUnit, count: usize) -> Result<Vec<&'static mut d
         "lossy" => made::<LibraryScene<Losses, Place>>,
         "rate" => made::<LibraryScene<Strengths, Place>>,
         "lossy-rate" => made::<LibraryScene<LossyStrengths, Place>>,
-        "damped" => made::<LibraryScene<Dampings, Place>>,
         "friction" => made::<LibraryScene<Friction, Place>>,
         "friction-2" => made::<LibraryScene<Friction2, Place>>,
         "lossy-friction" => made::<LibraryScene<LossyFriction, Place>>,

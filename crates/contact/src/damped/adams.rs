@@ -1,6 +1,8 @@
 //! The IMPACT function of Adams, MotionSolve and SolidWorks Motion.
 
-use super::{Damped, Factors, Shape};
+use super::Damped;
+use crate::loading::Elastic;
+use crate::losses::{Damper, Form, Growth};
 use crate::material::Pair;
 use libm::{pow, sqrt};
 
@@ -32,38 +34,16 @@ impl Adams {
 }
 
 impl Damped for Adams {
-    fn factors(&self, pair: &Pair, _restitution: f64, _mass: f64) -> Factors {
-        let depth = self.damping_depth;
-        let elastic = if self.stiffness > 0.0 {
-            self.stiffness * pow(depth, self.exponent)
+    fn parts(&self, pair: &Pair, _restitution: f64, _mass: f64) -> (Elastic, Damper) {
+        let (depth, exponent) = (self.damping_depth, self.exponent);
+        let force = if self.stiffness > 0.0 {
+            self.stiffness * pow(depth, exponent)
         } else {
             self.stiffness_factor * pair.hertz_stiffness() * (depth * sqrt(depth))
         };
-        Factors { elastic, damping: self.full_damping }
-    }
-
-    fn elastic(&self, d: f64) -> Shape {
-        let depths = d / self.damping_depth;
-        let value = pow(depths, self.exponent);
-        let slope = self.exponent * pow(depths, self.exponent - 1.0) / self.damping_depth;
-        Shape { value, slope, integral: value * d / (self.exponent + 1.0) }
-    }
-
-    fn damping(&self, d: f64) -> Shape {
-        let depth = self.damping_depth;
-        let u = d / depth;
-        if u < 1.0 {
-            let integral = depth * u * u * u * (1.0 - 0.5 * u);
-            Shape { value: u * u * (3.0 - 2.0 * u), slope: 6.0 * u * (1.0 - u) / depth, integral }
-        } else {
-            Shape { value: 1.0, slope: 0.0, integral: d - 0.5 * depth }
-        }
-    }
-
-    /// For `n < 2`, `u^(n-2)/(3 - 2u)` falls up to `u = 1.5 (2 - n)/(3 - n)` and rises from there.
-    fn borders(&self) -> [f64; 2] {
-        let n = self.exponent;
-        let lowest = if n < 2.0 { 1.5 * (2.0 - n) / (3.0 - n) } else { 0.0 };
-        [self.damping_depth * lowest, self.damping_depth]
+        // for n < 2, `u^(n-2)/(3 - 2u)` falls up to this u, and rises from there
+        let lowest = if exponent < 2.0 { 1.5 * (2.0 - exponent) / (3.0 - exponent) } else { 0.0 };
+        let growth = Growth::Step { depth, lowest: depth * lowest };
+        (Elastic { force, depth, exponent }, Damper { form: Form::Viscous(growth), factor: self.full_damping })
     }
 }

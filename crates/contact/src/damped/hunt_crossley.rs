@@ -1,7 +1,9 @@
 //! Hunt and Crossley, with the damping factors of later authors.
 
-use super::{Damped, Factors, Shape, power_three_halves};
+use super::Damped;
 use crate::laws::numbered;
+use crate::loading::Elastic;
+use crate::losses::{Damper, Form};
 use crate::material::Pair;
 use libm::{exp, log, log1p};
 
@@ -106,20 +108,12 @@ impl HuntCrossley {
 }
 
 impl Damped for HuntCrossley {
-    fn factors(&self, pair: &Pair, restitution: f64, _mass: f64) -> Factors {
-        let elastic = pair.hertz_stiffness();
-        Factors { elastic, damping: elastic * self.damping_factor.chi(restitution) }
+    fn parts(&self, pair: &Pair, restitution: f64, _mass: f64) -> (Elastic, Damper) {
+        let damper = Damper { form: Form::Proportional, factor: self.damping_factor.chi(restitution) };
+        (Elastic::hertz(pair), damper)
     }
 
     fn needs_restitution(&self) -> bool {
-        true
-    }
-
-    fn damping(&self, indentation: f64) -> Shape {
-        power_three_halves(indentation)
-    }
-
-    fn scaled_by_touch(&self) -> bool {
         true
     }
 }

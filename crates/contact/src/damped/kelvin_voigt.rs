@@ -1,6 +1,8 @@
 //! Kelvin and Voigt: a linear spring in parallel with a dashpot.
 
-use super::{Damped, Factors, Shape};
+use super::Damped;
+use crate::loading::Elastic;
+use crate::losses::{Damper, Form, Growth};
 use crate::material::Pair;
 use core::f64::consts::PI;
 use libm::{log, pow, sqrt};
@@ -26,13 +28,15 @@ impl KelvinVoigt {
 }
 
 impl Damped for KelvinVoigt {
-    fn factors(&self, pair: &Pair, restitution: f64, mass: f64) -> Factors {
+    fn parts(&self, pair: &Pair, restitution: f64, mass: f64) -> (Elastic, Damper) {
         let hertz = 16.0 / 15.0 * sqrt(pair.radius) * pair.modulus;
         let speed = self.characteristic_speed;
-        let elastic = hertz * pow(mass * speed * speed / hertz, 0.2);
+        let stiffness = hertz * pow(mass * speed * speed / hertz, 0.2);
         let decrement = -log(restitution);
         let ratio = decrement / sqrt(PI * PI + decrement * decrement);
-        Factors { elastic, damping: 2.0 * ratio * sqrt(elastic * mass) }
+        let factor = 2.0 * ratio * sqrt(stiffness * mass);
+        let spring = Elastic { force: stiffness, depth: 1.0, exponent: 1.0 };
+        (spring, Damper { form: Form::Viscous(Growth::Constant), factor })
     }
 
     fn needs_restitution(&self) -> bool {
@@ -41,13 +45,5 @@ impl Damped for KelvinVoigt {
 
     fn needs_mass(&self) -> bool {
         true
-    }
-
-    fn elastic(&self, d: f64) -> Shape {
-        Shape { value: d, slope: 1.0, integral: 0.5 * d * d }
-    }
-
-    fn damping(&self, d: f64) -> Shape {
-        Shape { value: 1.0, slope: 0.0, integral: d }
     }
 }

@@ -1,9 +1,9 @@
 //! Kuwabara and Kono: a viscoelastic Hertz contact.
 
-use super::{Damped, Factors, Shape};
+use super::Damped;
+use crate::loading::Elastic;
+use crate::losses::{Damper, Form, Growth};
 use crate::material::Pair;
-use crate::numbers::quotient;
-use libm::sqrt;
 
 /// `F = K_h (d^1.5 + 1.5 A sqrt(d) d')`, with a relaxation time `A` of the material.
 ///
@@ -24,13 +24,7 @@ impl KuwabaraKono {
 }
 
 impl Damped for KuwabaraKono {
-    fn factors(&self, pair: &Pair, _restitution: f64, _mass: f64) -> Factors {
-        let elastic = pair.hertz_stiffness();
-        Factors { elastic, damping: 1.5 * self.relaxation_time * elastic }
-    }
-
-    fn damping(&self, d: f64) -> Shape {
-        let value = sqrt(d);
-        Shape { value, slope: quotient(0.5, value, d > 0.0, f64::MAX), integral: d * value / 1.5 }
+    fn parts(&self, pair: &Pair, _restitution: f64, _mass: f64) -> (Elastic, Damper) {
+        (Elastic::hertz(pair), Damper { form: Form::Viscous(Growth::Stiffness), factor: self.relaxation_time })
     }
 }

@@ -1,9 +1,10 @@
 //! Tsuji, Tanaka and Ishida: the Hertzian spring-dashpot of discrete-element codes.
 
-use super::{Damped, Factors, Shape};
+use super::Damped;
 use crate::laws::numbered;
+use crate::loading::Elastic;
+use crate::losses::{Damper, Form, Growth};
 use crate::material::Pair;
-use crate::numbers::quotient;
 use core::f64::consts::PI;
 use libm::{exp, log, sqrt};
 
@@ -75,9 +76,10 @@ impl Tsuji {
 }
 
 impl Damped for Tsuji {
-    fn factors(&self, pair: &Pair, restitution: f64, mass: f64) -> Factors {
-        let elastic = pair.hertz_stiffness();
-        Factors { elastic, damping: self.damping_factor.alpha(restitution) * sqrt(mass * elastic) }
+    fn parts(&self, pair: &Pair, restitution: f64, mass: f64) -> (Elastic, Damper) {
+        // the stiffness is 1.5 K_h d^0.5
+        let factor = self.damping_factor.alpha(restitution) * sqrt(mass / 1.5);
+        (Elastic::hertz(pair), Damper { form: Form::Viscous(Growth::Root), factor })
     }
 
     fn needs_restitution(&self) -> bool {
@@ -86,10 +88,5 @@ impl Damped for Tsuji {
 
     fn needs_mass(&self) -> bool {
         true
-    }
-
-    fn damping(&self, d: f64) -> Shape {
-        let value = sqrt(sqrt(d));
-        Shape { value, slope: quotient(0.25 * value, d, d > 0.0, f64::MAX), integral: 0.8 * d * value }
     }
 }

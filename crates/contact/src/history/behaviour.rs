@@ -1,6 +1,6 @@
 //! An elastoplastic contact as a [`Contact`].
 
-use super::{History, Regime, Sum, TooDeep};
+use super::{History, LARGEST_INDENTATION, Regime, Sum, TooDeep};
 use crate::behaviour::Contact;
 use crate::loading::Loading;
 use crate::material::YieldPoint;
@@ -152,6 +152,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         match self.regime {
             _ if self.is_loading() => (indentation, model.loading.next_corner(&model.pair, indentation)),
             Regime::Unloaded => (model.unloading_path(self.max_indentation).lower, self.max_indentation),
+            _ if !model.has_elastic_segment() => (0.0, LARGEST_INDENTATION),
             _ => (0.0, self.segment.upper),
         }
     }

@@ -126,7 +126,7 @@ impl History {
             let peak = model.peak(largest);
             self.unload(model, &peak, model.path_from(&peak), indentation, rising);
         } else if indentation > 0.0 {
-            self.spring(model.loading.segment(&model.pair, 0.0), largest);
+            self.spring(model, indentation, largest);
         } else {
             self.regime = Regime::Apart;
             self.segment = Segment::apart(FARTHEST, TOUCHING);
@@ -142,11 +142,15 @@ impl History {
         self.segment = Segment::apart(FARTHEST, TOUCHING);
     }
 
-    /// Sets the `elastic` branch of a contact that has not yielded, below its `largest` indentation \[m\].
+    /// Sets the elastic branch of a contact that has not yielded, at `indentation` \[m\] below its `largest` indentation \[m\].
     #[inline(always)]
-    fn spring(&mut self, elastic: Segment, largest: f64) {
+    fn spring<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, indentation: f64, largest: f64) {
         self.regime = Regime::Elastic;
-        self.segment = Segment { lower: TOUCHING, upper: largest, ..elastic };
+        let elastic = model.elastic_segment(indentation);
+        self.segment = match model.has_elastic_segment() {
+            true => Segment { lower: TOUCHING, upper: largest, ..elastic },
+            false => elastic,
+        };
     }
 
     /// Sets this branch of the loading curve. `indentation` \[m\] > 0 is the largest so far.
@@ -188,7 +192,7 @@ impl History {
         }
         self.max_indentation = largest;
         self.least_increment = ANY;
-        if self.regime == Regime::Elastic {
+        if self.regime == Regime::Elastic && model.has_elastic_segment() {
             // loading and unloading follow the same curve
             (self.segment.lower, self.segment.upper) = (TOUCHING, largest);
         } else if model.yields_before(point, largest) {
@@ -196,7 +200,7 @@ impl History {
             let path = model.unloading.path(&model.pair, &peak);
             self.unload(model, &peak, path, indentation, false);
         } else {
-            self.spring(model.loading.segment(&model.pair, 0.0), largest);
+            self.spring(model, indentation, largest);
         }
         true
     }
@@ -244,7 +248,7 @@ impl History {
         let touches =
             self.regime == Regime::Apart && indentation > 0.0 && !model.yields_before(point, self.max_indentation);
         if touches {
-            self.spring(model.loading.segment(&model.pair, 0.0), self.max_indentation);
+            self.spring(model, indentation, self.max_indentation);
         }
         touches
     }
@@ -275,7 +279,8 @@ impl History {
             self.regime = Regime::Apart;
             return true;
         }
-        let springs = self.regime == Regime::Elastic && !self.is_loading() && stays;
+        // a tangent does not know the surface
+        let springs = self.regime == Regime::Elastic && !self.is_loading() && stays && residual <= 0.0;
         if springs {
             self.segment = Segment::apart(FARTHEST, TOUCHING);
             self.regime = Regime::Apart;

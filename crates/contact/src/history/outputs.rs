@@ -104,7 +104,7 @@ impl History {
         let indentation = self.indentation();
         let segmented = match self.regime {
             Regime::Apart => return 0.0,
-            Regime::Elastic => true,
+            Regime::Elastic => model.has_elastic_segment(),
             Regime::Unloaded => model.unloading.is_segmented(),
             _ => model.loading.is_segmented(),
         };

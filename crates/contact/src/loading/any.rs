@@ -19,6 +19,14 @@ impl Loading for AnyLoading {
         self.law().is_segmented()
     }
 
+    fn scale(&self, pair: &Pair) -> Segment {
+        self.law().scale(pair)
+    }
+
+    fn elastic_exponent(&self) -> f64 {
+        self.law().elastic_exponent()
+    }
+
     fn has_squares() -> bool {
         true
     }

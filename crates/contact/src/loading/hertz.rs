@@ -15,6 +15,9 @@ use libm::sqrt;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Hertz;
 
+/// The exponent of Hertz's law \[-\].
+pub(super) const EXPONENT: f64 = 1.5;
+
 /// The Hertzian part, up to `upper` \[m\], of any law that begins elastically.
 pub(super) fn segment(pair: &Pair, upper: f64) -> Segment {
     Segment { upper, power: pair.hertz_stiffness(), ..Segment::NOTHING }

@@ -6,6 +6,7 @@ pub mod brake_2012;
 pub mod brake_2015;
 pub mod brinell;
 pub mod brizmer;
+pub mod elastic;
 pub mod ghaednia;
 pub mod hertz;
 pub mod jackson_green;
@@ -59,6 +60,7 @@ laws! {
         luding::Luding [yield_pressure_factor, stiffness_factor, stiffness_ratio, limit_depth] { "luding" = Luding::REFERENCE }
     }
     paired { Brinell as PairedBrinell }
+    springs { elastic::Elastic }
 }
 
 /// [`Unloading::recovery`](crate::Unloading::recovery) of some law.
@@ -67,7 +69,7 @@ pub type RecoveryOf<'a> = dyn Fn(&Construction<'_>, &Together) -> Recovery + 'a;
 /// A loading law: its constants, without the bodies.
 ///
 /// All indentations are in m and not negative. The curve begins with Hertz's law at zero indentation; only [`WaltonBraun`] and
-/// [`Luding`] yield there.
+/// [`Luding`] yield there, and [`Elastic`] is elastic with another power.
 pub trait Loading {
     /// Whether the law yields at all. For a law that never yields, the plastic code is compiled out. Without this function the
     /// compiler could not know that no indentation exceeds an infinite yield indentation.
@@ -93,6 +95,16 @@ pub trait Loading {
         Self: Sized,
     {
         false
+    }
+
+    /// The elastic part as the scale of a motion: its segment, whose power has the [exponent](Loading::elastic_exponent).
+    fn scale(&self, pair: &Pair) -> Segment {
+        self.segment(pair, 0.0)
+    }
+
+    /// The exponent of the power in the elastic part: Hertz's.
+    fn elastic_exponent(&self) -> f64 {
+        hertz::EXPONENT
     }
 
     /// The first indentation above `indentation` where the curve or its slope is not smooth \[m\].

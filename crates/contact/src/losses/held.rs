@@ -1,8 +1,8 @@
 //! Work and heat of a motion at constant rate.
 
-use super::{Damping, Form};
+use super::{Damping, Form, Growth};
 use crate::loading::Loading;
-use crate::numbers::quotient;
+use crate::numbers::{largest, quotient};
 use crate::piece::Piece;
 use crate::quadrature::{gauss, graded_integral};
 use crate::regime::TooDeep;
@@ -43,33 +43,48 @@ impl Part<'_> {
         }
     }
 
-    /// Integral of the squared stiffness from one indentation to another \[N^2/m\].
-    fn squared_stiffness(&self, from: f64, to: f64) -> f64 {
-        let Some(segment) = self.segment else {
-            return graded_integral(from, to, &|d| (self.stiffness)(d) * (self.stiffness)(d));
-        };
+    /// Integral of the damping coefficient from one indentation to another \[N.s\].
+    fn damped(&self, damping: &Damping, growth: Growth, from: f64, to: f64) -> f64 {
+        let factor = damping.factor;
+        let coefficient = |d: f64| growth.times(factor, d, || (self.stiffness)(d));
+        let Some(segment) = self.segment else { return graded_integral(from, to, &coefficient) };
         let above = |d: f64| if d > segment.origin { d - segment.origin } else { 0.0 };
         let (p, q) = (sqrt(above(from)), sqrt(above(to)));
-        if p + q == 0.0 {
-            return segment.linear * segment.linear * (to - from);
+        // polynomials, for which Gauss's rule is a closed form
+        match growth {
+            Growth::Constant => factor * (to - from),
+            Growth::Step { .. } => gauss(from, to, &coefficient),
+            Growth::Root if segment.linear == 0.0 && segment.square == 0.0 => {
+                let (p, q) = (sqrt(p), sqrt(q));
+                let mean = gauss(0.0, 1.0, &|t: f64| {
+                    let root = p + (q - p) * t;
+                    4.0 * root * root * root * root
+                });
+                let change = quotient(to - from, (p + q) * (p * p + q * q), p + q > 0.0, 0.0);
+                factor * sqrt(1.5 * segment.power) * mean * change
+            }
+            Growth::Root => graded_integral(from, to, &coefficient),
+            _ if p + q == 0.0 => growth.times(factor, from, || segment.linear) * (to - from),
+            _ => {
+                // in the root of the height, of fifth degree at most
+                let mean = gauss(0.0, 1.0, &|t: f64| {
+                    let root = p + (q - p) * t;
+                    let stiffness = segment.linear + root * (1.5 * segment.power + 2.0 * segment.square * root);
+                    2.0 * root * growth.times(1.0, 0.0, || stiffness)
+                });
+                factor * (mean * quotient(to - from, p + q, p + q > 0.0, 0.0))
+            }
         }
-        // a polynomial of fifth degree in the root of the height: Gauss's rule is a closed form
-        let mean = gauss(0.0, 1.0, &|t: f64| {
-            let root = p + (q - p) * t;
-            let stiffness = segment.linear + root * (1.5 * segment.power + 2.0 * segment.square * root);
-            2.0 * root * stiffness * stiffness
-        });
-        mean * quotient(to - from, p + q, p + q > 0.0, 0.0)
     }
 
-    /// The indentation between `low` and `high` \[m\] above which the surface pushes at `rate` < 0 \[m/s\].
-    fn parting(&self, damping: &Damping, mut low: f64, mut high: f64, rate: f64) -> f64 {
-        let pushes = |d: f64| damping.force((self.force)(d), (self.stiffness)(d), rate) > 0.0;
-        if !pushes(high) {
-            return high;
-        }
-        let above = low.next_up();
-        if pushes(if above < high { above } else { high }) {
+    /// The indentation between `low` and `high` \[m\] at which the surface ceases to push at `rate` < 0 \[m/s\], or grips again; `low` if
+    /// it does neither.
+    fn parting(&self, damping: &Damping, (mut low, mut high): (f64, f64), rate: f64) -> f64 {
+        let pushes = |d: f64| self.pushes(damping, d, rate);
+        let sign = pushes(high);
+        // at the surface all powers vanish
+        let above = largest(low.next_up(), f64::EPSILON * high);
+        if pushes(if above < high { above } else { high }) == sign {
             return low;
         }
         for _ in 0..HALVINGS {
@@ -77,9 +92,36 @@ impl Part<'_> {
             if !(middle > low && middle < high) {
                 break;
             }
-            *(if pushes(middle) { &mut high } else { &mut low }) = middle;
+            *(if pushes(middle) == sign { &mut high } else { &mut low }) = middle;
         }
         high
+    }
+
+    fn pushes(&self, damping: &Damping, d: f64, rate: f64) -> bool {
+        damping.force(d, (self.force)(d), (self.stiffness)(d), rate) > 0.0
+    }
+
+    /// Heat of a viscous damping that follows this `growth`, on a way back at `rate` < 0 \[m/s\].
+    fn spent_on_the_way_back(&self, damping: &Damping, growth: Growth, (from, to): (f64, f64), rate: f64) -> f64 {
+        let (mut heat, mut high) = (0.0, from);
+        for border in growth.borders().into_iter().chain([to]) {
+            let low = if border > to { border } else { to };
+            if low >= high {
+                continue;
+            }
+            // in between the force changes its sign at most once
+            let change = self.parting(damping, (low, high), rate);
+            for (high, low) in [(high, change), (change, low)] {
+                if low < high {
+                    heat += match self.pushes(damping, 0.5 * (high + low), rate) {
+                        true => rate * self.damped(damping, growth, high, low),
+                        false => self.work(low, high),
+                    };
+                }
+            }
+            high = low;
+        }
+        heat
     }
 
     /// Work and heat at `rate` \[m/s\], whose `damping` knows the largest speed.
@@ -88,10 +130,12 @@ impl Part<'_> {
         let heat = match damping.form {
             Form::Mobility => 0.0,
             Form::Proportional => (damping.gain(rate) - 1.0) * work,
-            Form::Radiation => {
-                let change = if rate < 0.0 { self.parting(damping, to, from, rate) } else { to };
-                let released = if change > to { self.work(to, change) } else { 0.0 };
-                damping.factor * rate * self.squared_stiffness(from, change) + released
+            Form::Viscous(growth) if rate < 0.0 => self.spent_on_the_way_back(damping, growth, (from, to), rate),
+            Form::Viscous(growth) => {
+                let [depth, _] = growth.borders();
+                // the coefficient of a step is no polynomial across its depth
+                let border = if from < depth && depth < to { depth } else { to };
+                rate * (self.damped(damping, growth, from, border) + self.damped(damping, growth, border, to))
             }
         };
         Spent { work, heat }

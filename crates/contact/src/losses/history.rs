@@ -5,7 +5,7 @@ mod shared;
 
 use super::bodies::driven;
 use super::held::{Spent, on_segment, on_the_way};
-use super::{Damping, Form, Loss, Model};
+use super::{Damping, Form, Growth, Loss, Model};
 use crate::loading::Loading;
 use crate::numbers::{largest, quotient};
 use crate::path::Sum;
@@ -55,7 +55,19 @@ impl<K: Loss> History<K> {
     pub(super) fn damping_for(&self, rate: f64) -> Damping {
         // every contact has its own largest speed
         let before = if self.is_apart() { 0.0 } else { self.swiftest };
-        Damping { form: self.loss.form(), factor: self.factor, swiftest: largest(fabs(rate), before) }
+        let swiftest = match self.loss.is_scaled_by_touch() {
+            // before the bodies have closed there is no scale, and no damping
+            true if before == 0.0 => {
+                if rate > 0.0 {
+                    rate
+                } else {
+                    f64::INFINITY
+                }
+            }
+            true => before,
+            false => largest(fabs(rate), before),
+        };
+        Damping { form: self.loss.form(), factor: self.factor, swiftest }
     }
 
     /// Moves the contact at `rate` \[m/s\] for `step` \[s\]; the rate of a contact on a plate is that of the other body.
@@ -104,7 +116,7 @@ impl<K: Loss> History<K> {
             true => on_segment(self.plastic.branch(), &damping, (from, to), rate),
             false => on_the_way(&self.plastic, &model.plastic, &damping, to, rate)?,
         };
-        next.swiftest = damping.swiftest;
+        next.swiftest = if damping.swiftest < f64::INFINITY { damping.swiftest } else { 0.0 };
         next.take(model, heat)?;
         let impulse = quotient(work + heat, rate, increment != 0.0, self.force(rate) * step);
         Ok((next, impulse))
@@ -123,7 +135,9 @@ impl<K: Loss> History<K> {
 
     /// Keeps the curvature of a law without segments: only the model knows it.
     fn note_bend<L: Loading, U: Unloading>(&mut self, model: &Model<L, U, K>) {
-        let needed = self.loss.form() == Form::Radiation && !model.plastic.is_segmented();
+        let follows = |growth: Growth| growth.needs_stiffness();
+        let needed =
+            matches!(self.loss.form(), Form::Viscous(growth) if follows(growth)) && !model.plastic.is_segmented();
         self.bend = if needed && !self.is_apart() { self.plastic.curvature(&model.plastic) } else { 0.0 };
     }
 
@@ -132,10 +146,15 @@ impl<K: Loss> History<K> {
         if self.is_apart() { (0.0, 0.0) } else { (self.plastic.force(), self.plastic.stiffness()) }
     }
 
+    fn depth(&self) -> f64 {
+        self.plastic.indentation()
+    }
+
     /// Normal force at `rate` \[m/s\], in N.
     pub fn force(&self, rate: f64) -> f64 {
         let (force, stiffness) = self.elastic();
-        self.damping_for(rate).force(force, stiffness, rate)
+        // a dashpot has a force of its own
+        if self.is_apart() { 0.0 } else { self.damping_for(rate).force(self.depth(), force, stiffness, rate) }
     }
 
     /// dF/d(indentation) at constant `rate` \[N/m\].
@@ -145,16 +164,16 @@ impl<K: Loss> History<K> {
         match damping.form {
             Form::Mobility => stiffness,
             Form::Proportional => stiffness * damping.gain(rate),
-            Form::Radiation if damping.force(force, stiffness, rate) > 0.0 => {
+            Form::Viscous(growth) if !self.is_apart() && damping.force(self.depth(), force, stiffness, rate) > 0.0 => {
                 let branch = self.plastic.branch();
                 // where a power begins, the curvature is infinite, but not its product with the stiffness
                 let bend = match self.bend == 0.0 {
                     true if stiffness > 0.0 => branch.curvature(self.plastic.indentation()),
                     _ => self.bend,
                 };
-                stiffness * (1.0 + 2.0 * damping.factor * bend * rate)
+                stiffness + damping.factor * growth.slope(self.depth(), stiffness, bend) * rate
             }
-            Form::Radiation => 0.0,
+            Form::Viscous(_) => 0.0,
         }
     }
 
@@ -162,17 +181,17 @@ impl<K: Loss> History<K> {
     pub fn damping(&self, rate: f64) -> f64 {
         let (force, stiffness) = self.elastic();
         let damping = self.damping_for(rate);
-        if damping.force(force, stiffness, rate) <= 0.0 {
+        if self.is_apart() || damping.force(self.depth(), force, stiffness, rate) <= 0.0 {
             return 0.0;
         }
         match damping.form {
             Form::Mobility => 0.0,
             // the fastest motion determines its own scale
             Form::Proportional => {
-                let follows = fabs(rate) < self.swiftest;
+                let follows = fabs(rate) < self.swiftest || self.swiftest > 0.0 && self.loss.is_scaled_by_touch();
                 quotient(force * self.factor, self.swiftest, follows, 0.0)
             }
-            Form::Radiation => self.factor * stiffness * stiffness,
+            Form::Viscous(growth) => growth.times(self.factor, self.depth(), || stiffness),
         }
     }
 
@@ -193,7 +212,8 @@ impl<K: Loss> History<K> {
 
     /// The loss, with the largest speed of the present contact.
     pub(crate) fn loss_at_present(&self) -> Damping {
-        self.damping_for(0.0)
+        let swiftest = if self.is_apart() { 0.0 } else { self.swiftest };
+        Damping { form: self.loss.form(), factor: self.factor, swiftest }
     }
 
     /// Adds `heat` \[J\], and notes the largest speed of the present contact \[m/s\].

@@ -2,22 +2,24 @@
 
 use super::bodies::alone;
 use super::history::History;
-use super::{Loss, Model};
+use super::{Form, Loss, Model};
 use crate::impact::{Impact, Prediction};
 use crate::loading::Loading;
 use crate::numbers::largest;
 use crate::unloading::Unloading;
-use libm::{fabs, pow};
+use libm::{fabs, pow, sqrt};
 
 /// An instant of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub struct State<K> {
     /// Time since first contact \[s\].
     pub time: f64,
     /// Indentation \[m\].
     pub indentation: f64,
     /// Closing speed \[m/s\].
     pub speed: f64,
+    /// The contact.
+    pub contact: History<K>,
 }
 
 /// Parts in which the bodies would cover the depth of an elastic impact with their first speed.
@@ -51,7 +53,7 @@ pub fn predict<L: Loading, U: Unloading, K: Loss>(model: &Model<L, U, K>, impact
 pub fn follow<L: Loading, U: Unloading, K: Loss>(
     model: &Model<L, U, K>,
     impact: &Impact,
-    mut watch: impl FnMut(&State, f64),
+    mut watch: impl FnMut(&State<K>, f64),
 ) -> Option<Prediction> {
     let Impact { mass, speed } = *impact;
     let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
@@ -62,7 +64,7 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
     let mut contact = History::start(model, 0.0).ok()?;
     contact.swiftest = speed;
     let mut bodies = Bodies { contact, model, inverse_mass: 1.0 / mass, speed, time: 0.0, deepest: 0.0 };
-    let depth = pow(energy / (0.4 * model.plastic.pair.hertz_stiffness()), 0.4);
+    let depth = depth_of(model, energy);
     let mut part = depth / speed / PARTS;
     let (many, growth) = MANY;
     let (mut strongest, mut turning, mut force_end) = ((bodies.force(), bodies, part), 0.0, None);
@@ -78,10 +80,11 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
         let force = bodies.force();
         // on a target that gives way easily, force and speed may fade out
         let faded = FADED * strongest.0;
-        if force > faded {
+        let least = if model.loss.form() == Form::Mobility { faded } else { 0.0 };
+        if force > least {
             force_end = None;
         } else if force_end.is_none() {
-            let end = before.after(before.part_until(part, |bodies| bodies.force() <= faded)?)?;
+            let end = before.after(before.part_until(part, |bodies| bodies.force() <= least)?)?;
             watch(&end.state(), end.force());
             force_end = Some(end.time);
         }
@@ -99,12 +102,26 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
             watch(&end.state(), 0.0);
             let (_, from, length) = strongest;
             let max_force = from.largest_force(length)?;
-            return Some(end.prediction(impact, max_force, turning, force_end.unwrap_or(end.time)));
+            // a second force may be shorter than a part
+            let grips = matches!(model.loss.form(), Form::Viscous(growth) if growth.grips_again());
+            let force_end = force_end.filter(|_| !grips).unwrap_or(end.time);
+            return Some(end.prediction(impact, max_force, turning, force_end));
         }
         watch(&bodies.state(), force);
         part *= if number > many { growth } else { 1.0 };
     }
     None
+}
+
+/// The depth \[m\] at which the elastic part would have taken up this `energy` \[J\].
+fn depth_of<L: Loading, U, K>(model: &Model<L, U, K>, energy: f64) -> f64 {
+    let Model { plastic: crate::Model { loading, pair, .. }, .. } = model;
+    let (scale, exponent) = (loading.scale(pair), 1.0 + loading.elastic_exponent());
+    if scale.power > 0.0 {
+        pow(exponent * energy / scale.power, 1.0 / exponent)
+    } else {
+        sqrt(2.0 * energy / scale.linear)
+    }
 }
 
 /// The bodies at an instant of their impact.
@@ -140,8 +157,9 @@ impl<L: Loading, U: Unloading, K: Loss> Bodies<'_, L, U, K> {
         Some(next)
     }
 
-    fn state(&self) -> State {
-        State { time: self.time, indentation: self.contact.plastic.indentation(), speed: self.speed }
+    fn state(&self) -> State<K> {
+        let Bodies { time, speed, contact, .. } = *self;
+        State { time, indentation: contact.plastic.indentation(), speed, contact }
     }
 
     fn force(&self) -> f64 {

@@ -5,6 +5,7 @@
 //! | [`Fitted`] | `F = F_s (1 + chi v/v0)` | a coefficient of restitution |
 //! | [`Waves`] | `F = F_s + kappa K_s^2 v` | density and moduli of the target: a half-space |
 //! | [`Plate`] | `F = F_s`, but the target yields at the speed `alpha F` | density, moduli and thickness of the target |
+//! | [`Damper`] | that of a [rate-dependent law](super::damped), on an elastic contact | those of the law |
 //!
 //! `F_s` and `K_s` are force and stiffness of the elastoplastic law, `v` is the rate of indentation. The contact never
 //! pulls.
@@ -20,7 +21,8 @@ pub use bodies::follow;
 pub use history::History;
 
 use super::damped::hunt_crossley::DampingFactor;
-use super::numbers::{largest, quotient};
+use super::numbers::{largest, quotient, root};
+use core::hint::black_box;
 use libm::{fabs, sqrt};
 
 /// The bodies in contact, their elastoplastic law, and its loss.
@@ -33,14 +35,97 @@ pub struct Model<L, U, K> {
 }
 
 /// The form of a loss.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
     /// A damping in proportion to the force.
     Proportional,
-    /// A damping in proportion to the square of the stiffness.
-    Radiation,
+    /// A damping that does not depend on the largest speed.
+    Viscous(Growth),
     /// A target that gives way at a speed in proportion to the force.
     Mobility,
+}
+
+/// What a viscous damping is proportional to, where a contact is `d` \[m\] deep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Growth {
+    /// The square of the stiffness.
+    Square,
+    /// The stiffness.
+    Stiffness,
+    /// The root of the stiffness.
+    Root,
+    /// One: a dashpot, whose force jumps at first touch.
+    Constant,
+    /// `u^2 (3 - 2u)` with `u = d/depth`, and one beyond the depth.
+    Step {
+        /// \[m\] > 0
+        depth: f64,
+        /// The depth at which the elastic force over this function is smallest \[m\]; zero if it only grows.
+        lowest: f64,
+    },
+}
+
+impl Growth {
+    /// `factor` times the function at `d` \[m\], where the contact has this `stiffness` \[N/m\]. It goes on smoothly with a stiffness
+    /// below zero.
+    #[inline(always)]
+    pub(crate) fn times(&self, factor: f64, d: f64, stiffness: impl FnOnce() -> f64) -> f64 {
+        match *self {
+            Growth::Square => {
+                let stiffness = stiffness();
+                factor * stiffness * stiffness
+            }
+            Growth::Stiffness => factor * stiffness(),
+            Growth::Root => {
+                let stiffness = stiffness();
+                factor * root(fabs(stiffness)).copysign(stiffness)
+            }
+            Growth::Constant => factor,
+            Growth::Step { depth, .. } => {
+                let u = depths(d, depth);
+                factor * if u < 1.0 { u * u * (3.0 - 2.0 * u) } else { 1.0 }
+            }
+        }
+    }
+
+    /// The slope of the function \[1/m\], of a contact with this `stiffness` \[N/m\] whose slope is `bend` \[N/m^2\].
+    pub(crate) fn slope(&self, d: f64, stiffness: f64, bend: f64) -> f64 {
+        match *self {
+            Growth::Square => 2.0 * stiffness * bend,
+            Growth::Stiffness => bend,
+            Growth::Root => quotient(0.5 * bend, root(stiffness), stiffness > 1e-100 * fabs(bend), 0.0),
+            Growth::Constant => 0.0,
+            Growth::Step { depth, .. } => {
+                let u = depths(d, depth);
+                if u < 1.0 { 6.0 * u * (1.0 - u) / depth } else { 0.0 }
+            }
+        }
+    }
+
+    /// The indentations between which the elastic force over the function only grows, or only falls \[m\], from the deepest on.
+    pub(crate) fn borders(&self) -> [f64; 2] {
+        match *self {
+            Growth::Step { depth, lowest } => [depth, lowest],
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Whether the elastic force over the function grows without bound towards the surface: whatever the speed of a separation, a
+    /// surface that lagged behind grips again there.
+    pub(crate) fn grips_again(&self) -> bool {
+        matches!(self, Growth::Step { lowest, .. } if *lowest > 0.0)
+    }
+
+    /// Whether the function follows the stiffness.
+    pub(crate) fn needs_stiffness(&self) -> bool {
+        matches!(self, Growth::Square | Growth::Stiffness | Growth::Root)
+    }
+}
+
+/// `d/depth`; a compiler that computes it in advance for every form would divide by whatever is there.
+#[inline(always)]
+fn depths(d: f64, depth: f64) -> f64 {
+    d / black_box(depth)
 }
 
 /// A loss.
@@ -51,7 +136,13 @@ pub trait Loss: Copy {
     /// The form of the loss.
     fn form(&self) -> Form;
 
-    /// The factor of the form: `chi` \[-\], `kappa` \[m.s/N\] or `alpha` \[m/(N.s)\].
+    /// Whether the scale of a proportional damping is the closing speed at first touch, however fast a prescribed motion becomes.
+    fn is_scaled_by_touch(&self) -> bool {
+        false
+    }
+
+    /// The factor of the form: `chi` \[-\], the damping coefficient over its [growth](Growth) (`kappa` \[m.s/N\] of waves), or `alpha`
+    /// \[m/(N.s)\].
     fn factor(&self) -> f64;
 }
 
@@ -122,7 +213,7 @@ impl Loss for Waves {
 
     #[inline(always)]
     fn form(&self) -> Form {
-        Form::Radiation
+        Form::Viscous(Growth::Square)
     }
 
     fn factor(&self) -> f64 {
@@ -165,9 +256,37 @@ impl Loss for Plate {
     }
 }
 
+/// The damping of a [rate-dependent law](super::damped) for given bodies: `F = F_s (1 + chi v/v0)` or `F = F_s + C psi v`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damper {
+    /// Its form.
+    pub form: Form,
+    /// The factor of the form.
+    pub factor: f64,
+}
+
+impl Loss for Damper {
+    const FOLLOWS_RATE: bool = true;
+
+    #[inline(always)]
+    fn form(&self) -> Form {
+        self.form
+    }
+
+    fn is_scaled_by_touch(&self) -> bool {
+        true
+    }
+
+    fn factor(&self) -> f64 {
+        self.factor
+    }
+}
+
 /// Any of the losses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnyLoss {
+    /// [`Damper`].
+    Damper(Damper),
     /// [`Fitted`].
     Fitted(Fitted),
     /// [`Waves`].
@@ -181,14 +300,20 @@ impl Loss for AnyLoss {
 
     fn form(&self) -> Form {
         match self {
+            AnyLoss::Damper(loss) => loss.form(),
             AnyLoss::Fitted(loss) => loss.form(),
             AnyLoss::Waves(loss) => loss.form(),
             AnyLoss::Plate(loss) => loss.form(),
         }
     }
 
+    fn is_scaled_by_touch(&self) -> bool {
+        matches!(self, AnyLoss::Damper(_))
+    }
+
     fn factor(&self) -> f64 {
         match self {
+            AnyLoss::Damper(loss) => loss.factor(),
             AnyLoss::Fitted(loss) => loss.factor(),
             AnyLoss::Waves(loss) => loss.factor(),
             AnyLoss::Plate(loss) => loss.factor(),
@@ -201,7 +326,7 @@ impl Loss for AnyLoss {
 pub struct Damping {
     /// Its form.
     pub form: Form,
-    /// `chi`, `kappa` or `alpha`.
+    /// [`Loss::factor`].
     pub factor: f64,
     /// The largest speed since the contact began \[m/s\].
     pub swiftest: f64,
@@ -212,7 +337,7 @@ impl Damping {
     /// rate, except in a step that tries to exceed it.
     fn factor_at(&self, rate: f64) -> f64 {
         // such a step must not overflow
-        let fastest = largest(0.5 * fabs(rate), self.swiftest);
+        let fastest = largest(1e-3 * fabs(rate), self.swiftest);
         1.0 + self.factor * quotient(rate, fastest, fastest > 0.0, 0.0)
     }
 
@@ -221,22 +346,19 @@ impl Damping {
         largest(self.factor_at(rate), 0.0)
     }
 
-    /// The force \[N\] for the elastoplastic `force` \[N\] and `stiffness` \[N/m\] at `rate` \[m/s\]; it is negative where the surface would
-    /// have to pull.
-    pub(crate) fn pull(&self, force: f64, stiffness: impl FnOnce() -> f64, rate: f64) -> f64 {
+    /// The force \[N\] for the elastoplastic `force` \[N\] and `stiffness` \[N/m\] at the indentation `d` \[m\] and `rate` \[m/s\]; it is
+    /// negative where the surface would have to pull.
+    pub(crate) fn pull(&self, d: f64, force: f64, stiffness: impl FnOnce() -> f64, rate: f64) -> f64 {
         match self.form {
             Form::Proportional => force * self.factor_at(rate),
-            Form::Radiation => {
-                let stiffness = stiffness();
-                force + self.factor * stiffness * stiffness * rate
-            }
+            Form::Viscous(growth) => force + growth.times(self.factor, d, stiffness) * rate,
             Form::Mobility => force,
         }
     }
 
     /// The same, never negative.
-    pub(crate) fn force(&self, force: f64, stiffness: f64, rate: f64) -> f64 {
-        largest(self.pull(force, || stiffness, rate), 0.0)
+    pub(crate) fn force(&self, d: f64, force: f64, stiffness: f64, rate: f64) -> f64 {
+        largest(self.pull(d, force, || stiffness, rate), 0.0)
     }
 
     /// The speed at which the target gives way to `force` \[N\], in m/s.

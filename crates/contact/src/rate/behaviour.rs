@@ -45,7 +45,8 @@ impl<M: Slow, C: Contact<M> + PlasticContact<M>> Contact<Model<M>> for History<C
     }
 
     fn start(model: &Model<M>, gap: f64) -> Result<History<C>, TooDeep> {
-        C::start(&model.slow, gap).map(History::of)
+        let contact = C::start(&model.slow, gap)?;
+        Ok(History { contact, factors: Factors::SLOW, speed: 0.0, mass: 0.0 })
     }
 
     #[inline]
@@ -90,6 +91,7 @@ impl<M: Slow, C: Contact<M> + PlasticContact<M>> Contact<Model<M>> for History<C
         fn contact_radius(&self, model: &Model<M>) -> f64;
         fn elastic_energy(&self, model: &Model<M>) -> f64;
         fn dissipated_energy(&self, model: &Model<M>) -> f64;
+        fn work(&self, model: &Model<M>) -> f64;
         fn smooth_piece(&self, model: &Model<M>) -> (f64, f64);
     }
 
@@ -98,7 +100,12 @@ impl<M: Slow, C: Contact<M> + PlasticContact<M>> Contact<Model<M>> for History<C
     }
 
     fn meet(&mut self, model: &Model<M>, mass: f64, rate: f64) {
-        History::meet(self, model, &Impact { mass, speed: rate });
+        let plastic = self.contact.plastic();
+        let may_touch = plastic.regime() == Regime::Apart && rate > 0.0;
+        if may_touch && self.plastic_model(model).is_elastic_at(plastic.max_indentation()) {
+            // where it can't be found, the strength does not change
+            let _ = self.strengthen(model, &Impact { mass, speed: rate });
+        }
     }
 
     /// That of the target under a slow load, which is the smaller one.

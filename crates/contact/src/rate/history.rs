@@ -1,13 +1,12 @@
 //! The state of a contact whose strength depends on the impact.
 
 use super::{Factors, Model, Slow, are_factors};
-use crate::behaviour::Contact;
 use crate::history;
 use crate::impact::Impact;
 use crate::losses::Damping;
 use crate::motion::PlasticContact;
 use crate::numbers::largest;
-use crate::regime::{Regime, TooDeep};
+use crate::regime::TooDeep;
 use crate::shared::SharedContact;
 use libm::fabs;
 
@@ -33,11 +32,6 @@ pub struct History<C = history::History> {
 }
 
 impl<C> History<C> {
-    /// A contact before its first impact.
-    pub(super) fn of(contact: C) -> History<C> {
-        History { contact, factors: Factors::SLOW, speed: 0.0, mass: 0.0 }
-    }
-
     /// The contact with constant strength.
     pub fn contact(&self) -> &C {
         &self.contact
@@ -54,22 +48,6 @@ impl<C> History<C> {
         C: PlasticContact<M>,
     {
         self.contact.plastic().is_held_back(&model.plastic_at(self.factors))
-    }
-
-    /// Finds the strength of an `impact` that may begin within the next step, if the bodies are apart and the surface has no
-    /// dent. Where there is none, the strength does not change.
-    pub(super) fn meet<M: Slow>(&mut self, model: &Model<M>, impact: &Impact)
-    where
-        C: Contact<M> + PlasticContact<M>,
-    {
-        let is_apart = Contact::<M>::regime(&self.contact) == Regime::Apart && impact.speed > 0.0;
-        let reached = Contact::<M>::max_indentation(&self.contact);
-        if is_apart && model.plastic_at(self.factors).is_elastic_at(reached) {
-            let before = *self;
-            if self.strengthen(model, impact).is_err() {
-                *self = before;
-            }
-        }
     }
 }
 

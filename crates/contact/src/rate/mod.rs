@@ -4,9 +4,9 @@
 //! `0.2 a/R_i` at the largest contact radius, over the time from first contact to that radius. Both depend on the strength,
 //! so that it is a fixed point. `R_i` is the radius of the rigid sphere that a body [sees](Loading::share): each of the two bodies has
 //! its own strain, strain rate and strength.
-
 //!
-//! The [hook](PlasticContact::strengthen) of a touch finds it, in any motion: of one contact, of those that share bodies, with losses.
+//! The [hook](super::motion::PlasticContact::strengthen) of a touch finds it, in any motion: of one contact, of those that share bodies,
+//! with losses.
 
 mod behaviour;
 pub mod history;

@@ -33,6 +33,9 @@ const FIRST: f64 = 0.4;
 /// Largest growth of a step. With more, the estimate of the error is blind across the point where a force begins.
 const GROWTH: f64 = 3.0;
 
+/// An indentation beyond which no load is of interest \[m\]: its powers are finite.
+const FARTHEST: f64 = 1e20;
+
 /// Largest number of rounds in which contacts change their branches without a step.
 const ROUNDS: u32 = 4;
 
@@ -190,10 +193,14 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         for (_, member) in self.members_mut().filter(|(_, member)| member.inverse_mass == 0.0) {
             let (mobility, rate) = (member.loss.map_or(0.0, |loss| loss.easing(1.0)), fabs(member.now.rate()));
             let steady = quotient(rate, mobility, mobility > 0.0, 0.0);
-            let deepest = member.branch.stiffest.force(member.now.indentation() + rate * left);
-            let energy =
-                energy_of_load(&member.branch.stiffest, largest(smallest(steady, deepest), member.now.elastic));
-            let stiffness = stiffness_at(&member.branch.stiffest, energy);
+            let reach =
+                smallest(largest(member.now.indentation() + rate * left, member.branch.stiffest.origin), FARTHEST);
+            let deepest = member.branch.stiffest.force(reach);
+            let energy = energy_of_load(
+                member.branch.scale(),
+                largest(if deepest > 0.0 { smallest(steady, deepest) } else { steady }, member.now.elastic),
+            );
+            let stiffness = stiffness_at(member.branch.scale(), energy);
             member.inverse_mass = largest(mobility * mobility * stiffness, f64::MIN_POSITIVE);
             member.is_held = true;
         }

@@ -1,6 +1,7 @@
 //! The branch that one contact is on: apart, on the path of its dent, or on a piece of the loading curve. Each is smooth,
 //! and goes on beyond its ends for the trials of the integration.
 
+use super::scales::HERTZ;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::numbers::{largest, smallest};
@@ -49,6 +50,8 @@ pub enum Event {
     Slack,
     /// The force comes back.
     Grip,
+    /// A damping passes from one of its forms to another.
+    Border,
 }
 
 /// An event with the number of the motion that falls through zero there.
@@ -109,8 +112,9 @@ pub struct Branch {
     pub largest: f64,
     /// Whether a fresh surface forgets the dent.
     pub forgets: bool,
-    /// A segment that tells how stiff the contact can become: that of its path, else the elastic one.
+    /// A segment that tells how stiff the contact can become: that of its path, else the elastic one. Its power has this exponent.
     pub stiffest: Segment,
+    exponent: f64,
 }
 
 impl Branch {
@@ -121,14 +125,16 @@ impl Branch {
         largest: 0.0,
         forgets: false,
         stiffest: Segment::NOTHING,
+        exponent: HERTZ,
     };
 
     fn new<L: Loading, U: Unloading>(model: &Model<L, U>, kind: Kind, numbers: Numbers, largest: f64) -> Branch {
         let stiffest = match (kind, numbers.whole()) {
             (Kind::Path | Kind::Apart, Some(&segment)) => segment,
-            _ => model.loading.segment(&model.pair, 0.0),
+            _ => model.loading.scale(&model.pair),
         };
-        Branch { kind, numbers, largest, forgets: model.surface == Surface::Fresh, stiffest }
+        let exponent = model.loading.elastic_exponent();
+        Branch { kind, numbers, largest, forgets: model.surface == Surface::Fresh, stiffest, exponent }
     }
 
     /// The branch of a contact with this `history` that closes at `rate` \[m/s\].
@@ -156,6 +162,11 @@ impl Branch {
         let numbers = Piece::at(model, indentation, largest, true).numbers();
         let kind = if numbers.is_loading() { Kind::Loading } else { Kind::Path };
         Branch::new(model, kind, numbers, largest)
+    }
+
+    /// The scale of the contact's motion: its stiffest segment, and the exponent of the power in it.
+    pub fn scale(&self) -> (&Segment, f64) {
+        (&self.stiffest, self.exponent)
     }
 
     /// The indentation of the surface \[m\]: on the loading curve, that of the piece.
@@ -196,7 +207,7 @@ impl Branch {
             Event::Touch => Branch { kind: Kind::Path, ..*self },
             Event::Corner => Branch::loading(model, numbers.upper, largest(numbers.upper, before)),
             Event::End => Branch::loading(model, numbers.upper, largest(numbers.upper, before)),
-            Event::Lead | Event::Peak | Event::Slack | Event::Grip => *self,
+            Event::Lead | Event::Peak | Event::Slack | Event::Grip | Event::Border => *self,
             Event::Turn | Event::Forget => {
                 let largest = largest(indentation, before);
                 let numbers = Piece::at(model, largest, largest, false).numbers();

@@ -24,7 +24,7 @@
 use super::gradients::{self, System, Unknown};
 use super::inverse_masses::InverseMasses;
 use super::rest::STILL;
-use super::scales::{Scales, energy_of_load, stiffness_at};
+use super::scales::{HERTZ, Scales, energy_of_load, stiffness_at};
 use super::work::{Instant, Row, Work};
 use super::{Refused, SharedContact, place_of};
 use crate::loading::Loading;
@@ -203,13 +203,13 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             let stiffness = path.stiffness(member.contact.plastic().indentation());
             let spring = quotient(0.6 * force * force, stiffness, stiffness > 1e-100 * force, 0.0);
             stored += smallest(spring, 0.5 * force * fabs(member.contact.plastic().indentation()));
-            least = largest(energy_of_load(&path, fabs(member.acceleration) / member.inverse_mass), least);
+            least = largest(energy_of_load((&path, HERTZ), fabs(member.acceleration) / member.inverse_mass), least);
         }
         let energy = largest(largest(moving + stored, least), 0.5 * self.scales.root_energy * self.scales.root_energy);
         self.scales.root_energy = sqrt(2.0 * energy);
         let mut fastest = 0.0;
         for (_, member) in self.members() {
-            let stiffness = stiffness_at(&member.contact.path(), energy);
+            let stiffness = stiffness_at((&member.contact.path(), HERTZ), energy);
             for (row, ratio) in member.rows().iter().zip(ratios(member)) {
                 fastest = largest(ratio * row.inverse_mass * stiffness, fastest);
             }

@@ -5,6 +5,9 @@ use crate::losses::{Damping, Form};
 use crate::numbers::{largest, quotient};
 use libm::fabs;
 
+/// A border so near, as a part of its depth, is here.
+const BESIDE: f64 = 1e-9;
+
 /// A jump of the force that is rounding, as a part of it.
 const JUMP: f64 = 1e-9;
 
@@ -24,10 +27,10 @@ pub struct Loss {
 }
 
 impl Loss {
-    /// Force \[N\] for the `elastic` force \[N\] at the closing rate of the bodies \[m/s\], and the rate of indentation
+    /// Force \[N\] at the indentation `d` \[m\] for the `elastic` force \[N\] at the closing rate of the bodies \[m/s\], and the rate of indentation
     /// \[m/s\]. In trials the force may be negative. `stiffness` \[N/m\] matters for some forms only.
     #[inline(always)]
-    pub fn force_and_approach(&self, elastic: f64, stiffness: f64, rate: f64) -> (f64, f64) {
+    pub fn force_and_approach(&self, d: f64, elastic: f64, stiffness: f64, rate: f64) -> (f64, f64) {
         let Loss { damping, leads, slack, .. } = self;
         match damping.form {
             Form::Mobility => {
@@ -36,13 +39,17 @@ impl Loss {
             }
             _ if *slack => (0.0, rate),
             Form::Proportional if *leads != 0.0 => (elastic * (1.0 + leads * damping.factor), rate),
-            _ => (damping.pull(elastic, || stiffness, rate), rate),
+            _ => (damping.pull(d, elastic, || stiffness, rate), rate),
         }
     }
 
     /// Whether the stiffness matters.
     pub fn needs_stiffness(&self) -> bool {
-        self.damping.form != Form::Proportional
+        match self.damping.form {
+            Form::Proportional => false,
+            Form::Viscous(growth) => growth.needs_stiffness(),
+            Form::Mobility => true,
+        }
     }
 
     /// The rate at which a target gives way per rate of indentation \[1/s\].
@@ -54,20 +61,31 @@ impl Loss {
     pub fn decay(&self, stiffness: f64, inverse_mass: f64) -> f64 {
         match self.damping.form {
             Form::Proportional => 0.0,
-            Form::Radiation => self.damping.factor * stiffness * stiffness * inverse_mass,
+            Form::Viscous(growth) => growth.times(self.damping.factor, f64::INFINITY, || stiffness) * inverse_mass,
             Form::Mobility => self.damping.factor * stiffness,
         }
     }
 
-    /// What the loss waits for while the contact is pressed and its rate of indentation is `approach` \[m/s\].
-    pub fn watched(&self, approach: f64) -> [Option<Watched>; 3] {
+    /// What the loss waits for while the contact is pressed at the indentation `d` \[m\] and its rate is `approach` \[m/s\].
+    pub fn watched(&self, d: f64, approach: f64) -> [Option<Watched>; 3] {
         let Damping { form, factor, swiftest } = self.damping;
         let rate = |event, threshold, sign| Some(Watched::Rate { event, threshold, sign });
         match form {
             Form::Mobility => [self.slack.then_some(Watched::Pull { event: Event::Grip, sign: 1.0 }), None, None],
-            Form::Radiation => {
+            Form::Viscous(growth) => {
                 let (event, sign) = if self.slack { (Event::Grip, -1.0) } else { (Event::Slack, 1.0) };
-                [Some(Watched::Pull { event, sign }), None, None]
+                // within a longer step the surface could let go and grip again unseen
+                let [deep, shallow] = growth.borders();
+                let ahead =
+                    |border: &f64| *border > 0.0 && (border - d) * approach > 0.0 && fabs(border - d) > BESIDE * border;
+                let order = if approach > 0.0 { [shallow, deep] } else { [deep, shallow] };
+                let border = order.into_iter().find(ahead);
+                let border = border.map(|threshold| Watched::Indentation {
+                    event: Event::Border,
+                    threshold,
+                    sign: approach.signum(),
+                });
+                [Some(Watched::Pull { event, sign }), border, None]
             }
             Form::Proportional if self.leads != 0.0 => {
                 // a contact that is set down does not move yet
@@ -108,7 +126,7 @@ impl Loss {
             }
             Event::Slack => self.slack = true,
             Event::Grip | Event::End => self.slack = false,
-            Event::Turn | Event::Corner | Event::Forget => (),
+            Event::Turn | Event::Corner | Event::Forget | Event::Border => (),
         }
     }
 
@@ -131,13 +149,14 @@ impl Loss {
         if self.leads == 0.0 { self.damping.swiftest } else { largest(self.damping.swiftest, fabs(approach)) }
     }
 
-    /// A number with the sign of the force before it is cut at zero, for a force that follows the stiffness \[m/s\]. It is
-    /// `F_s/K^2 + kappa v`, which also at the surface does not touch zero. For a target that holds it is the rate of indentation.
-    pub fn pull(&self, elastic: f64, stiffness: f64, approach: f64) -> f64 {
-        if self.damping.form == Form::Mobility {
-            return approach;
+    /// A number with the sign of the force before it is cut at zero, of a viscous damping at the indentation `d` \[m\]. It is
+    /// `F_s/psi + C v`, which also at the surface does not touch zero. For a target that holds it is the rate of indentation.
+    pub fn pull(&self, d: f64, elastic: f64, stiffness: f64, approach: f64) -> f64 {
+        let Form::Viscous(growth) = self.damping.form else { return approach };
+        if d <= 0.0 && growth.grips_again() {
+            return fabs(self.damping.factor * approach);
         }
-        let square = stiffness * stiffness;
-        quotient(elastic, square, square > 1e-100 * fabs(elastic), 0.0) + self.damping.factor * approach
+        let psi = growth.times(1.0, d, || stiffness);
+        quotient(elastic, psi, psi > 1e-100 * fabs(elastic), 0.0) + self.damping.factor * approach
     }
 }

@@ -17,10 +17,13 @@ pub(super) struct Scales {
     pub time: f64,
 }
 
+/// The exponent of Hertz's law.
+pub(super) const HERTZ: f64 = 1.5;
+
 /// Energies grow by this factor before the time is computed again.
 const GROWN: f64 = 1.2;
 
-/// The indentation \[m\] at which both parts of a segment that are given, of the first power and of the power 1.5, are below
+/// The indentation \[m\] at which both parts of a segment that are given, of the first power and of the other one, are below
 /// a limit: `(limit/linear)^first` and `(limit/power)^second`. Infinite for a segment without force.
 fn indentation_at(segment: &Segment, (linear, first): (f64, f64), (power, second): (f64, f64)) -> f64 {
     let of_part = |limit: f64, part: f64, exponent: f64| {
@@ -32,18 +35,20 @@ fn indentation_at(segment: &Segment, (linear, first): (f64, f64), (power, second
 }
 
 /// Energy \[J\] of a contact under this `load` \[N\].
-pub(super) fn energy_of_load(segment: &Segment, load: f64) -> f64 {
-    let way = indentation_at(segment, (load, 1.0), (load, 2.0 / 3.0));
+pub(super) fn energy_of_load((segment, exponent): (&Segment, f64), load: f64) -> f64 {
+    let way = indentation_at(segment, (load, 1.0), (load, 1.0 / exponent));
     if load > 0.0 && way < f64::INFINITY { load * way } else { 0.0 }
 }
 
 /// Stiffness \[N/m\] of a contact that has taken up this `energy` \[J\].
-pub(super) fn stiffness_at(segment: &Segment, energy: f64) -> f64 {
-    let way = indentation_at(segment, (2.0 * energy, 0.5), (2.5 * energy, 0.4));
+pub(super) fn stiffness_at((segment, exponent): (&Segment, f64), energy: f64) -> f64 {
+    let of_power = 1.0 + exponent;
+    let way = indentation_at(segment, (2.0 * energy, 0.5), (of_power * energy, 1.0 / of_power));
     let way = if way < f64::INFINITY { way } else { 0.0 };
     // a path that softens ends before its stiffness does
     let way = if segment.square < 0.0 { smallest(way, segment.upper - segment.origin) } else { way };
-    segment.linear + 1.5 * segment.power * root(way) + 2.0 * segment.square * way
+    let power = if exponent == HERTZ { root(way) } else { pow(way, exponent - 1.0) };
+    segment.linear + exponent * segment.power * power + 2.0 * segment.square * way
 }
 
 impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B, F> {
@@ -60,7 +65,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                 stored += smallest(spring, 0.5 * force * fabs(member.now.indentation()));
             }
             // bodies that are set down have no energy yet
-            least = largest(energy_of_load(&member.branch.stiffest, fabs(member.acceleration) / inverse_mass), least);
+            least = largest(energy_of_load(member.branch.scale(), fabs(member.acceleration) / inverse_mass), least);
         }
         let energy = largest(largest(moving + stored, least), self.energy);
         self.scales.root_energy = sqrt(2.0 * energy);
@@ -70,7 +75,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         self.energy = energy;
         let mut fastest = 0.0;
         for (_, member) in self.members() {
-            let stiffness = stiffness_at(&member.branch.stiffest, energy);
+            let stiffness = stiffness_at(member.branch.scale(), energy);
             let decay = member.loss.as_ref().map_or(0.0, |loss| loss.decay(stiffness, member.inverse_mass));
             fastest = largest(largest(member.inverse_mass * stiffness, decay * decay), fastest);
         }

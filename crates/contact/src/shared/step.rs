@@ -75,7 +75,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
                     });
                     trial.easing = loss.easing(trial.stiffness);
                 }
-                (trial.force, trial.approach) = loss.force_and_approach(elastic, trial.stiffness, trial.rate());
+                (trial.force, trial.approach) = loss.force_and_approach(at, elastic, trial.stiffness, trial.rate());
             } else {
                 trial.easing = 0.0;
             }

@@ -93,7 +93,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
             for watched in member.watches() {
                 let parts = matches!(watched, Watched::Indentation { event: Event::Part, .. });
                 // beyond the surface the clock goes back
-                let is_beyond = matches!(watched, Watched::Pull { .. }) && is_clock && w < 0.0;
+                let is_beyond = matches!(watched, Watched::Pull { .. }) && is_clock && w < 0.0 && !member.grips_again();
                 if but == Some(Target::Event(place, watched)) || is_clock && parts || is_beyond {
                     continue;
                 }

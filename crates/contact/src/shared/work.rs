@@ -359,7 +359,9 @@ impl<C> Work<C> {
             Watched::Rate { threshold, sign, .. } => sign * (threshold - instant.approach),
             Watched::Bend { sign } => sign * instant.bend(),
             Watched::Pull { sign, .. } => {
-                let pull = |loss: &Loss| loss.pull(instant.elastic, instant.stiffness, instant.approach);
+                let pull = |loss: &Loss| {
+                    loss.pull(instant.indentation(), instant.elastic, instant.stiffness, instant.approach)
+                };
                 sign * self.loss.as_ref().map_or(0.0, pull)
             }
         }
@@ -395,12 +397,20 @@ impl<C> Work<C> {
         self.trial.numbers = [indentation + way, approach, impulse, moment + impulse * time];
     }
 
+    /// Whether a surface that lags behind its bodies grips again before they are apart.
+    pub(super) fn grips_again(&self) -> bool {
+        self.loss.is_some_and(|loss| matches!(loss.damping.form, Form::Viscous(growth) if growth.grips_again()))
+    }
+
     /// What the contact waits for.
     pub(super) fn watches(&self) -> impl Iterator<Item = Watched> + use<C> {
         let on_branch = self.branch.watched(self.now.indentation());
         let is_pressed = self.branch.kind != Kind::Apart;
-        let of_loss =
-            self.loss.as_ref().filter(|_| is_pressed).map_or([None; 3], |loss| loss.watched(self.now.approach));
+        let of_loss = self
+            .loss
+            .as_ref()
+            .filter(|_| is_pressed)
+            .map_or([None; 3], |loss| loss.watched(self.now.indentation(), self.now.approach));
         on_branch.into_iter().chain(of_loss).flatten()
     }
 }

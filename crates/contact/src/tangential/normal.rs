@@ -266,14 +266,15 @@ impl Straight {
         Straight { damping: Damping { swiftest, ..*loss }, way, increment, time }
     }
 
-    /// The mean force \[N\] for the mean `elastic` force \[N\] and the stiffnesses \[N/m\] at both ends.
-    pub fn force(&self, elastic: f64, stiffnesses: [f64; 2]) -> f64 {
-        let [start, end] = stiffnesses;
-        // the square of the stiffness of Hertz's contact is linear
-        let square = 0.5 * (start * start + end * end);
+    /// The mean force \[N\] for the mean `elastic` force \[N\], and indentation \[m\] and stiffness \[N/m\] at both ends.
+    pub fn force(&self, elastic: f64, ends: [(f64, f64); 2]) -> f64 {
         let rate = self.increment / self.time;
         match self.damping.form {
-            Form::Radiation => largest(elastic + self.damping.factor * square * rate, 0.0),
+            Form::Viscous(growth) => {
+                // the square of the stiffness of Hertz's contact is linear
+                let [start, end] = ends.map(|(d, stiffness)| growth.times(self.damping.factor, d, || stiffness));
+                largest(elastic + 0.5 * (start + end) * rate, 0.0)
+            }
             Form::Proportional => elastic * self.damping.gain(rate),
             Form::Mobility => elastic,
         }

@@ -128,7 +128,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         let mut mean = self.springs.advance_along(contact, model, ways, ways, Mean::OfEnds)?;
         let mut normal = elastic;
         if let Some(straight) = straight {
-            normal = straight.force(elastic, [before.stiffness(), self.normal().stiffness()]);
+            normal = straight.force(elastic, [&before, self.normal()].map(|it| (it.indentation(), it.stiffness())));
             let (swiftest, heat) = straight.lost(normal, elastic);
             self.normal.lose(&model.normal, &model.loss, swiftest, heat)?;
             let damping = model.friction.stiffness_ratio * straight.tangential(elastic);

@@ -100,10 +100,11 @@ impl SceneData {
             ..Data::EMPTY
         };
         match &scene.damped {
-            Some((_, law)) => data.loading = law.numbers(),
+            Some((_, law)) => (data.loading, data.unloading) = (law.numbers(), scene.plain_unloading().numbers()),
             None => (data.loading, data.unloading) = (scene.loading.1.numbers(), scene.plain_unloading().numbers()),
         }
         data.loss = match scene.loss {
+            _ if scene.damped.is_some() => block::Loss::Damper,
             Some(Loss::Waves) => block::Loss::Waves,
             Some(Loss::Plate(_)) => block::Loss::Plate,
             Some(Loss::Fitted(_)) | None => block::Loss::Fitted,

@@ -6,10 +6,10 @@ use std::fmt::Debug;
 
 /// The laws, as a type of `brinell_fmu::scene::library::kinds`.
 pub fn of(scene: &Scene) -> String {
-    if let Some((_, law)) = &scene.damped {
-        return format!("kinds::RateDependent<{}>", type_of("damped", law));
-    }
-    let loading = type_of("loading", &scene.loading.1);
+    let loading = match scene.damped {
+        Some(_) => "contact::loading::Elastic".into(),
+        None => type_of("loading", &scene.loading.1),
+    };
     // an elastic contact never unloads by another law; the compiler leaves out whatever is here
     let unloading = scene
         .unloading
@@ -17,11 +17,13 @@ pub fn of(scene: &Scene) -> String {
     // the form for two bodies
     let loading = if scene.is_paired() { "contact::loading::Paired".into() } else { loading };
     let laws = format!("{loading}, {unloading}");
-    let loss = scene.loss.map(|loss| match loss {
-        Loss::Fitted(_) => "contact::losses::Fitted",
-        Loss::Waves => "contact::losses::Waves",
-        Loss::Plate(_) => "contact::losses::Plate",
-    });
+    let loss = match scene.loss {
+        _ if scene.damped.is_some() => Some("contact::losses::Damper"),
+        Some(Loss::Fitted(_)) => Some("contact::losses::Fitted"),
+        Some(Loss::Waves) => Some("contact::losses::Waves"),
+        Some(Loss::Plate(_)) => Some("contact::losses::Plate"),
+        None => None,
+    };
     match loss {
         _ if scene.has_friction() => rough(scene, &laws, loss),
         _ => {

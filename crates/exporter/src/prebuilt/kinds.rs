@@ -15,7 +15,7 @@ pub struct Library {
 }
 
 /// All libraries, in ascending order of cost.
-pub const LIBRARIES: [Library; 11] = [
+pub const LIBRARIES: [Library; 10] = [
     Library { name: "state", kind: "State", says: "one contact with plastic laws" },
     Library {
         name: "momentum",
@@ -23,10 +23,9 @@ pub const LIBRARIES: [Library; 11] = [
         says: "plastic laws with `impulse` or `mean_force`, and several contacts",
     },
     Library { name: "moved", kind: "Moved", says: "plastic laws with `[coupling]`, and with `[[body]]`" },
-    Library { name: "lossy", kind: "Losses", says: "plastic laws with losses below yield" },
+    Library { name: "lossy", kind: "Losses", says: "plastic laws with losses below yield, and rate-dependent laws" },
     Library { name: "rate", kind: "Strengths", says: "plastic laws with `rate`, and `[coupling]` or `[[body]]`" },
     Library { name: "lossy-rate", kind: "LossyStrengths", says: "the same with losses below yield" },
-    Library { name: "damped", kind: "Dampings", says: "rate-dependent laws" },
     Library { name: "friction", kind: "Friction", says: "`[friction]` in one direction" },
     Library { name: "friction-2", kind: "Friction2", says: "`[friction]` in two directions" },
     Library {
@@ -46,14 +45,13 @@ impl Library {
     pub fn of(scene: &Scene) -> Library {
         let outputs = |names: &[&str]| scene.outputs.iter().any(|output| names.contains(&output.as_str()));
         let name = match () {
-            () if scene.damped.is_some() => "damped",
-            () if scene.has_friction() && scene.loss.is_some() && scene.directions > 1 => "lossy-friction-2",
-            () if scene.has_friction() && scene.loss.is_some() => "lossy-friction",
+            () if scene.has_friction() && scene.is_rate_dependent() && scene.directions > 1 => "lossy-friction-2",
+            () if scene.has_friction() && scene.is_rate_dependent() => "lossy-friction",
             () if scene.has_friction() && scene.directions > 1 => "friction-2",
             () if scene.has_friction() => "friction",
             () if scene.finds_strength() && scene.loss.is_some() => "lossy-rate",
             () if scene.finds_strength() => "rate",
-            () if scene.loss.is_some() => "lossy",
+            () if scene.is_rate_dependent() => "lossy",
             () if scene.coupling.is_some() => "moved",
             () if outputs(&["impulse", "mean_force"]) || scene.contact_count() > 1 => "momentum",
             () => "state",

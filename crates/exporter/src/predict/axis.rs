@@ -3,7 +3,7 @@
 use super::constants;
 use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_height};
 use crate::laws::Choice;
-use crate::model::AnyModel;
+use crate::model::{AnyModel, RateLaw};
 use crate::nearest::{nearest, one_of};
 use crate::numbers::{in_message, out_of_range};
 use crate::scene::{Body, Scene};
@@ -192,11 +192,14 @@ pub fn varied(
             name if constants::is_one(name) => constants::set(scene, &mut choice, name, value)?,
             name => {
                 check_limits(name, value)?;
-                match (name, &mut choice.model) {
-                    ("effective_mass", AnyModel::Damped(model)) => (model.mass, impact.mass) = (value, value),
-                    ("effective_mass", AnyModel::Elastoplastic(_) | AnyModel::Lossy(_)) => impact.mass = value,
-                    ("restitution", AnyModel::Damped(model)) => model.restitution = value,
-                    ("restitution", AnyModel::Elastoplastic(_) | AnyModel::Lossy(_)) => {
+                let pair = choice.model.pair();
+                match (name, choice.model.rate_law()) {
+                    ("effective_mass", Some(law)) => {
+                        (choice.model, impact.mass) = (RateLaw { mass: value, ..law }.on(pair), value);
+                    }
+                    ("effective_mass", None) => impact.mass = value,
+                    ("restitution", Some(law)) => choice.model = RateLaw { restitution: value, ..law }.on(pair),
+                    ("restitution", None) => {
                         let why = format!("restitution is a parameter of rate-dependent laws, not of {}", choice.laws);
                         return Err(PredictError::Sweep(why));
                     }
@@ -238,7 +241,7 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
     let is_strength = |name: &str| [Body::Impactor, Body::Target].iter().any(|body| body.yield_strength() == name);
     let strength = bodies.iter().any(|(name, _)| is_strength(name)).then_some(pair.yield_strength);
     let mut model = choice.model.on(pair, strength);
-    if let (AnyModel::Lossy(lossy), Some(loss)) = (&mut model, scene.loss_with(0, bodies)) {
+    if let (AnyModel::Lossy(lossy, None), Some(loss)) = (&mut model, scene.loss_with(0, bodies)) {
         lossy.loss = loss;
     }
     match model.with_bodies(scene.two_bodies_with(0, bodies)) {

@@ -5,7 +5,7 @@ use crate::law_check;
 use crate::laws::Choice;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
-use crate::model::AnyModel;
+use crate::model::{AnyModel, RateLaw};
 use crate::numbers::in_message;
 use crate::pairing::{check_ties, published};
 use crate::parameters::{ConstantTable, apply};
@@ -46,11 +46,11 @@ pub fn is_one(name: &str) -> bool {
 /// The table entry of the law of `choice` that could have a constant called `name`.
 fn law_with(choice: &Choice, name: &str) -> Option<&'static table::Law> {
     let (loading, other) = choice.names();
-    match (&choice.model, name.starts_with(LOADING)) {
-        (AnyModel::Damped(_), true) => Some(table::damped_law(loading)),
-        (AnyModel::Elastoplastic(_) | AnyModel::Lossy(_), true) => Some(table::loading_law(loading)),
-        (AnyModel::Elastoplastic(_) | AnyModel::Lossy(_), false) => other.map(table::unloading_law),
-        (AnyModel::Damped(_), false) => None,
+    match (choice.model.rate_law(), name.starts_with(LOADING)) {
+        (Some(_), true) => Some(table::damped_law(loading)),
+        (None, true) => Some(table::loading_law(loading)),
+        (None, false) => other.map(table::unloading_law),
+        (Some(_), false) => None,
     }
 }
 
@@ -79,10 +79,10 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
     let ((loading, unloading), guarded) = (names.names(), names.is_guarded());
     let mut model = match choice.model {
         AnyModel::Elastoplastic(model) => model,
-        AnyModel::Lossy(model) => model.plastic,
-        AnyModel::Damped(mut model) => {
-            model.law = apply(model.law, "law.loading", Some(&given), law).map_err(wrong)?;
-            choice.model = AnyModel::Damped(model);
+        AnyModel::Lossy(model, None) => model.plastic,
+        AnyModel::Lossy(model, Some(own)) => {
+            let own = RateLaw { law: apply(own.law, "law.loading", Some(&given), law).map_err(wrong)?, ..own };
+            choice.model = own.on(model.plastic.pair);
             return Ok(());
         }
     };

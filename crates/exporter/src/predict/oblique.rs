@@ -3,7 +3,6 @@
 use super::axis::{Axis, OF_OBLIQUE_IMPACT, varied};
 use super::{PredictError, Quantity, positive};
 use crate::laws::Choice;
-use crate::model::AnyModel;
 use crate::scene::{GROUND, InverseMasses, Meeting, Scene, place};
 use crate::table;
 use crate::validity::Beyond;
@@ -126,9 +125,8 @@ pub fn check_coefficient(value: f64) -> Result<(), PredictError> {
 
 /// The reason why the laws of `choice` have no friction.
 pub fn refusal(choice: &Choice) -> Option<String> {
-    match choice.model {
-        AnyModel::Damped(_) => return Some("rate-dependent laws have none".into()),
-        AnyModel::Elastoplastic(_) | AnyModel::Lossy(_) => {}
+    if choice.model.rate_law().is_some() {
+        return Some("rate-dependent laws have none".into());
     }
     if choice.is_guarded() {
         return Some("with the passivity guard, its accuracy was not measured".into());

@@ -6,7 +6,7 @@ use crate::laws::Choice;
 use crate::model::AnyModel;
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::motion::{Drive, follow};
-use brinell_contact::{History, Model, damped, losses};
+use brinell_contact::{History, Model, losses};
 
 /// Number of moments during the loading; there are as many during the unloading.
 const MOMENTS: u32 = 200;
@@ -29,18 +29,10 @@ pub fn moments(model: &AnyModel, impact: &Impact) -> Option<Vec<Moment>> {
     let prediction = model.predict(impact)?;
     match model {
         AnyModel::Elastoplastic(model) => followed(model, impact, &prediction),
-        AnyModel::Damped(model) => {
-            let mut all = Vec::new();
-            damped::impact::follow(model, impact, |state, force| {
-                let damped::impact::State { time, indentation, speed } = *state;
-                all.push(Moment { time, indentation, force, speed });
-            })?;
-            Some(thinned(&all))
-        }
-        AnyModel::Lossy(model) => {
+        AnyModel::Lossy(model, _) => {
             let mut all = Vec::new();
             losses::impact::follow(model, impact, |state, force| {
-                let losses::impact::State { time, indentation, speed } = *state;
+                let losses::impact::State { time, indentation, speed, .. } = *state;
                 // the event that ends it is found to rounding, on either side
                 all.push(Moment { time, indentation, force: force.max(0.0), speed });
             })?;

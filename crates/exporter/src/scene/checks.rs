@@ -46,7 +46,7 @@ pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     }
     let loss = losses::check(&file, &contacts, laws.damped_name())?;
     let damps_by_mass = damped.filter(|(_, law)| law.needs_mass()).map(|(name, _)| name);
-    let (inverse_masses, meeting) = shared_bodies::check(&file, laws.damped_name())?;
+    let (inverse_masses, meeting) = shared_bodies::check(&file, damps_by_mass)?;
     let (coupling, known_mass) = fmu::check_coupling(file.coupling.as_ref(), damps_by_mass, inverse_masses.is_some())?;
     let beside = friction::BesideFriction {
         damped: laws.damped_name(),

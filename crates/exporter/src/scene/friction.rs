@@ -47,7 +47,10 @@ pub fn check(table: Option<&Spanned<FrictionTable>>, beside: &BesideFriction) ->
         },
     };
     if let Some(name) = beside.damped {
-        return no(format!("[friction] needs a law whose force doesn't depend on the rate; that of {name} does"));
+        return no(format!(
+            "[friction] doesn't go with law.loading = \"{name}\": how exact it is with a force that depends on the rate wasn't measured; \
+             a plastic law or \"hertz\" goes with it, in tables [[body]] also with law.elastic_restitution"
+        ));
     }
     if let Some(name) = beside.unloading
         && let Some(reason) = &table::unloading_law(name).no_friction

@@ -165,7 +165,7 @@ impl Scene {
     pub fn with_loss(&self, group: usize, model: Model<AnyLoading, AnyUnloading>) -> AnyModel {
         match self.loss_with(group, &[]) {
             None => AnyModel::Elastoplastic(model),
-            Some(loss) => AnyModel::Lossy(losses::Model { plastic: model, loss }),
+            Some(loss) => AnyModel::Lossy(losses::Model { plastic: model, loss }, None),
         }
     }
 

@@ -23,9 +23,9 @@ mod strength;
 
 use crate::mistake::Spanned;
 use crate::mistake::{Mistake, SceneError};
-use crate::model::{AnyModel, paired};
+use crate::model::{AnyModel, RateLaw, paired};
 use brinell_contact::Model;
-use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::damped::AnyDamped;
 use brinell_contact::hardening::Hardening;
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
@@ -239,12 +239,12 @@ impl Scene {
     /// The physical model of the contacts of `group`.
     pub fn any_model_of(&self, group: usize) -> AnyModel {
         let Some((_, law)) = self.damped else { return self.with_loss(group, self.model_of(group)) };
-        AnyModel::Damped(damped::Model {
-            pair: self.pair_of(group).expect("a checked scene has bodies that fit"),
+        let law = RateLaw {
             law,
             restitution: self.group_value(group, "restitution").unwrap_or(1.0),
             mass: self.group_value(group, "effective_mass").unwrap_or(f64::INFINITY),
-        })
+        };
+        law.on(self.pair_of(group).expect("a checked scene has bodies that fit"))
     }
 
     /// What is assumed of the impact if the scene names none.

@@ -34,11 +34,14 @@ pub struct Meeting {
 }
 
 /// The inverse effective masses of the scene `file`, if its contacts share bodies, and the two bodies of the first contact if it has
-/// friction. `damped` is the name of a law whose force depends on the rate.
+/// friction. `by_mass` is the name of a law whose damping follows from a mass.
 ///
 /// # Errors
 /// The first mistake in the bodies, or what doesn't go with them.
-pub fn check(file: &SceneFile, damped: Option<&str>) -> Result<(Option<InverseMasses>, Option<[Meeting; 2]>), Mistake> {
+pub fn check(
+    file: &SceneFile,
+    by_mass: Option<&str>,
+) -> Result<(Option<InverseMasses>, Option<[Meeting; 2]>), Mistake> {
     let inputs = file.coupling.as_ref().and_then(|coupling| coupling.get_ref().inverse_masses.as_ref());
     let (inverse_masses, meeting) = match (&file.body, inputs) {
         (None, None) => {
@@ -74,7 +77,7 @@ pub fn check(file: &SceneFile, damped: Option<&str>) -> Result<(Option<InverseMa
             of_bodies(bodies.get_ref(), contacts, directions(file))?
         }
     };
-    refuse_rates(file, damped)?;
+    refuse_rates(file, by_mass)?;
     Ok((Some(inverse_masses), meeting))
 }
 
@@ -151,12 +154,12 @@ fn refuse_masses(file: &SceneFile, why: &str) -> Result<(), Mistake> {
     }
 }
 
-/// Rejects laws whose force depends on the rate, and with friction a strength at the strain rate.
-fn refuse_rates(file: &SceneFile, damped: Option<&str>) -> Result<(), Mistake> {
-    if let (Some(name), Some(loading)) = (damped, &file.law.loading) {
+/// Rejects laws whose damping follows from one mass, and with friction a strength at the strain rate.
+fn refuse_rates(file: &SceneFile, by_mass: Option<&str>) -> Result<(), Mistake> {
+    if let (Some(name), Some(loading)) = (by_mass, &file.law.loading) {
         let message = format!(
-            "law.loading = \"{name}\" doesn't go with contacts that share bodies: its force depends on the rate, and its damping \
-             on one mass; a plastic law or \"hertz\" does, also with law.elastic_restitution"
+            "law.loading = \"{name}\" doesn't go with contacts that share bodies: its damping follows from one mass; a plastic law, \
+             \"hertz\" or \"hunt-crossley\" does"
         );
         return Err(Mistake(loading.span(), message));
     }

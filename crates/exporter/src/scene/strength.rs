@@ -479,9 +479,8 @@ impl Scene {
         let softer = self.softer(group);
         let predict = |strains, factors| {
             let model = self.with_strengths_at(group, strains, factors);
-            // a unit finds the strength of an impact without the loss
-            let lossless = self.finds_strength().then_some(AnyModel::Elastoplastic(model));
-            let prediction = lossless.unwrap_or_else(|| self.with_loss(group, model)).predict(impact)?;
+            // that of an impact without the loss, as an FMU finds it
+            let prediction = AnyModel::Elastoplastic(model).predict(impact)?;
             Some((prediction.loading_time, rate::strains(&model, &prediction)))
         };
         let rates = [softer, softer.other()].map(|body| self.rates.of(body).as_ref());

@@ -54,7 +54,7 @@ pub fn add(schema: &mut Value) {
         implies(
             moved.clone(),
             all([
-                not(any([damped.clone(), masses.clone()])),
+                not(any([damps_by_mass.clone(), masses.clone()])),
                 implies(has("friction"), not(any([key("impactor", has("rate")), key("target", has("rate"))]))),
                 each_contact(not(has("effective_mass"))),
             ]),

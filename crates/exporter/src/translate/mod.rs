@@ -15,8 +15,10 @@
 pub mod fit;
 pub mod law;
 pub mod motion;
+
 mod numbers;
 mod plastic;
+mod runge_kutta;
 mod sentences;
 #[cfg(test)]
 mod tests;

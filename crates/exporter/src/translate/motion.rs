@@ -1,7 +1,7 @@
 //! An impact by the law of a tool: exactly, and step by step as the tool itself moves.
 
 use super::law::Law;
-use brinell_contact::runge_kutta;
+use super::runge_kutta;
 use libm::pow;
 
 /// What an impact is compared by. NaN where a tool does not define it.

@@ -1,13 +1,13 @@
 //! The kinds of contacts: the law, friction, losses, and whether a mass moves them.
 
 use super::{Choice, chosen};
-use brinell_contact::damped::{self, AnyDamped};
-use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{self, AnyLoss};
+use brinell_contact::damped::Damped as _;
+use brinell_contact::loading::{AnyLoading, Elastic};
+use brinell_contact::losses::{self, AnyLoss, Damper};
 use brinell_contact::motion::{Follow, follow};
 use brinell_contact::rate;
 use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
-use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::unloading::{AnyUnloading, ContactRadius};
 use brinell_contact::{Body, Contact, History, Model, Pair};
 use brinell_fmu::scene::{Absent, Coupled, Coupling, Presence, Present};
 use std::marker::PhantomData;
@@ -112,13 +112,13 @@ impl<const MEAN: bool> Kind for RoughPlane<MEAN> {
 }
 
 impl Kind for Damped {
-    type Model = damped::Model<AnyDamped>;
-    type Contact = damped::History<AnyDamped>;
+    type Model = losses::Model<Elastic, ContactRadius, Damper>;
+    type Contact = losses::History<Damper>;
     type Course = Absent;
     type Coupling = Absent;
     type Watch = Absent;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
-        damped::Model { pair, law: chosen().damped, restitution, mass }
+        chosen().damped.model(pair, restitution, mass)
     }
 }
 
@@ -126,12 +126,12 @@ impl Kind for Damped {
 pub struct DampedMassive<C = Coupled>(PhantomData<C>);
 
 impl<C: Coupling> Kind for DampedMassive<C> {
-    type Model = damped::Model<AnyDamped>;
-    type Contact = damped::History<AnyDamped>;
+    type Model = losses::Model<Elastic, ContactRadius, Damper>;
+    type Contact = losses::History<Damper>;
     type Course = Present;
     type Coupling = C;
     type Watch = Absent;
-    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(damped::follow);
+    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(losses::follow);
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
         Damped::model(pair, restitution, mass)
     }

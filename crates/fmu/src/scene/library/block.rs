@@ -286,6 +286,8 @@ pub enum Loss {
     Waves = 1,
     /// [`Plate`](brinell_contact::losses::Plate).
     Plate = 2,
+    /// [`Damper`](brinell_contact::losses::Damper), of a rate-dependent law.
+    Damper = 3,
 }
 
 /// A feature of a scene, as a bit.

@@ -7,9 +7,9 @@ use crate::c::span::Span;
 use crate::scene::{
     Absent, Acts, Coupled, Coupling, Parameter, Presence, Present, impactor_yields, two_bodies, with_friction,
 };
-use brinell_contact::damped::{self, AnyDamped, Damped};
-use brinell_contact::loading::{AnyLoading, Loading};
-use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::damped::{AnyDamped, Damped};
+use brinell_contact::loading::{AnyLoading, Elastic, Loading};
+use brinell_contact::losses::{self, AnyLoss, Damper, Fitted, Plate, Solid, Waves};
 use brinell_contact::motion::{self, Follow};
 use brinell_contact::rate::{self, Slow};
 use brinell_contact::shared::{self, InverseMasses, Outcome, Refused, SharedContact, Work};
@@ -25,14 +25,11 @@ pub const MEMORY: usize = 16;
 /// Laws of contacts that yield.
 pub struct Plastic<L, U>(PhantomData<(L, U)>);
 
-/// The same with a loss below yield.
+/// The same with a loss below yield, or the spring of a rate-dependent law with its damping.
 pub struct Lossy<L, U, X>(PhantomData<(L, U, X)>);
 
 /// The same as the laws `X` with a strength that is found at the first touch of each impact.
 pub struct Rated<X>(PhantomData<X>);
-
-/// A law that depends on the rate.
-pub struct RateDependent<D>(PhantomData<D>);
 
 /// Contacts with friction, of the type `C`, and a loss below yield or `()`.
 pub struct Rough<C, L, U, X = ()>(PhantomData<(C, L, U, X)>);
@@ -45,13 +42,17 @@ fn law<L: Numbered>(numbers: &LawNumbers) -> L {
 
 /// The elastoplastic model of a scene.
 #[inline(always)]
-fn plastic<L: Numbered, U: Numbered>(
+fn plastic<L: Numbered, U: Numbered, X: OfScene>(
     data: &Data,
     given: &Given,
     value: impl Fn(Parameter) -> f64 + Copy,
 ) -> Model<L, U> {
     let Given { pair, surface, .. } = *given;
-    let (loading, unloading) = (law::<L>(&data.loading), law(&data.unloading));
+    let unloading = law(&data.unloading);
+    if let Some(loading) = X::spring(data, given, value).and_then(L::of_spring) {
+        return Model { pair, loading, unloading, surface };
+    }
+    let loading = law::<L>(&data.loading);
     let loading = if data.has(Flag::Paired) { loading.of_bodies(two_bodies(value)) } else { loading };
     Model { pair, loading, unloading, surface }
 }
@@ -60,6 +61,12 @@ fn plastic<L: Numbered, U: Numbered>(
 pub trait OfScene: Copy {
     /// The loss with the parameters that `value` gives.
     fn of_scene(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self;
+
+    /// The spring of a rate-dependent law, if it is the damping of one.
+    #[inline(always)]
+    fn spring(_data: &Data, _given: &Given, _value: impl Fn(Parameter) -> f64 + Copy) -> Option<Elastic> {
+        None
+    }
 }
 
 impl OfScene for () {
@@ -88,13 +95,37 @@ impl OfScene for Plate {
     }
 }
 
+/// The spring of a rate-dependent law, and its damping.
+#[inline(always)]
+fn rate_dependent(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> (Elastic, Damper) {
+    let law = law::<AnyDamped>(&data.loading);
+    law.parts(&given.pair, value(Parameter::Restitution), value(Parameter::EffectiveMass))
+}
+
+impl OfScene for Damper {
+    #[inline(always)]
+    fn of_scene(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Damper {
+        rate_dependent(data, given, value).1
+    }
+
+    #[inline(always)]
+    fn spring(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Option<Elastic> {
+        Some(rate_dependent(data, given, value).0)
+    }
+}
+
 impl OfScene for AnyLoss {
     fn of_scene(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> AnyLoss {
         match data.loss {
             waves if waves == Loss::Waves as u64 => AnyLoss::Waves(Waves::of_scene(data, given, value)),
             plate if plate == Loss::Plate as u64 => AnyLoss::Plate(Plate::of_scene(data, given, value)),
+            damper if damper == Loss::Damper as u64 => AnyLoss::Damper(Damper::of_scene(data, given, value)),
             _ => AnyLoss::Fitted(Fitted::of_scene(data, given, value)),
         }
+    }
+
+    fn spring(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Option<Elastic> {
+        if data.loss == Loss::Damper as u64 { Damper::spring(data, given, value) } else { None }
     }
 }
 
@@ -147,7 +178,7 @@ impl<L: Loading + Numbered, U: Unloading + Numbered> Laws for Plastic<L, U> {
 
     #[inline(always)]
     fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Model<L, U> {
-        plastic(data, given, value)
+        plastic::<L, U, ()>(data, given, value)
     }
 }
 
@@ -163,7 +194,7 @@ impl<L: Loading + Numbered, U: Unloading + Numbered, X: losses::Loss + OfScene> 
 
     #[inline(always)]
     fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model {
-        losses::Model { plastic: plastic(data, given, value), loss: X::of_scene(data, given, value) }
+        losses::Model { plastic: plastic::<L, U, X>(data, given, value), loss: X::of_scene(data, given, value) }
     }
 }
 
@@ -193,25 +224,6 @@ where
     }
 }
 
-impl<D: Damped + Numbered> Laws for RateDependent<D> {
-    type Model = damped::Model<D>;
-    type Contact = damped::History<D>;
-
-    fn follow() -> Option<Follow<Self::Contact, Self::Model>> {
-        Some(damped::follow)
-    }
-
-    #[inline(always)]
-    fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model {
-        damped::Model {
-            pair: given.pair,
-            law: law(&data.loading),
-            restitution: value(Parameter::Restitution),
-            mass: value(Parameter::EffectiveMass),
-        }
-    }
-}
-
 impl<C, L: Loading + Numbered, U: Unloading + Numbered, X: OfScene> Laws for Rough<C, L, U, X>
 where
     C: Contact<RoughModel<L, U, X>> + SharedContact<RoughModel<L, U, X>>,
@@ -222,7 +234,7 @@ where
 
     #[inline(always)]
     fn model(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Self::Model {
-        with_friction(plastic(data, given, value), X::of_scene(data, given, value), value)
+        with_friction(plastic::<L, U, X>(data, given, value), X::of_scene(data, given, value), value)
     }
 }
 
@@ -325,17 +337,15 @@ pub type Momentum = Contacts<AnyLaws, Absent, Present, Absent>;
 /// The library `moved`: contacts that move their bodies, each for itself or together.
 pub type Moved = Contacts<AnyLaws, Any, Absent>;
 
-/// The library `lossy`: contacts with losses below yield, which may move their bodies.
+/// The library `lossy`: contacts with losses below yield or a rate-dependent law, which may move their bodies.
 pub type Losses = Contacts<AnyLossy>;
 
-/// The library `rate`: contacts that move their bodies, each for itself or together, and find their strength at the first touch of each impact.
+/// The library `rate`: contacts that move their bodies, each for itself or together, and find their strength at the first touch of each
+/// impact.
 pub type Strengths = Contacts<Rated<AnyLaws>, Any, Absent>;
 
 /// The library `lossy-rate`: the same as [`Strengths`] with losses below yield.
 pub type LossyStrengths = Contacts<Rated<AnyLossy>, Any, Absent>;
-
-/// The library `damped`: contacts with a rate-dependent law, which may move their bodies.
-pub type Dampings = Contacts<RateDependent<AnyDamped>, Any, Present, Absent>;
 
 /// The library `friction`: contacts with friction in one direction, which may move their bodies together.
 pub type Friction = Contacts<AnyRough<RoughContact<MEMORY, true>>>;

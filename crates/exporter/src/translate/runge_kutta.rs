@@ -2,7 +2,7 @@
 //!
 //! Reference: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19-26.
 
-use crate::numbers::largest;
+use brinell_contact::numbers::largest;
 use libm::pow;
 
 /// The weights of the earlier slopes in each stage; the last stage is the step itself.
@@ -19,9 +19,6 @@ const STAGES: [[f64; 6]; 7] = [
 /// The difference between the methods of order 5 and 4.
 const ERROR: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
-
-/// Number of slopes that a step evaluates.
-pub const EVALUATIONS: u32 = STAGES.len() as u32;
 
 /// Smaller errors count as this one.
 const LEAST: f64 = 1e-30;
