@@ -308,7 +308,12 @@ impl Loss for AnyLoss {
     }
 
     fn is_scaled_by_touch(&self) -> bool {
-        matches!(self, AnyLoss::Damper(_))
+        match self {
+            AnyLoss::Damper(loss) => loss.is_scaled_by_touch(),
+            AnyLoss::Fitted(loss) => loss.is_scaled_by_touch(),
+            AnyLoss::Waves(loss) => loss.is_scaled_by_touch(),
+            AnyLoss::Plate(loss) => loss.is_scaled_by_touch(),
+        }
     }
 
     fn factor(&self) -> f64 {
@@ -328,16 +333,15 @@ pub struct Damping {
     pub form: Form,
     /// [`Loss::factor`].
     pub factor: f64,
-    /// The largest speed since the contact began \[m/s\].
+    /// The largest speed since the contact began \[m/s\]; of a rate-dependent law in a prescribed motion, the closing speed at first touch.
     pub swiftest: f64,
 }
 
 impl Damping {
-    /// `1 + chi v/v0` at `rate` \[m/s\]; it is negative where the surface would have to pull. The largest speed `v0` is not below the
-    /// rate, except in a step that tries to exceed it.
+    /// `1 + chi v/v0` at `rate` \[m/s\]; it is negative where the surface would have to pull.
     fn factor_at(&self, rate: f64) -> f64 {
-        // such a step must not overflow
-        let fastest = largest(1e-3 * fabs(rate), self.swiftest);
+        // a ratio beyond all numbers has no force that is one
+        let fastest = largest(1e-300 * fabs(rate), self.swiftest);
         1.0 + self.factor * quotient(rate, fastest, fastest > 0.0, 0.0)
     }
 

@@ -39,7 +39,11 @@ impl Loss {
             }
             _ if *slack => (0.0, rate),
             Form::Proportional if *leads != 0.0 => (elastic * (1.0 + leads * damping.factor), rate),
-            _ => (damping.pull(d, elastic, || stiffness, rate), rate),
+            _ => {
+                // a step that tries to exceed the largest speed must not overflow
+                let damping = Damping { swiftest: largest(0.5 * fabs(rate), damping.swiftest), ..*damping };
+                (damping.pull(d, elastic, || stiffness, rate), rate)
+            }
         }
     }
 
