@@ -146,6 +146,45 @@ fn a_steel_ball_on_a_steel_block_loses_what_hunter_and_reed_say() {
     }
 }
 
+/// The scales of a motion are its own: a plate that hardly gives way once took those of a wide contact.
+#[test]
+fn a_plate_that_gives_no_way_is_none_for_contacts_of_any_size() {
+    let mut random = crate::physics::Random(77);
+    for _ in 0..40 {
+        let (radius, modulus) = (random.log_uniform(1e-9, 1.0), random.log_uniform(1e3, 1e15));
+        let (speed, strain) = (random.log_uniform(1e-9, 10.0), random.log_uniform(1e-9, 1e-2));
+        let pair = brinell_contact::Pair {
+            radius,
+            modulus,
+            yield_strength: strain * modulus,
+            youngs_modulus: modulus,
+            ..mild()
+        };
+        let plastic = AnyModel { pair, ..model("brinell", "brinell") }.prepared();
+        let depth = 1e-4 * radius;
+        let largest = plastic.loading.segment(&pair, depth).force(depth);
+        // it gives way at this part of the speed
+        let unit = Plate { target: solid(&pair, DENSITY), thickness: 1.0 };
+        let thickness = (unit.factor() * largest / (1e-14 * speed)).sqrt();
+        let lossy = with(&plastic, AnyLoss::Plate(Plate { thickness, ..unit }));
+        let mut contact = History::start(&lossy, 0.0).unwrap();
+        let mut plain = brinell_contact::History::start(&plastic, 0.0).unwrap();
+        let recovery = depth - plastic.residual_indentation(depth);
+        for (rate, way, parts) in [(speed, depth, 300), (-speed, 0.9 * recovery, 300), (speed, 0.5 * recovery, 7)] {
+            for _ in 0..parts {
+                let step = way / speed / f64::from(parts);
+                contact.advance(&lossy, rate, step).unwrap();
+                plain.advance(&plastic, rate * step).unwrap();
+                let (found, expected) = (contact.force(rate), plain.force());
+                assert!(
+                    (found - expected).abs() < 1e-6 * largest,
+                    "{lossy:?}, {rate:e} m/s: {found:e} for {expected:e} N"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn the_plate_follows_the_equation_of_zener() {
     // sigma'' + (1 + lambda d/dt) sigma^1.5 = 0: restitution of this equation for a few lambda, by an independent integration

@@ -16,7 +16,7 @@ use libm::sqrt;
 pub struct Hertz;
 
 /// The exponent of Hertz's law \[-\].
-pub(super) const EXPONENT: f64 = 1.5;
+pub(crate) const EXPONENT: f64 = 1.5;
 
 /// The Hertzian part, up to `upper` \[m\], of any law that begins elastically.
 pub(super) fn segment(pair: &Pair, upper: f64) -> Segment {

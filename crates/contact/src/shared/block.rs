@@ -186,24 +186,25 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         }
     }
 
-    /// Gives bodies that close at a given rate the inverse mass at which a target that gives way would take their energy in a swing: it
-    /// serves as the scale of their motion. No load is larger than that of the way of the step.
+    /// Gives bodies that close at a given rate, which have no energy, the scales of a swing in which a target that gives way would take the
+    /// energy of the largest load. No load is larger than that of the way of the step.
     fn scale_held(&mut self) {
-        let left = self.left;
+        let (left, mut most) = (self.left, self.energy);
         for (_, member) in self.members_mut().filter(|(_, member)| member.inverse_mass == 0.0) {
             let (mobility, rate) = (member.loss.map_or(0.0, |loss| loss.easing(1.0)), fabs(member.now.rate()));
             let steady = quotient(rate, mobility, mobility > 0.0, 0.0);
-            let reach =
-                smallest(largest(member.now.indentation() + rate * left, member.branch.stiffest.origin), FARTHEST);
-            let deepest = member.branch.stiffest.force(reach);
-            let energy = energy_of_load(
-                member.branch.scale(),
-                largest(if deepest > 0.0 { smallest(steady, deepest) } else { steady }, member.now.elastic),
-            );
+            let (segment, _) = member.branch.scale();
+            let reach = smallest(largest(member.now.indentation() + rate * left, segment.origin), FARTHEST);
+            let deepest = segment.force(reach);
+            // bodies that don't touch have any scale
+            let load = if deepest > 0.0 { smallest(steady, deepest) } else { steady };
+            let energy = energy_of_load(member.branch.scale(), largest(load, member.now.elastic));
             let stiffness = stiffness_at(member.branch.scale(), energy);
             member.inverse_mass = largest(mobility * mobility * stiffness, f64::MIN_POSITIVE);
             member.is_held = true;
+            most = largest(energy, most);
         }
+        self.energy = most;
     }
 
     /// Lets every contact that is at a threshold and moves across it change its branch.

@@ -1,9 +1,9 @@
 //! The branch that one contact is on: apart, on the path of its dent, or on a piece of the loading curve. Each is smooth,
 //! and goes on beyond its ends for the trials of the integration.
 
-use super::scales::HERTZ;
 use crate::history::History;
 use crate::loading::Loading;
+use crate::loading::hertz::EXPONENT as HERTZ;
 use crate::numbers::{largest, smallest};
 use crate::piece::{Numbers, Piece};
 use crate::segment::Segment;

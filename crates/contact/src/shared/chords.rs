@@ -24,10 +24,11 @@
 use super::gradients::{self, System, Unknown};
 use super::inverse_masses::InverseMasses;
 use super::rest::STILL;
-use super::scales::{HERTZ, Scales, energy_of_load, stiffness_at};
+use super::scales::{Scales, energy_of_load, stiffness_at};
 use super::work::{Instant, Row, Work};
 use super::{Refused, SharedContact, place_of};
 use crate::loading::Loading;
+use crate::loading::hertz::EXPONENT as HERTZ;
 use crate::losses::{Damping, Form};
 use crate::motion::MOST_EVALUATIONS;
 use crate::numbers::{largest, quotient, root, smallest};

@@ -3,6 +3,7 @@
 use super::SharedContact;
 use super::block::Block;
 use super::branch::Kind;
+use crate::loading::hertz::EXPONENT as HERTZ;
 use crate::numbers::{largest, quotient, root, smallest};
 use crate::segment::Segment;
 use core::borrow::Borrow;
@@ -16,9 +17,6 @@ pub(super) struct Scales {
     /// The shortest time of an oscillation \[s\].
     pub time: f64,
 }
-
-/// The exponent of Hertz's law.
-pub(super) const HERTZ: f64 = 1.5;
 
 /// Energies grow by this factor before the time is computed again.
 const GROWN: f64 = 1.2;
@@ -57,7 +55,8 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
         let (mut moving, mut stored, mut least) = (0.0, 0.0, 0.0);
         for (place, member) in self.members() {
             let (rate, inverse_mass) = (member.now.rate(), member.inverse_mass);
-            moving = largest(0.5 * rate * rate / inverse_mass, moving);
+            let kinetic = 0.5 * rate * rate / inverse_mass;
+            moving = largest(if member.is_held { 0.0 } else { kinetic }, moving);
             if member.branch.kind != Kind::Apart {
                 // of Hertz's contact, and not more than that of a spring over the whole indentation
                 let (force, stiffness) = (fabs(member.now.elastic), self.stiffness(place, member));

@@ -111,8 +111,10 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
             for (place, member) in self.active_mut() {
                 let Instant { numbers: [_, rate, impulse, _], force, net, approach, .. } = member.trial;
                 member.slopes.set(stage, [pace * approach, pace * net, pace * force, pace * impulse]);
-                if member.loss.is_some() {
-                    member.power.set(stage, [pace * force * if member.is_held { rate - approach } else { rate }]);
+                if let Some(loss) = &member.loss {
+                    // a target that hardly gives way is not the difference of two rates
+                    let rate = if member.is_held { loss.easing(force) } else { rate };
+                    member.power.set(stage, [pace * force * rate]);
                 }
                 if clock.is_some_and(|clock| clock.place == place) {
                     rate_of_clock = approach;
