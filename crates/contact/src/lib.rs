@@ -11,8 +11,7 @@
 //!
 //! `f64` only; no allocation, no input or output, no panic, and no `unsafe`. A [`Model`] holds the bodies in contact
 //! and their laws; a [`History`] holds the whole state of a contact. [`History::advance`] moves it along a path. Force,
-//! stiffness, energies and dent are functions of the two. The trait [`Contact`] is the common interface of elastoplastic and
-//! [rate-dependent](damped) contacts.
+//! stiffness, energies and dent are functions of the two. The trait [`Contact`] is the common interface of all contacts.
 //!
 //! # Model
 //! A sphere of effective radius `R` is pressed into a half-space of effective modulus `E*` and yield strength `S`. The
@@ -69,7 +68,7 @@
 //! | [`piece`] | the smooth pieces of a law |
 //! | [`momentum`] | the integral of force over time, along branches or by pieces |
 //! | [`motion`] | the motion of bodies of known mass |
-//! | [`damped`] | rate-dependent laws, with a history of their own |
+//! | [`damped`] | rate-dependent laws: an elastic contact and its damping |
 //! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
 //! | [`shared`] | contacts that share bodies move together |
 //! | [`rate`] | strain rate: the strength of an impact from its closing speed |

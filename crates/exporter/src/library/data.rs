@@ -99,10 +99,8 @@ impl SceneData {
             lists: lists.ends,
             ..Data::EMPTY
         };
-        match &scene.damped {
-            Some((_, law)) => (data.loading, data.unloading) = (law.numbers(), scene.plain_unloading().numbers()),
-            None => (data.loading, data.unloading) = (scene.loading.1.numbers(), scene.plain_unloading().numbers()),
-        }
+        data.loading = scene.damped.as_ref().map_or_else(|| scene.loading.1.numbers(), |(_, law)| law.numbers());
+        data.unloading = scene.plain_unloading().numbers();
         data.loss = match scene.loss {
             _ if scene.damped.is_some() => block::Loss::Damper,
             Some(Loss::Waves) => block::Loss::Waves,

@@ -15,7 +15,6 @@
 pub mod fit;
 pub mod law;
 pub mod motion;
-
 mod numbers;
 mod plastic;
 mod runge_kutta;
