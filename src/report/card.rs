@@ -51,7 +51,7 @@ pub fn readings(scene: &Scene) -> Vec<String> {
 
 /// The outcome of the impact.
 pub fn outcome(scene: &Scene, prediction: &Prediction) -> Vec<Fact> {
-    let bands = spread::of_impact(scene, &scene.impact).map(|(_, bands)| bands);
+    let bands = spread::of_impact(scene, &scene.impact, None).map(|(_, bands)| bands);
     let spread = |name: &str, value: f64, unit| with_band(value, bands.as_ref().and_then(|it| it.get(name)), unit);
     let mut outcome = vec![
         ("Coefficient of restitution", spread("restitution", prediction.restitution, "")),

@@ -62,8 +62,7 @@ fn any_scene_has_the_same_bits_and_messages_in_both_ways() {
 /// Every scene of the repository can be exported without a compiler.
 #[test]
 fn the_scenes_of_the_repository_need_no_compiler() {
-    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")).unwrap() {
-        let path = entry.unwrap().path();
+    for path in unit::scenes() {
         let text = fs::read_to_string(&path).unwrap();
         let folder = export(&text, Some(store()));
         let check = run(folder.parent().unwrap(), ["check", "unit.fmu", "--json"]).with_status(0).json();

@@ -39,6 +39,18 @@ pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
     notes
 }
 
+/// The parts of the dent that impactor and target have in an impact with this `prediction`, and whether that is known: where both yield, it
+/// is all given to the softer one.
+pub fn dented(scene: &Scene, prediction: &Prediction) -> ([f64; 2], bool) {
+    let partner = Partner::of(scene, prediction);
+    let parts = match (partner, scene.softer(0)) {
+        (Partner::Alike, _) => [0.5, 0.5],
+        (_, Body::Impactor) => [1.0, 0.0],
+        (_, Body::Target) => [0.0, 1.0],
+    };
+    (parts, partner != Partner::Yields)
+}
+
 /// What the harder body does while the softer one yields.
 #[derive(Clone, Copy, PartialEq)]
 enum Partner {

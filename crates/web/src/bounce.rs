@@ -190,7 +190,9 @@ fn edited(asked: &Asked, scene: &Scene, way: &Way) -> Result<String, Refused> {
             edits.push(Edit::of(&["coupling", "master"], json!("parallel")));
         }
     }
-    let falls = |index: &usize| scene.inverse_masses.is_none() || stand(scene).get(*index).is_some_and(|it| *it);
+    let stand = stand(scene);
+    let hits = |index: usize| if in_the_air(&stand) { index == 0 } else { stand[index] };
+    let falls = |index: &usize| scene.inverse_masses.is_none() || hits(*index);
     let gap = json!(asked.height);
     match is_listed {
         false => edits.push(Edit::of(&["fmu", "initial_gap"], gap)),
@@ -210,6 +212,11 @@ fn stand(scene: &Scene) -> Vec<bool> {
         between.is_some_and(|names| names.iter().any(|name| name.as_str() == Some("ground")))
     };
     contacts.into_iter().flatten().map(stands).collect()
+}
+
+/// Whether no contact is on the ground: the first one is then hit as fast as a fall would be.
+fn in_the_air(stand: &[bool]) -> bool {
+    !stand.contains(&true)
 }
 
 /// Lets the bodies fall.
@@ -246,9 +253,13 @@ pub fn bounce(asked: &Asked) -> Result<Value, Refused> {
         body.load = mass * gravity;
         body
     };
+    let mut bodies: Vec<Body> = groups.map(body).collect();
+    if shared.is_some() && in_the_air(&stand(&scene)) {
+        bodies[0].speed = (2.0 * gravity * height).sqrt();
+    }
     let run = Run {
         units,
-        bodies: groups.map(body).collect(),
+        bodies,
         shared,
         has_input: scene.has_input("external_acceleration"),
         going: vec![None; contacts],

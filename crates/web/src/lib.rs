@@ -6,7 +6,8 @@
 //!
 //! | module | what it has |
 //! |---|---|
-//! | `lists` | laws, materials, tools, platforms |
+//! | `lists` | laws, materials, tools, platforms, regimes |
+//! | `examples` | scenes to start from |
 //! | `text` | the scene as text and as values, with its mistakes |
 //! | `answers` | predictions, curves, numbers for other tools |
 //! | `archive` | the FMU |
@@ -17,6 +18,7 @@
 mod answers;
 mod archive;
 mod bounce;
+mod examples;
 mod lists;
 mod text;
 mod unit;
@@ -97,6 +99,7 @@ fn dispatch(question: &[u8]) -> Result<(Value, Vec<u8>), Refused> {
         "curve" => answers::curve(&read(&asked)?)?,
         "history" => answers::history(&read(&asked)?)?,
         "sweep" => answers::sweep(&read(&asked)?)?,
+        "bands" => answers::bands(&read(&asked)?)?,
         "picture" => answers::picture(&read(&asked)?)?,
         "csv" => answers::csv(&read(&asked)?)?,
         "translate" => answers::translation(&read(&asked)?)?,

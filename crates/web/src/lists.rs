@@ -1,5 +1,7 @@
 //! What there is to choose from: laws, materials, outputs, tools, platforms, units.
 
+use crate::examples;
+use brinell_contact::Regime;
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
@@ -8,7 +10,7 @@ use brinell_exporter::pairing::DEFAULT_LOADING;
 use brinell_exporter::platform::{Platform, Target};
 use brinell_exporter::table::{Causality, Law, MATERIALS, VARIABLES};
 use brinell_exporter::translate::tools::TOOLS;
-use brinell_exporter::{pairing, units};
+use brinell_exporter::{pairing, regime, units};
 use serde_json::{Value, json};
 
 /// All lists of the page.
@@ -29,6 +31,8 @@ pub fn about() -> Value {
         "parameters": variables(Causality::Parameter),
         "tools": TOOLS.iter().map(|tool| json!({ "name": tool.name, "title": tool.title })).collect::<Value>(),
         "platforms": Platform::ALL.iter().chain([&Platform::C_CODE]).map(platform).collect::<Value>(),
+        "regimes": Regime::ALL.map(|it| json!({ "name": regime::words(it), "means": regime::means(it) })),
+        "examples": examples::all(),
         "units": units::usual().map(|(unit, usual)| (unit.to_string(), json!(usual))).collect::<Value>(),
     })
 }

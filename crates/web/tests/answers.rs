@@ -174,17 +174,24 @@ fn a_step_that_throws_a_ball_deeper_than_its_radius_is_refused_in_words() {
     assert!(messages.iter().any(|it| it.as_str().unwrap().contains(refused)), "{messages:?}");
 }
 
+/// The scenes of the repository, with those by trade.
+fn scenes() -> Vec<std::path::PathBuf> {
+    let files = ["scenes", "scenes/trades"].map(|name| std::fs::read_dir(format!("{ROOT}/{name}")).unwrap());
+    let paths = files.into_iter().flatten().map(|entry| entry.unwrap().path());
+    paths.filter(|path| path.extension().is_some_and(|is| is == "toml")).collect()
+}
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+
 #[test]
 fn every_scene_of_the_repository_bounces() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
     let mut count = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+    for path in scenes() {
         let text = std::fs::read_to_string(&path).unwrap();
         let question =
             json!({ "method": "bounce", "text": text, "way": "mass known", "step": 1e-4, "time": 0.2, "height": 0.02 });
         match ask(&question) {
-            Ok(said) => assert!(!said["seen"]["rebounds"].as_array().unwrap().is_empty(), "{}: {said}", path.display()),
+            Ok(said) => assert!(!said["seen"]["rebounds"].as_array().unwrap().is_empty(), "{}", path.display()),
             Err(refused) => {
                 let is_known = text.contains("inverse_masses = \"input\"") || text.contains("count = ");
                 assert!(is_known, "{}: {refused}", path.display());
@@ -192,7 +199,136 @@ fn every_scene_of_the_repository_bounces() {
         }
         count += 1;
     }
-    assert!(count > 10);
+    assert!(count > 20);
+}
+
+/// A quantity of the impact of a scene, and the ends of its band.
+fn predicted(text: &str, more: &Value, name: &str) -> (f64, Option<[f64; 2]>) {
+    let mut question = json!({ "method": "predict", "text": text });
+    question.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+    let said = ask(&question).unwrap_or_else(|refused| panic!("{refused}\n{text}"));
+    let law = &said["laws"][0];
+    (law[name].as_f64().unwrap(), serde_json::from_value(law["spread"][name].clone()).unwrap())
+}
+
+/// Each strength, however it is given, is scaled to the ends of its band: the scene with that strength has the same impact.
+#[test]
+fn a_deviation_that_is_given_spreads_every_kind_of_strength() {
+    let scaled = |text: &str, factor: f64| {
+        let number = |text: &str| format!("{:e}", factor * text.parse::<f64>().unwrap());
+        text.split('#')
+            .map(|part| if part.parse::<f64>().is_ok() { number(part) } else { part.into() })
+            .collect::<String>()
+    };
+    let rate = "rate = { model = \"johnson-cook\", c = 0.02, reference_rate = 1.0 }\n";
+    for (strength, more, spread) in [
+        ("yield_strength = #300e6#", "", "target"),
+        ("yield_strength = #300e6#\nhardening_modulus = #3e9#", "", "target"),
+        ("yield_strength = #300e6#", rate, "target"),
+        ("power_law = { coefficient = #600e6#, exponent = 0.2 }", "", "target"),
+        (
+            "tensile_test = { plastic_strain = [0.005, 0.02, 0.1], true_stress = [#240e6#, #300e6#, #480e6#] }",
+            "",
+            "target",
+        ),
+    ] {
+        let text = format!(
+            "name = \"a\"\n[impactor]\nradius = \"5 mm\"\n[{spread}]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n{strength}\n{more}\
+             [impact]\nmass = 4e-3\nspeed = 1.0\n"
+        );
+        const DEVIATION: f64 = 0.1;
+        let (_, band) = predicted(&scaled(&text, 1.0), &json!({ "deviation": DEVIATION }), "dent");
+        let at = |way: f64| predicted(&scaled(&text, 1.0 + way * 1.959_963_985 * DEVIATION), &json!({}), "dent").0;
+        let [low, high] = band.unwrap_or_else(|| panic!("no band: {text}"));
+        for (found, wanted) in [(low, at(1.0)), (high, at(-1.0))] {
+            assert!((found / wanted - 1.0).abs() < 1e-6, "{found} for {wanted}: {text}");
+        }
+    }
+    let refused = ask(&json!({ "method": "predict", "text": BALL, "deviation": 0.5 })).unwrap_err();
+    assert_eq!(refused["message"], "the uncertainty of the strength must be from 0 to 40 %");
+}
+
+/// The numbers of a card have the band that its curves have, and a strength that is certain has none.
+#[test]
+fn bands_of_curves_are_those_of_the_numbers() {
+    let question =
+        |of: &str| json!({ "method": "bands", "text": BALL, "of": of, "deviation": 0.1, "sweep": ["speed=0.5:1.5:3"] });
+    let [low, high] = predicted(BALL, &json!({ "deviation": 0.1 }), "largest_force").1.unwrap();
+    let history = ask(&question("history")).unwrap();
+    let [family] = history["families"].as_array().unwrap().as_slice() else { panic!("{history}") };
+    let largest =
+        |law: &Value| law["force"].as_array().unwrap().iter().map(|it| it.as_f64().unwrap()).fold(0.0, f64::max);
+    let forces: Vec<f64> = family["laws"].as_array().unwrap().iter().map(largest).collect();
+    let ends = [forces.iter().copied().fold(f64::INFINITY, f64::min), forces.iter().copied().fold(0.0, f64::max)];
+    for (found, wanted) in ends.into_iter().zip([low, high]) {
+        assert!((found / wanted - 1.0).abs() < 1e-3, "{found} for {wanted}");
+    }
+    let sweep = ask(&question("sweep")).unwrap();
+    let bands: [f64; 2] = serde_json::from_value(sweep["bands"][1]["largest_force"].clone()).unwrap();
+    assert_eq!(sweep["speed"], json!([0.5, 1.0, 1.5]));
+    assert_eq!(bands, [low, high]);
+    let certain = ask(&json!({ "method": "bands", "text": BALL, "of": "curve" })).unwrap();
+    assert_eq!(certain["families"], json!([]));
+}
+
+/// The examples of the page by their names.
+fn example(name: &str) -> String {
+    std::fs::read_to_string(format!("{ROOT}/scenes/trades/{name}.toml")).unwrap()
+}
+
+#[test]
+fn each_example_has_a_title_of_a_line_and_a_few_words_on_what_to_look_at() {
+    let about = ask(&json!({ "method": "about" })).unwrap();
+    let examples = about["examples"].as_array().unwrap();
+    let files = std::fs::read_dir(format!("{ROOT}/scenes/trades")).unwrap().count();
+    assert_eq!(examples.len(), files);
+    for example in examples {
+        let [title, look] = ["title", "look"].map(|key| example[key].as_str().unwrap());
+        assert!((8..50).contains(&title.len()), "{title}");
+        assert!((40..300).contains(&look.len()) && look.ends_with('.'), "{look}");
+        let check = ask(&json!({ "method": "check", "text": example["text"] })).unwrap();
+        assert_eq!(check["mistakes"], json!([]), "{title}");
+    }
+}
+
+/// What the remarks of the examples say.
+#[test]
+fn the_examples_do_what_their_remarks_say() {
+    let number = |text: &str, name| predicted(text, &json!({}), name).0;
+    let none = json!({});
+    let drop = example("drop_test");
+    assert!((number(&drop, "restitution") - 0.5).abs() < 0.03, "half of the speed");
+    let slider = example("end_stop");
+    let force = |speed: f64| predicted(&slider, &json!({ "speed": speed }), "largest_force").0;
+    let growth = f64::log2(force(0.8) / force(0.4));
+    assert!((1.0..1.15).contains(&growth), "a little faster than the speed: {growth}");
+    let hammer = example("hammer_blow");
+    let lost = number(&hammer, "energy_lost") / number(&hammer, "kinetic_energy");
+    assert!((0.45..0.55).contains(&lost), "half of the energy: {lost}");
+    let harder = hammer.replace("200 HBW", "400 HBW");
+    assert_ne!(harder, hammer);
+    for (name, sign) in [("largest_force", 1.0), ("dent", -1.0), ("rebound_speed", 1.0)] {
+        assert!(sign * (number(&harder, name) - number(&hammer, name)) > 0.0, "{name}");
+    }
+    let shot = example("shot_peening");
+    assert!(number(&shot, "loading_time") + number(&shot, "unloading_time") < 1e-6);
+    let cradle = example("newtons_cradle");
+    let hardened = cradle.replace("annealed", "hardened");
+    assert!(number(&cradle, "dent") > 0.0 && number(&hardened, "dent") < 0.5 * number(&cradle, "dent"));
+    assert!(predicted(&example("valve_seat"), &none, "dent").1.is_some());
+}
+
+/// `F / (pi D/2 (D - sqrt(D^2 - d^2)))`, with the force in kgf and lengths in mm, is the hardness that the scene says, within what the
+/// measurements say of its conversion.
+#[test]
+fn the_hardness_test_measures_the_hardness_that_it_is_given() {
+    let text = example("hardness_test");
+    let number = |name| predicted(&text, &json!({}), name).0;
+    let (force, radius) = (number("largest_force") / 9.806_65, 1e3 * number("largest_contact_radius"));
+    assert!((force / 1000.0 - 1.0).abs() < 0.02, "{force} kgf");
+    let (ball, dent) = (10.0, 2.0 * radius);
+    let hardness = force / (std::f64::consts::PI * ball / 2.0 * (ball - f64::sqrt(ball * ball - dent * dent)));
+    assert!((hardness / 200.0 - 1.0).abs() < 0.05, "{hardness} HBW");
 }
 
 #[test]

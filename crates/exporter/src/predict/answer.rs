@@ -21,6 +21,8 @@ pub struct Answer<'a> {
     /// Height of fall [m], if it determines the speed.
     fall: Option<f64>,
     predictions: Vec<Prediction>,
+    /// The standard deviation of the softer body's strength that who asks gives \[-\].
+    deviation: Option<f64>,
     /// What the uncertainty of a strength makes of each.
     bands: Vec<Option<Bands>>,
 }
@@ -41,9 +43,16 @@ impl Answer<'_> {
         if let ([choice], [prediction]) = (choices, &predictions[..]) {
             check_width(scene, 0, &choice.laws, &impact, prediction, &[])?;
         }
-        let both = choices.iter().zip(&predictions);
-        let bands = both.map(|(choice, prediction)| Bands::of(scene, choice, &impact, prediction)).collect();
-        Ok(Answer { scene, choices, impact, fall, predictions, bands })
+        let bands = Vec::new();
+        Ok(Answer { scene, choices, impact, fall, predictions, deviation: None, bands }.with_deviation(None))
+    }
+
+    /// The same where the strength of the softer body has this standard deviation \[-\], in place of the one that its reading has.
+    pub fn with_deviation(mut self, deviation: Option<f64>) -> Self {
+        let bands = |(choice, prediction)| Bands::of(self.scene, choice, &self.impact, prediction, deviation);
+        self.bands = self.laws().map(bands).collect();
+        self.deviation = deviation;
+        self
     }
 
     fn laws(&self) -> impl Iterator<Item = (&Choice, &Prediction)> {
@@ -85,7 +94,7 @@ impl Answer<'_> {
     fn notes(&self) -> Vec<String> {
         // several laws have a table without them
         let has_ranges = self.choices.len() == 1 && self.bands.iter().any(Option::is_some);
-        let spread = has_ranges.then(|| spread::note(self.scene)).flatten();
+        let spread = has_ranges.then(|| spread::note(self.scene, self.deviation)).flatten();
         let notes = notes::of(self.scene, &self.impact, self.choices, &self.predictions);
         spread.into_iter().chain(notes).collect()
     }

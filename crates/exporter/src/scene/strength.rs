@@ -43,6 +43,18 @@ impl Flow {
         }
     }
 
+    /// The same at a flow stress of `factor` times this one, at every strain.
+    fn times(&self, factor: f64) -> Flow {
+        match self {
+            Flow::Line(law) => Flow::Line(PowerLaw { coefficient: factor * law.coefficient, ..*law }),
+            Flow::Measured(measured) => {
+                let mut scaled = measured.clone();
+                scaled.stress *= factor;
+                Flow::Measured(scaled)
+            }
+        }
+    }
+
     /// The reading that it is from, if it is from one.
     pub fn measured(&self) -> Option<&MeasuredStrength> {
         match self {
@@ -540,16 +552,30 @@ impl Scene {
         Some(self.with_strengths(&found))
     }
 
-    /// The scene's first contact alone, with a `body` whose strength is so many times what a reading says. `None` if it is from no reading.
+    /// The scene's first contact alone, with a `body` whose strength is so many times as high at every strain. `None` if it has none.
     pub fn with_strength_of(mut self, body: Body, factor: f64) -> Option<Scene> {
+        if !(factor > 0.0) {
+            return None;
+        }
         self.contacts.truncate(1);
-        let mut measured = self.measured(0, body)?.clone();
-        measured.stress *= factor;
-        let flow = Flow::Measured(measured);
-        let flows = &mut self.contacts[0].flows;
-        let slot = if body == Body::Impactor { &mut flows.impactor } else { &mut flows.target };
-        *slot = (factor > 0.0).then(|| flow.into());
-        slot.is_some().then_some(self)
+        let is_softer = body == self.softer(0);
+        if let Some(flow) = self.flow_of(0, body) {
+            let scaled = flow.times(factor).into();
+            let flows = &mut self.contacts[0].flows;
+            *(if body == Body::Impactor { &mut flows.impactor } else { &mut flows.target }) = Some(scaled);
+            return Some(self);
+        }
+        self.group_value(0, body.yield_strength())?;
+        let strengths = [body.yield_strength(), body.hardening_modulus()];
+        let own = self.contacts[0].own.iter_mut();
+        for parameter in self.parameters.iter_mut().chain(own).filter(|parameter| strengths.contains(&parameter.name)) {
+            parameter.value *= factor;
+        }
+        let slow = &mut self.quasi_static[0];
+        let slow = if body == Body::Impactor { &mut slow.impactor } else { &mut slow.target };
+        *slow = slow.times(factor);
+        self.yield_strength = self.yield_strength.map(|strength| if is_softer { factor * strength } else { strength });
+        Some(self)
     }
 
     /// The scene with the strengths that its bodies have under a slow load. A power law keeps the straight line of the

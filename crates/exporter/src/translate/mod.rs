@@ -198,7 +198,7 @@ pub fn translate(scene: &Scene, request: &Request) -> Result<Translation, Transl
         ways,
         left_out,
         notes,
-        spread: spread::of_impact(scene, &Impact { mass, speed }).map(|(_, bands)| bands.json()),
+        spread: spread::of_impact(scene, &Impact { mass, speed }, None).map(|(_, bands)| bands.json()),
     })
 }
 
