@@ -61,10 +61,12 @@ impl Question {
 /// What `brinell predict --json` says, and its words.
 pub fn predict(asked: &Asked) -> Result<Value, Refused> {
     let Question { scene, choices, impact } = Question::of(asked)?;
-    let answer = Answer::of(&scene, &choices, impact, None)?.with_deviation(deviation(asked)?);
+    let given = deviation(asked)?;
+    let answer = Answer::of(&scene, &choices, impact, None)?.with_deviation(given);
     let mut said = answer.json();
     said["text"] = json!(answer.text());
     said["contacts"] = json!(scene.contact_count());
+    said["deviation"] = json!(given.or_else(|| Some(scene.measured(0, scene.softer(0))?.uncertainty)));
     said["shape"] =
         shape(&scene, &choices[0].model.predict(&impact).ok_or("the impact is too hard for the law of the scene")?);
     Ok(said)

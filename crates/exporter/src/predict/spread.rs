@@ -11,6 +11,9 @@ use serde_json::{Value, json};
 /// The standard deviations between which 95 % of a normal distribution are.
 const NORMAL: f64 = 1.959_963_985;
 
+/// A relative difference that is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// The deviations at which each strength is tried \[bands]: both ends, and between, since some restitutions aren't monotone.
 const TRIED: [f64; 6] = [-1.0, -2.0 / 3.0, -1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
 
@@ -71,8 +74,8 @@ pub fn families(scene: &Scene, choice: &Choice, impact: &Impact, given: Option<f
 
 impl Bands {
     /// The bands of `impact` by the laws of `choice` around its `prediction`; the strength of the softer body may have a deviation that is
-    /// `given`. Each strength is independent of the other, and their parts add up as squares. `None` if no strength is uncertain, or where
-    /// one within the band is beyond the law.
+    /// `given`. Each strength is independent of the other, and their parts add up as squares. `None` if no strength is uncertain or none
+    /// matters, or where one within the band is beyond the law.
     pub fn of(
         scene: &Scene,
         choice: &Choice,
@@ -113,7 +116,9 @@ impl Bands {
             };
             [(middle - down).max(0.0), (middle + up).min(most)]
         };
-        (!families.is_empty()).then(|| Bands { bands: std::array::from_fn(band), regimes })
+        let bands = Bands { bands: std::array::from_fn(band), regimes };
+        // an uncertain strength may not matter: that of a body that stays elastic
+        bands.bands.iter().any(|[low, high]| high - low > ROUNDING * high).then_some(bands)
     }
 
     /// The band of the quantity `name`, if it has one.
