@@ -17,6 +17,14 @@ export interface Line {
   right?: boolean;
 }
 
+/** What is around a line because a strength is uncertain. */
+export interface Band {
+  line: Line;
+  x: number[];
+  low: number[];
+  high: number[];
+}
+
 export interface Axes {
   title: string;
   test: string;
@@ -30,8 +38,7 @@ const css = (name: string): string => getComputedStyle(document.documentElement)
 const scheme = matchMedia("(prefers-color-scheme: dark)");
 
 /** The value of a line at x, null beyond its ends; x of the line increase. */
-function read(line: Line, at: number): number | null {
-  const { x, y } = line;
+export function valueAt({ x, y }: Pick<Line, "x" | "y">, at: number): number | null {
   let low = 0;
   let high = x.length - 1;
   if (high < 0 || at < x[0]! || at > x[high]!) return null;
@@ -45,7 +52,7 @@ function read(line: Line, at: number): number | null {
 }
 
 /** Points of x at which all lines are drawn: evenly spaced, and the ends of each. */
-function grid(lines: Line[]): number[] {
+function grid(lines: Pick<Line, "x">[]): number[] {
   const ends = lines.flatMap(({ x }) => [x[0], x.at(-1)]).filter((end) => end !== undefined);
   const longest = lines.reduce<number[]>((best, { x }) => (x.length > best.length ? x : best), []);
   const [first, last] = [Math.min(...ends), Math.max(...ends)];
@@ -61,6 +68,7 @@ export class Chart {
   readonly #readout: HTMLElement;
   #uplot: uPlot | null = null;
   #lines: Line[] = [];
+  #bands: Band[] = [];
   #shape = "";
   #mark: number | undefined;
 
@@ -70,22 +78,24 @@ export class Chart {
     this.#readout = h("p", { class: "readout", "data-test": `${axes.test}.readout` });
     this.element = h("figure", { class: "chart", "data-test": axes.test }, h("figcaption", {}, axes.title), this.#plot, this.#readout);
     new ResizeObserver(() => this.#uplot?.setSize(this.#size())).observe(this.#plot);
-    scheme.addEventListener("change", () => ((this.#shape = ""), this.draw(this.#lines)));
+    scheme.addEventListener("change", () => ((this.#shape = ""), this.draw(this.#lines, this.#bands)));
   }
 
-  /** Draws lines; a logarithmic axis has a mark where the scene is. */
-  draw(lines: Line[], mark = this.#mark): void {
+  /** Draws lines, and bands around some of them; a logarithmic axis has a mark where the scene is. */
+  draw(lines: Line[], bands: Band[] = [], mark = this.#mark): void {
     this.#lines = lines;
+    this.#bands = bands;
     this.#mark = mark;
     const { x, y, right } = this.axes;
     const sides = [lines.filter((line) => !line.right), lines.filter((line) => line.right)] as const;
     const horizontal = x.logarithmic ? { factor: 1, unit: x.unit } : scaled(Math.max(...lines.map((line) => largest(line.x))), x.unit);
     const scales = sides.map((side, index) => scaled(Math.max(...side.map((line) => largest(line.y))), (index ? right?.unit : y.unit) ?? ""));
-    const points = lines.length ? grid(lines) : [];
+    const points = lines.length ? grid([...lines, ...bands]) : [];
+    const edges = bands.flatMap(({ line, x, low, high }) => [low, high].map((y) => ({ ...line, x, y })));
     const data = [points.map((point) => point / horizontal.factor),
-      ...lines.map((line) => points.map((point) =>
-        ((value) => value === null ? null : value / scales[line.right ? 1 : 0]!.factor)(read(line, point))))] as uPlot.AlignedData;
-    const shape = JSON.stringify([horizontal, scales, lines.map(({ law, what, colour }) => [law, what, colour])]);
+      ...[...lines, ...edges].map((line) => points.map((point) =>
+        ((value) => value === null ? null : value / scales[line.right ? 1 : 0]!.factor)(valueAt(line, point))))] as uPlot.AlignedData;
+    const shape = JSON.stringify([horizontal, scales, bands.length, lines.map(({ law, what, colour }) => [law, what, colour])]);
     if (shape === this.#shape && this.#uplot) {
       this.#uplot.setData(data);
       this.#read(this.#uplot.cursor.idx ?? null);
@@ -110,11 +120,16 @@ export class Chart {
       series: [{}, ...lines.map((line): uPlot.Series => ({
         scale: line.right ? "right" : "y", stroke: css(`--series-${line.colour % 8}`), width: line.thin ? 1 : 2,
           dash: line.dashed ? [5, 4] : undefined, points: { show: false }, pxAlign: 0,
-      }))],
+      })), ...edges.map((line): uPlot.Series => ({ scale: line.right ? "right" : "y", width: 0, points: { show: false }, pxAlign: 0 }))],
+      bands: bands.map(({ line }, at) => ({ series: [lines.length + 2 * at + 2, lines.length + 2 * at + 1] as [number, number],
+        fill: `${css(`--series-${line.colour % 8}`)}30` })),
       hooks: { setCursor: [(plot) => this.#read(plot.cursor.idx ?? null)], drawAxes: [(plot) => this.#marked(plot)] },
     }, data, this.#plot);
     this.#read(null);
   }
+
+  /** Whether these lines are still the ones that are drawn. */
+  shows = (lines: Line[]): boolean => this.#lines === lines;
 
   #marked({ ctx: pen, bbox, valToPos }: uPlot): void {
     if (this.#mark === undefined || !this.axes.x.logarithmic) return;
@@ -153,7 +168,12 @@ export class Chart {
       const number = typeof value === "number" ? value * scaledBy(this.#lines, line.right ?? false, side?.unit ?? "") : null;
       const swatch = h("i", { style: `--c: var(--series-${line.colour % 8})`, class: line.dashed ? "dashed" : "" });
       if (number === null) return [h("span", {}, swatch, line.law)];
-      return [h("span", {}, swatch, `${[line.law, line.what].filter(Boolean).join(", ")} `, h("b", {}, spoken(number, side?.unit ?? "")))];
+      const band = this.#bands.findIndex((one) => one.line === line);
+      const ends = band < 0 ? [] : [1, 2].map((end) => plot.data[this.#lines.length + 2 * band + end]?.[index!]);
+      const scale = scaledBy(this.#lines, line.right ?? false, side?.unit ?? "");
+      const [low, high] = ends.map((one) => (typeof one === "number" ? spoken(one * scale, side?.unit ?? "") : null));
+      return [h("span", {}, swatch, `${[line.law, line.what].filter(Boolean).join(", ")} `, h("b", {}, spoken(number, side?.unit ?? "")),
+        low && high && low !== high ? ` (${low} to ${high})` : null)];
     });
     const place = inside ? spoken(plot.data[0][index]! * (x.logarithmic ? 1
       : scaled(Math.max(...this.#lines.map((line) => largest(line.x))), x.unit).factor), x.unit) : "";

@@ -48,6 +48,12 @@ export interface Material {
   youngs_modulus: number | null;
   poissons_ratio: number | null;
   yield_strength: number | null;
+  /** In place of a yield strength: a flow stress `K eps^n`, or a hardness. */
+  tension?: { coefficient: number; exponent: number } | null;
+  hardness?: string | null;
+  hardening_exponent?: number | null;
+  /** What to say wherever it is used. */
+  warning?: string | null;
 }
 
 export interface LawEntry {
@@ -66,6 +72,9 @@ export interface About {
   /** The usual units of each SI unit, with their sizes. */
   units: { [si: string]: [unit: string, size: number][] };
   platforms: { folder: string; title?: string; targets: string[] }[];
+  /** In the order of their numbers. */
+  regimes: { name: string; means: string }[];
+  examples: { title: string; look: string; text: string }[];
 }
 
 export interface Prediction {
@@ -84,8 +93,22 @@ export interface Prediction {
   rebound_speed: number;
   onsets: { regime_name: string; speed: number }[];
   warnings: string[];
-  /** What the uncertainty of a strength makes of some quantities: 95 % are within. */
+  /** What the uncertainty of a strength makes of the quantities, and of the regime: 95 % are within. */
   spread: Record<string, [number, number]> | null;
+}
+
+/** Of impactor and target. */
+export type Both = [impactor: number, target: number];
+
+/** What a drawing needs beside the numbers of the impact. */
+export interface Shape {
+  /** 0 for a flat, below 0 for a socket [m]. */
+  radii: Both;
+  /** Parts of the elastic compliance, and of the dent. */
+  elastic: Both;
+  dent: Both;
+  /** Whether it is known how much of the dent each body has. */
+  dent_is_known: boolean;
 }
 
 export interface Predict {
@@ -97,12 +120,26 @@ export interface Predict {
   notes: string[];
   strength: { yield_strength: number } | null;
   text: string;
+  shape: Shape;
+  /** Relative standard deviation of the softer body's strength, if it has one. */
+  deviation: number | null;
 }
 
 /** Columns of numbers of several laws: a curve, a history or a sweep. */
 export interface Columns {
   columns: { name: string; unit: string }[];
   laws: ({ law: string } & { [column: string]: number[] | string })[];
+}
+
+/** The same with each uncertain strength throughout its band. */
+export interface Families {
+  families: Columns[];
+}
+
+/** The bands of each speed. */
+export interface SweepBands {
+  speed: number[];
+  bands: (Record<string, [number, number]> | null)[];
 }
 
 export interface Way {
@@ -134,8 +171,37 @@ export interface Bounce {
   };
 }
 
+/** What an impact is compared by; null where a tool does not define it. */
+export interface Outcome {
+  restitution: number;
+  largest_force: number | null;
+  contact_time: number | null;
+  depth: number | null;
+}
+
+export interface Translated {
+  name: string;
+  title: string;
+  law: string;
+  block: string;
+  /** Of each speed: the mean over where in a step the bodies touch, and the least and the most. */
+  promised: (Outcome & { least_restitution: number; most_restitution: number })[];
+  notes: string[];
+}
+
 export interface Translate {
-  translation: { title: string; reference: string; versions: string; ways: { name: string; title: string; block: string }[] };
+  translation: {
+    title: string;
+    reference: string;
+    versions: string;
+    speed: number;
+    speeds: number[];
+    /** What the scene's law says at these speeds. */
+    wanted: Outcome[];
+    ways: Translated[];
+    left_out: string[];
+    notes: string[];
+  };
   text: string;
 }
 
@@ -154,6 +220,7 @@ export interface Methods {
   curve: Columns;
   history: Columns;
   sweep: Columns;
+  bands: Families & SweepBands;
   libraries: Table;
   export: Exported;
   scene_of: { text: string };

@@ -258,6 +258,21 @@ export function materialOf(context: Context, path: Path): Material | undefined {
   return name ? materials(context).find((material) => [material.name, ...(material.aliases ?? [])].some((one) => one.toLowerCase() === name)) : undefined;
 }
 
+/** All numbers of a material, as its entry has them. */
+function numbersOf(one: Material): string {
+  const { youngs_modulus: young, poissons_ratio: poisson, yield_strength: strength, tension, hardness, hardening_exponent: exponent, density } = one;
+  return [
+    young && `E ${tidy(young / 1e9)} GPa`,
+    poisson && `ν ${tidy(poisson)}`,
+    strength && `S ${tidy(strength / 1e6)} MPa`,
+    tension && `flow stress ${tidy(tension.coefficient / 1e6)} MPa · ε^${tidy(tension.exponent)}`,
+    hardness && `strength from ${hardness}`,
+    exponent && `hardening exponent ${tidy(exponent)}`,
+    !(strength || tension || hardness) && "stays elastic",
+    density && `${tidy(density)} kg/m³`,
+  ].filter(Boolean).join(", ");
+}
+
 /** A material by name, searched by any of its names. */
 export function material(context: Context, path: Path, look: Look = {}): Field {
   const list = h("ul", { role: "listbox", id: id(), "aria-label": "materials", popover: "manual", class: "choices", tabindex: -1, "data-test": `${key(path)}.list` });
@@ -266,8 +281,10 @@ export function material(context: Context, path: Path, look: Look = {}): Field {
       placeholder: "name, number or grade",
     onfocus: () => (input.select(), open("")), onclick: () => open(""), oninput: () => open(input.value), onblur: () => (close(), field.update()), onkeydown: keys,
   });
+  const numbers = h("p", { class: "source", "data-test": `${key(path)}.numbers` });
   const source = h("p", { class: "source", "data-test": `${key(path)}.source` });
-  const { element, mark } = shell(context, path, look, h("div", {}, input, list, source), input);
+  const warning = h("p", { class: "source", "data-test": `${key(path)}.warning` });
+  const { element, mark } = shell(context, path, look, h("div", {}, input, list, numbers, source, warning), input);
   let active = -1;
 
   function open(search: string): void {
@@ -278,8 +295,7 @@ export function material(context: Context, path: Path, look: Look = {}): Field {
       ...hits.map((one) =>
         h("li", { role: "option", id: id(), "aria-selected": "false", "data-value": one.name,
           onmousedown: (event: Event) => (event.preventDefault(), take(one.name)) },
-          h("b", {}, one.name), h("small", {}, [one.youngs_modulus && `${tidy(one.youngs_modulus / 1e9)} GPa`,
-            ...(one.aliases ?? []).slice(0, 3)].filter(Boolean).join(" · "))),
+          h("b", {}, one.name), h("small", {}, [numbersOf(one), ...(one.aliases ?? []).slice(0, 3)].join(" · "))),
       ),
     );
     active = -1;
@@ -325,7 +341,9 @@ export function material(context: Context, path: Path, look: Look = {}): Field {
       const value = context.scene.value(...path);
       if (!focused(input)) input.value = typeof value === "string" ? value : "";
       const found = materialOf(context, path);
+      numbers.textContent = found ? numbersOf(found) : "";
       source.textContent = found?.source ? `Source: ${found.source}` : "";
+      warning.textContent = found?.warning ?? "";
     },
   };
   return field;

@@ -1,24 +1,40 @@
-// What will happen: the impact in words and numbers, its curves, and sliders to play with it. Every answer is of the newest text.
-import type { About, Columns, Mistake, Predict, Prediction } from "./contract";
-import { Chart, type Line } from "./charts";
+// What will happen: the impact in words, numbers and a drawing, its curves, and sliders to play with it. Every answer is of the newest text.
+import { type Band, Chart, type Line } from "./charts";
+import { cards, meanings, regimes, sentence } from "./cards";
+import type { About, Columns, Families, Mistake, Predict, Prediction, SweepBands } from "./contract";
+import { bandsOf, bandsOverSpeed, cycle, plain } from "./curves";
 import { describe, fold, h } from "./dom";
+import { Drawing } from "./drawing";
 import type { Context } from "./fields";
-import { materialOf } from "./fields";
 import { type Engine, Refusal } from "./engine";
-import { digits, format, inUnit, pretty } from "./units";
+import { type Knob, knobs } from "./knobs";
+import { digits, format } from "./units";
 
-const percent = (part: number): string => `${Number((100 * part).toPrecision(3))} %`;
+/** Laws in common use, which one switch shows. */
+const COMMON = ["big-alabo", "ma-liu", "jackson-green", "thornton"];
 
 /** The laws to show beside the scene's own. */
 export class Comparison {
   readonly element: HTMLElement;
   readonly #boxes: HTMLInputElement[];
+  /** Shows the common ones, or none. */
+  readonly switch = h("input", { type: "checkbox", role: "switch", "data-test": "others", onchange: () => this.#all() });
 
-  constructor(about: About, changed: () => void) {
+  constructor(about: About, readonly changed: () => void) {
     const labels = [...about.laws.loading, ...about.laws.damped].map(({ name, title }) =>
-      h("label", { class: "check", title }, h("input", { type: "checkbox", value: name, "data-test": `compare.${name}`, onchange: changed }), ` ${name}`));
+      h("label", { class: "check", title }, h("input", { type: "checkbox", value: name, "data-test": `compare.${name}`, onchange: () => this.#one() }), ` ${name}`));
     this.#boxes = labels.map((label) => label.querySelector("input")!);
     this.element = fold("Compare laws", "compare", h("div", { class: "checks" }, ...labels));
+  }
+
+  #one(): void {
+    this.switch.checked = this.laws.length > 0;
+    this.changed();
+  }
+
+  #all(): void {
+    for (const box of this.#boxes) box.checked = this.switch.checked && COMMON.includes(box.value);
+    this.changed();
   }
 
   get laws(): string[] {
@@ -26,163 +42,23 @@ export class Comparison {
   }
 }
 
-interface Knob {
-  element: HTMLElement;
-  update(): void;
-}
-
-/** Units that a slider writes where the scene has none. */
-const SLID = ["um", "mm", "m", "MPa", "GPa", "mm/s", "m/s"];
-
-/** A slider over a decade to each side of the scene's value. */
-function knob({ scene, about }: Context, test: string, label: string,
-  target: () => { path: (string | number)[]; value: number; unit: string; scale?: string } | null): Knob {
-  const output = h("output", {});
-  const slider = h("input", { type: "range", min: -1, max: 1, step: 0.01, "data-test": `slider.${test}`, "aria-label": label, oninput: move,
-    onchange: () => (drag = null) });
-  const name = h("span", {}, label);
-  let middle = 0;
-  /** The drag under way: one step of undo. */
-  let drag: symbol | null = null;
-  function move(): void {
-    const now = target();
-    if (!now || !middle) return;
-    const value = Number((middle * 10 ** Number(slider.value)).toPrecision(3));
-    const written = scene.written(...now.path);
-    const sizes = new Map(written?.size ? [[written.unit, written.size]] : (about.units[now.unit] ?? []).filter(([unit]) => SLID.includes(unit)));
-    const quantity = now.scale === undefined ? inUnit(value, now.unit, sizes, written?.unit) : { digits: String(value), unit: now.scale };
-    scene.type(now.path, { text: String(Number(Number(quantity.digits).toPrecision(3))), unit: quantity.unit }, (drag ??= Symbol()));
-    show(value, now);
-  }
-  function show(value: number, now: { unit: string; scale?: string }): void {
-    output.textContent = now.scale === undefined ? format(value, now.unit, 3) : `${value} ${now.scale}`;
-  }
-  return {
-    element: h("label", { class: "knob" }, h("span", { class: "knob-label" }, name, output), slider),
-    update() {
-      const now = target();
-      slider.disabled = !now;
-      if (!now) return void (output.textContent = "–");
-      const written = scene.written(...now.path);
-      if (written) output.textContent = `${written.digits} ${pretty(written.unit)}`;
-      else show(now.value, now);
-      name.textContent = now.path.at(-1) === "drop_height" ? "Drop height" : label;
-      const away = middle ? Math.log10(now.value / middle) : Infinity;
-      // not every browser focuses a slider that is dragged
-      if (Math.abs(away) <= 1.001 && (drag || document.activeElement === slider)) {
-        if (!drag) slider.value = String(away);
-        return;
-      }
-      middle = now.value;
-      slider.value = "0";
-    },
-  };
-}
-
-function knobs(context: Context): Knob[] {
-  const { scene } = context;
-  const at = (path: string[], unit: string): { path: string[]; value: number; unit: string } | null => {
-    const value = scene.si(...path);
-    return value && value > 0 ? { path, value, unit } : null;
-  };
-  return [
-    knob(context, "speed", "Speed", () => at(["impact", "drop_height"], "m") ?? at(["impact", "speed"], "m/s")),
-    knob(context, "radius", "Radius", () => at(["impactor", "radius"], "m")),
-    knob(context, "strength", "Target strength", () => {
-      const hardness = scene.written("target", "hardness");
-      if (hardness) return { path: ["target", "hardness"], value: Number(hardness.digits), unit: "", scale: hardness.unit };
-      const given = at(["target", "yield_strength"], "Pa") ?? at(["target", "tensile_strength"], "Pa");
-      const material = materialOf(context, ["target", "material"])?.yield_strength;
-      return given ?? (material ? { path: ["target", "yield_strength"], value: material, unit: "Pa" } : null);
-    }),
-  ];
-}
-
-/** The impact in one or two sentences. */
-function sentence(law: Prediction): string {
-  const back = law.rebound_speed > 0 ? `It bounces back with ${percent(law.restitution)} of its speed.` : "It doesn't bounce back.";
-  if (law.dent > 0) return `A dent ${format(law.dent, "m", 3)} deep and ${format(2 * law.largest_contact_radius, "m", 3)} wide remains. ${back}`;
-  return `No dent remains: the contact stays elastic. ${back}`;
-}
-
-function card(test: string, label: string, value: string, more: string): HTMLElement {
-  const [number = "", ...unit] = /^\d/.test(value) ? value.split(" ") : [value];
-  return h("div", { class: "card", "data-test": `card.${test}` }, h("dt", {}, label),
-    h("dd", {}, h("b", {}, number), h("span", {}, unit.join(" ")), h("small", {}, more)));
-}
-
-/** The range that the uncertainty of a strength makes of a quantity, before what else a card says. */
-function range(law: Prediction, name: string, unit: string): string {
-  const [low, high] = law.spread?.[name] ?? [0, 0];
-  return high - low > 1e-9 * high ? `${format(low, unit, 3)} to ${format(high, unit, 3)}; ` : "";
-}
-
-function cards(law: Prediction): HTMLElement[] {
-  const time = law.loading_time + law.unloading_time;
-  return [
-    card("force", "Largest force", format(law.largest_force, "N"), `${range(law, "largest_force", "N")}at ${format(law.largest_indentation, "m", 3)} of indentation`),
-    card("dent", "Dent", law.dent > 0 ? format(law.dent, "m") : "none",
-      range(law, "dent", "m") + (law.dent > 0 ? `${format(2 * law.largest_contact_radius, "m", 3)} in diameter` : "no yielding")),
-    card("restitution", "Restitution", String(Number(law.restitution.toPrecision(4))), `${range(law, "restitution", "")}leaves with ${format(law.rebound_speed, "m/s", 3)}`),
-    card("time", "Contact time", format(time, "s"), `${format(law.loading_time, "s", 3)} in, ${format(law.unloading_time, "s", 3)} out`),
-    card("energy", "Energy lost", format(law.energy_lost, "J"), `${percent(law.energy_lost / law.kinetic_energy)} of ${format(law.kinetic_energy, "J", 3)}`),
-    card("regime", "Regime", law.regime_name.replace(/ \(.*/, ""), /\((.*)\)/.exec(law.regime_name)?.[1] ?? (law.onsets.length ? "" : "at any speed")),
-  ];
-}
-
-/** From which speed on what happens, with the scene's own speed. */
-function regimes(law: Prediction, speed: number): HTMLElement | null {
-  if (law.onsets.length === 0) return null;
-  const steps = [{ regime_name: "elastic", speed: 0 }, ...law.onsets];
-  const first = format(law.onsets[0]?.speed, "m/s", 3);
-  const reached = steps.filter((step) => step.speed <= speed).length - 1;
-  return h("ol", { class: "regimes", "data-test": "regimes", "aria-label": "regimes by speed" },
-    ...steps.map((step, index) => h("li", { class: index === reached ? "now" : "", "aria-current": index === reached ? "true" : null },
-      h("b", {}, step.regime_name), h("small", {}, index ? `from ${format(step.speed, "m/s", 3)}` : `below ${first}`))));
-}
-
-/** A curve that turns back, cut where it turns: loading lines, and thin ones for what lies inside. */
-function cycle(answer: Columns, from: number): Line[] {
-  return answer.laws.flatMap((law, index) => {
-    const [x, y] = [law.indentation as number[], law.force as number[]];
-    const lines: Line[] = [];
-    let start = 0;
-    let deepest = -Infinity;
-    for (let end = 1; end <= x.length; end++) {
-      const turned = end === x.length || (end - start > 1 && Math.sign(x[end]! - x[end - 1]!) * Math.sign(x[start + 1]! - x[start]!) < 0);
-      if (!turned) continue;
-      const rises = x[end - 1]! > x[start]!;
-      const piece = { x: x.slice(start, end), y: y.slice(start, end) };
-      if (!rises) {
-        piece.x.reverse();
-        piece.y.reverse();
-      }
-      const last = end === x.length;
-      if (rises) {
-        const beyond = piece.x.findIndex((one) => one > deepest);
-        if (deepest > 0) lines.push({ law: law.law, what: "again", colour: from + index, thin: true, dashed: true, x: piece.x.slice(0, beyond),
-          y: piece.y.slice(0, beyond) });
-        lines.push({ law: law.law, colour: from + index, x: piece.x.slice(Math.max(0, beyond - 1)), y: piece.y.slice(Math.max(0, beyond - 1)) });
-        deepest = piece.x.at(-1) ?? deepest;
-      } else lines.push({ law: law.law, what: "unloading", colour: from + index, dashed: true, thin: !last, ...piece });
-      start = end - 1;
-    }
-    return joined(lines);
-  });
-}
-
-/** The pieces of loading as one line. */
-function joined(lines: Line[]): Line[] {
-  const loading = lines.filter((line) => !line.thin && !line.dashed);
-  const [first, ...more] = loading;
-  if (!first) return lines;
-  return [{ ...first, x: loading.flatMap(({ x }) => x), y: loading.flatMap(({ y }) => y) }, ...lines.filter((line) => !more.includes(line) && line !== first)];
-}
-
-const plain = (answer: Columns, x: string, y: string, from: number, more: Partial<Line> = {}): Line[] =>
-  answer.laws.map((law, index) => ({ law: law.law, colour: from + index, x: law[x] as number[], y: law[y] as number[], ...more }));
-
 const NONE: Columns = { columns: [], laws: [] };
+/** Speeds at which bands are found: each takes a dozen impacts. */
+const SPREAD_SPEEDS = 12;
+const NO_BANDS: Families & SweepBands = { families: [], speed: [], bands: [] };
+
+/** An FMU in a line, for who has heard of none, and the way out for who can't use one. */
+function whatAnFmuIs(go: (tab: string) => void): HTMLElement {
+  return h("p", { class: "note", "data-test": "fmu.what" },
+    "An FMU is this contact as one file, which Simulink, Dymola, OpenModelica, Python and many other simulators import. For one that can't, take the ",
+    h("button", { type: "button", class: "quiet", "data-test": "fmu.tools", onclick: () => go("tools") }, "numbers for your tool"), ".");
+}
+
+interface Doors {
+  /** Shows another part of the page. */
+  go(tab: string): void;
+  examples: HTMLElement;
+}
 
 export class Results {
   readonly element: HTMLElement;
@@ -190,8 +66,13 @@ export class Results {
   readonly summary = h("section", { class: "summary", "aria-label": "the impact in short", "data-test": "summary" });
   readonly #head = h("p", { class: "headline", "data-test": "headline", "aria-live": "polite" }, "…");
   readonly #problem = h("p", { class: "problem", "data-test": "problem", hidden: true });
+  readonly #picture = new Drawing();
   readonly #cards = h("dl", { class: "cards" });
   readonly #regimes = h("div", {});
+  readonly #meanings = h("dl", { class: "means" });
+  readonly #meaningFold = fold("What the regimes mean", "fold.regimes", this.#meanings);
+  readonly #deviation = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", "data-test": "deviation", oninput: () => void this.update() });
+  readonly #deviationWrong = h("p", { class: "wrong", role: "alert", "data-test": "deviation.wrong" });
   readonly #warnings = h("ul", { class: "warnings", "data-test": "warnings" });
   readonly #notes = h("ul", { class: "notes", "data-test": "notes" });
   readonly #noteFold = fold("Notes on this prediction", "fold.notes", this.#notes);
@@ -208,12 +89,17 @@ export class Results {
   prediction: Predict | null = null;
   readonly #listeners: (() => void)[] = [];
 
-  constructor(readonly context: Context, readonly drawing: Engine, readonly show: (mistake: Mistake) => void) {
+  constructor(readonly context: Context, readonly engines: { drawing: Engine; spreading: Engine }, readonly show: (mistake: Mistake) => void, doors: Doors) {
     this.#comparison = new Comparison(context.about, () => void this.update());
     this.#knobs = knobs(context);
+    const deviation = h("label", { title: "Standard deviation of the softer body's strength. A hardness has its own." }, "Strength uncertain by ",
+      this.#deviation, " %");
     this.element = h("div", { class: "results" },
-      this.#head, this.#problem, this.#cards, this.#regimes, this.#warnings,
+      h("div", { class: "hero" },
+        h("div", { class: "told" }, this.#head, this.#problem, doors.examples), this.#picture.element),
+      whatAnFmuIs(doors.go), this.#cards, this.#regimes, this.#meaningFold, this.#warnings,
       h("div", { class: "knobs" }, ...this.#knobs.map(({ element }) => element)),
+      h("div", { class: "row asked" }, deviation, h("label", { class: "check" }, this.#comparison.switch, " Curves of other laws"), this.#deviationWrong),
       h("div", { class: "charts" }, this.#curve.element, this.#history.element, this.#sweep.element),
       this.#comparison.element, this.#table,
       this.#noteFold,
@@ -237,18 +123,23 @@ export class Results {
     for (const { update } of this.#knobs) update();
     const { text } = scene;
     const laws = this.#comparison.laws;
+    const deviation = this.#given();
     try {
-      const prediction = await scene.engine.newest("predict", "predict", { text });
+      const prediction = await scene.engine.newest("predict", "predict", { text, deviation });
       if (!prediction) return;
       this.#tell(prediction);
       const range = `${Number((prediction.speed / 30).toPrecision(3))}:${Number((prediction.speed * 10).toPrecision(3))}:60`;
-      void this.#draw("curve", { text }, laws, (answer, from) => cycle(answer, from), this.#curve);
-      void this.#draw("history", { text }, laws, (answer, from) => plain(answer, "time", "force", from), this.#history);
-      void this.#draw("sweep", { text, sweep: [`speed=${range}`] }, laws,
+      const question = { text, deviation };
+      const force = (answer: Columns, from = 0): Line[] => cycle(answer, from);
+      void this.#draw("curve", question, laws, force, this.#curve,
+        (drawn, bands) => bandsOf(drawn, bands, force, [(line) => !line.dashed, (line) => Boolean(line.dashed && !line.thin)]));
+      const history = (answer: Columns, from = 0): Line[] => plain(answer, "time", "force", from);
+      void this.#draw("history", question, laws, history, this.#history, (drawn, bands) => bandsOf(drawn, bands, history, [() => true]));
+      void this.#draw("sweep", { ...question, sweep: [`speed=${range}`] }, laws,
         (answer, from) => [...plain(answer, "speed", "restitution", from, { what: "restitution" }),
-          ...plain(answer, "speed", "dent", from, { what: "dent", right: true, dashed: true })], this.#sweep);
+          ...plain(answer, "speed", "dent", from, { what: "dent", right: true, dashed: true })], this.#sweep, bandsOverSpeed);
       try {
-        const others = laws.length ? await this.drawing.newest("compare", "predict", { text, laws }) : null;
+        const others = laws.length ? await this.engines.drawing.newest("compare", "predict", { text, laws }) : null;
         this.#compare([...prediction.laws, ...(others?.laws ?? [])]);
       } catch (error) {
         this.#table.replaceChildren(h("p", { class: "wrong", role: "alert", "data-test": "comparison.wrong" }, describe(error)));
@@ -258,17 +149,36 @@ export class Results {
     }
   }
 
-  /** Draws the scene's own law, then those beside it. */
-  async #draw(method: "curve" | "history" | "sweep", question: { text: string; sweep?: string[] }, laws: string[],
-    lines: (answer: Columns, from: number) => Line[], chart: Chart): Promise<void> {
-    const engine = this.drawing;
+  /** The uncertainty that somebody types, as a part of one; undefined where there is none. */
+  #given(): number | undefined {
+    const text = this.#deviation.value.trim().replace(",", ".");
+    const value = Number(text);
+    const isRight = text === "" || (value >= 0 && value <= 40);
+    this.#deviationWrong.textContent = isRight ? "" : "The uncertainty is from 0 to 40 %.";
+    this.#deviation.setAttribute("aria-invalid", String(!isRight));
+    return text && isRight ? value / 100 : undefined;
+  }
+
+  /** Draws the scene's own law and those beside it; then its bands, which take longer. */
+  async #draw(method: "curve" | "history" | "sweep", question: { text: string; deviation?: number; sweep?: string[] }, laws: string[],
+    lines: (answer: Columns, from: number) => Line[], chart: Chart, bands: (drawn: Line[], answer: Families & SweepBands) => Band[]): Promise<void> {
+    const { drawing: engine, spreading } = this.engines;
     try {
       const own = engine.newest(method, method, question);
       // what the others can't is said below them
       const others = laws.length ? engine.newest(`${method} of others`, method, { ...question, laws }).catch(() => NONE) : NONE;
+      const few = question.sweep?.map((axis) => axis.replace(/:\d+$/, `:${SPREAD_SPEEDS}`));
+      const spread = spreading.newest(method, "bands", { ...question, sweep: few, of: method }).catch(() => NO_BANDS);
       const [first, second] = await Promise.all([own, others]);
-      if (first && second) chart.draw([...lines(first, 0), ...lines(second, 1)], this.prediction?.speed);
+      if (!first || !second) return;
+      const drawn = lines(first, 0);
+      // of the others, no second way through what has been
+      const all = [...drawn, ...lines(second, 1).filter(({ thin }) => !thin)];
+      chart.draw(all, [], this.prediction?.speed);
       chart.element.hidden = false;
+      const answer = await spread;
+      const around = answer ? bands(drawn, answer) : [];
+      if (around.length && chart.shows(all)) chart.draw(all, around, this.prediction?.speed);
     } catch {
       chart.element.hidden = true; // not every scene has every chart: the prediction says why
     }
@@ -283,8 +193,12 @@ export class Results {
     this.#head.textContent = sentence(law);
     this.summary.textContent = [format(law.largest_force, "N", 3), law.dent > 0 ? `dent ${format(law.dent, "m", 3)}` : "no dent",
       `restitution ${digits(law.restitution, 3)}`].join(" · ");
-    this.#cards.replaceChildren(...cards(law));
-    this.#regimes.replaceChildren(...[regimes(law, prediction.speed)].filter((one) => one !== null));
+    this.#picture.draw(prediction);
+    this.#cards.replaceChildren(...cards(law, this.context.about));
+    this.#regimes.replaceChildren(...regimes(law, prediction.speed, this.context.about));
+    this.#meaningFold.hidden = law.onsets.length === 0;
+    this.#meanings.replaceChildren(...meanings(law, this.context.about));
+    this.#deviation.placeholder = prediction.deviation === null ? "none" : String(Number((100 * prediction.deviation).toPrecision(2)));
     this.#warnings.replaceChildren(...law.warnings.map((text) => h("li", {}, text)));
     this.#noteFold.hidden = prediction.notes.length === 0;
     this.#notes.replaceChildren(...prediction.notes.map((text) => h("li", {}, text)));

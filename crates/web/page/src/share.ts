@@ -34,11 +34,13 @@ export class Share {
 
   #timer = 0;
 
+  copy = (): Promise<void> => copy(this.#link.value);
+
   constructor(scene: Scene, version: string) {
     this.element = h("div", { class: "share" },
       h("p", {}, "This link holds the whole scene. Whoever opens it sees what you see. The address of this page has it, too, so a reload loses nothing."), this.#link,
       h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "link.copy",
-        onclick: () => void copy(this.#link.value) }, "Copy link")),
+        onclick: () => void this.copy() }, "Copy link")),
       h("p", { class: "note" }, "Nothing is ever sent anywhere: a browser keeps what stands behind the # to itself, and this page forbids itself every connection (its content security policy says default-src 'none'). It works without a network; save it and keep it."),
       h("p", { class: "note" }, `Brinell ${version}`),
       fold("Licenses of what this page is made of", "fold.licenses", h("pre", { tabindex: 0 }, document.getElementById("licenses")?.textContent ?? "")));
