@@ -7,6 +7,7 @@ mod sweeps;
 
 use crate::command;
 use crate::command::{contents, empty_folder, run, scene};
+use brinell_testing::places;
 use serde_json::Value;
 use std::fs;
 use std::process::Command;
@@ -464,11 +465,20 @@ fn the_page_is_the_one_that_is_named_or_it_is_said_where_one_comes_from() {
     assert_eq!(app(&path).with_status(0).out.trim(), path);
     let missing = app("not here.html").with_status(1);
     assert!(missing.err.contains("BRINELL_PAGE = not here.html is no file"), "{}", missing.err);
-    // a copy that is in no clone
-    let copy = folder.path().join("brinell").with_extension(std::env::consts::EXE_EXTENSION);
-    fs::copy(brinell_testing::places::program(), &copy).unwrap();
-    let none = command::output(Command::new(&copy).args(["app", "--path"]).env_remove("BRINELL_PAGE")).with_status(1);
+    let (_folder, elsewhere) = program_in("a/b/c");
+    let none =
+        command::output(Command::new(&elsewhere).args(["app", "--path"]).env_remove("BRINELL_PAGE")).with_status(1);
     assert!(none.err.contains("packaging/page.py"), "{}", none.err);
+}
+
+/// The program under another path, below a new folder.
+fn program_in(below: &str) -> (tempfile::TempDir, std::path::PathBuf) {
+    let folder = tempfile::tempdir_in(places::temporary()).unwrap();
+    fs::create_dir_all(folder.path().join(below)).unwrap();
+    let program = folder.path().join(below).join("brinell").with_extension(std::env::consts::EXE_EXTENSION);
+    // a copy may still be open for writing in a process that another test has just started
+    fs::hard_link(places::program(), &program).unwrap();
+    (folder, program)
 }
 
 /// Writes the page that it is asked for, and counts how often.
@@ -478,13 +488,11 @@ const MAKE: &str = "import sys\nfrom pathlib import Path\nargs = sys.argv\nout =
 
 #[test]
 fn a_program_that_was_built_in_a_clone_makes_its_page_when_something_has_changed() {
-    let clone = empty_folder();
+    let (clone, program) = program_in("target/quick");
     let at = |name: &str| clone.path().join(name);
-    for folder in ["packaging", "crates/web/page/src", "target/quick"] {
+    for folder in ["packaging", "crates/web/page/src"] {
         fs::create_dir_all(at(folder)).unwrap();
     }
-    let program = at("target/quick/brinell").with_extension(std::env::consts::EXE_EXTENSION);
-    fs::copy(brinell_testing::places::program(), &program).unwrap();
     fs::write(at("crates/web/page/src/main.ts"), "").unwrap();
     fs::write(at("packaging/page.py"), MAKE).unwrap();
     let app = || command::output(Command::new(&program).args(["app", "--path"]).env_remove("BRINELL_PAGE"));
