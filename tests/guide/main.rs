@@ -7,6 +7,7 @@ mod book;
 mod code;
 mod comparisons;
 mod devices;
+mod elsewhere;
 mod large_strain;
 mod links;
 mod markdown;

@@ -44,6 +44,11 @@ fn the_model_description_is_valid() {
     pytest("test_model_description_is_valid.py", &all);
 }
 
+#[test]
+fn the_page_of_an_fmu_begins_with_lines_that_run_as_printed() {
+    pytest("test_first_lines.py", &scenes());
+}
+
 /// A steel ball of 5 mm that the FMU moves, on mild steel, with this loss.
 fn with_loss(name: &str, target: &str, law: &str, coupling: &str) -> PathBuf {
     let text = format!(

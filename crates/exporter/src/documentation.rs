@@ -3,6 +3,7 @@
 use crate::accuracy::accuracy;
 use crate::bodies;
 use crate::energy;
+use crate::first_lines;
 use crate::friction_text;
 use crate::html::{TEXT_STYLE, begin, escape, number, prose, quantity, unit};
 use crate::interface::Entry;
@@ -30,10 +31,10 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     let (name, description) = (escape(&scene.name), escape(&scene.description));
     begin(page, &name, TEXT_STYLE)?;
     writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
+    first_lines::section(page, plan)?;
     writeln!(
         page,
-        "<p>FMU (FMI 2.0 co-simulation) of the {} contact of {}: the closing speed of the bodies goes in, the contact \
-         force comes out. {}</p>",
+        "<h2>Coupling</h2>\n<p>FMU (FMI 2.0 co-simulation) of the {} contact of {}. {}</p>",
         if scene.has_friction() { "normal and tangential" } else { "normal" },
         contact(scene),
         coupling(scene)

@@ -13,6 +13,7 @@ th, td { text-align: left; padding: .25rem .75rem .25rem 0; border-bottom: 1px s
 td.n { text-align: right; white-space: nowrap; } td:last-child:not(.n) { min-width: 12rem; }
 figure { margin: 1rem 0; } svg { max-width: 100%; height: auto; }
 code { font-size: .95em; } p code, li code { overflow-wrap: anywhere; } sup { line-height: 0; }
+pre { overflow-x: auto; padding: .6rem .8rem; background: #8881; font-size: .85em; }
 @media (prefers-color-scheme: dark) { svg { filter: invert(.9) hue-rotate(180deg); } }";
 
 /// The beginning of a page, up to its heading.

@@ -50,6 +50,7 @@ pub mod columns;
 pub mod curve;
 pub mod documentation;
 pub mod energy;
+mod first_lines;
 mod friction_text;
 pub mod guard;
 pub mod hardness;
