@@ -12,7 +12,9 @@ from scene_page import ScenePage, export, scene
 
 TABS = ["result", "try", "download", "tools", "link"]
 OPEN_ALL = "() => document.querySelectorAll('details').forEach((folded) => (folded.open = true))"
-OVERFLOW = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+# of the page, and of each part of it that is shown
+OVERFLOW = """() => Math.max(...[document.documentElement, ...document.querySelectorAll(".panel")].filter((one) => one.checkVisibility())
+  .map((one) => one.scrollWidth - one.clientWidth))"""
 
 
 @pytest.mark.chromium
@@ -50,6 +52,7 @@ def test_menus_fields_and_buttons_show_all_of_their_text(opened: ScenePage) -> N
     for name in TABS:
         opened.at(f"tab.{name}").click()
         assert opened.page.evaluate(CUT) == [], name
+        assert opened.page.evaluate(OVERFLOW) == 0, name
 
 
 # What is right takes long to tell. In the dark only colours differ.
