@@ -5,8 +5,10 @@ import { format } from "./units";
 
 export const percent = (part: number): string => `${Number((100 * part).toPrecision(3))} %`;
 
-/** The impact in one or two sentences. */
-export function sentence(law: Prediction): string {
+/** The impact in one or two sentences. No line ends between a number and its unit. */
+export const sentence = (law: Prediction): string => said(law).replace(/(\d) /g, "$1\u00a0");
+
+function said(law: Prediction): string {
   const back = law.rebound_speed > 0 ? `It bounces back with ${percent(law.restitution)} of its speed.` : "It doesn't bounce back.";
   if (law.dent > 0) return `A dent ${format(law.dent, "m", 3)} deep and ${format(2 * law.largest_contact_radius, "m", 3)} wide remains. ${back}`;
   return `No dent remains: the contact stays elastic. ${back}`;
