@@ -21,6 +21,7 @@ mod record;
 mod schema;
 mod surface;
 mod tables;
+mod trades;
 
 use brinell_testing::{physics, python, skips};
 use std::env;
