@@ -77,6 +77,13 @@ def main(repository: str, documentation: str) -> None:
         r"git clone \S+ brinell", f"git clone {repository or 'REPOSITORY'} brinell", readme.read_text(encoding="utf-8")
     )
     readme.write_text(cloned, encoding="utf-8")
+    tools = ROOT / "docs/fmi-tools.json"
+    listed = re.sub(
+        r'"(\w+)": "(?:\S+?)(/blob/main/\S+)?"(?=,\n)',
+        lambda found: f'"{found[1]}": "{repository or "REPOSITORY"}{found[2] or ""}"' if found[1].lower().endswith("url") else found[0],
+        tools.read_text(encoding="utf-8"),
+    )
+    tools.write_text(listed, encoding="utf-8")
 
 
 if __name__ == "__main__":

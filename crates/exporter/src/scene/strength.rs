@@ -554,7 +554,8 @@ impl Scene {
 
     /// The scene's first contact alone, with a `body` whose strength is so many times as high at every strain. `None` if it has none.
     pub fn with_strength_of(mut self, body: Body, factor: f64) -> Option<Scene> {
-        if !(factor > 0.0) {
+        let is_strength = factor > 0.0;
+        if !is_strength {
             return None;
         }
         self.contacts.truncate(1);
