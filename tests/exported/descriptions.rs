@@ -257,6 +257,9 @@ fn the_author_of_a_scene_is_that_of_its_fmu_and_without_one_there_is_none() {
 fn the_page_of_an_fmu_is_written_for_readers() {
     for name in ["steel_ball", "mass_known", "damped", "slope", "everything"] {
         let (_, page) = texts(&unit::scene(name));
+        // the lines of Python have the numbers of Python
+        let (before, code) = page.split_once("<pre>").expect("lines that run the FMU");
+        let page = format!("{before}{}", code.split_once("</pre>").expect("their end").1);
         let (text, style) = (page.split("<svg").next().unwrap(), page.split("</style>").next().unwrap());
         let (_, rest) = page.split_once("</svg>").expect("a picture");
         for numbers in [text, rest] {
