@@ -93,7 +93,7 @@ impl Answer<'_> {
     /// What is to know of these predictions.
     fn notes(&self) -> Vec<String> {
         // several laws have a table without them
-        let has_ranges = self.choices.len() == 1 && self.bands.iter().any(Option::is_some);
+        let has_ranges = self.choices.len() == 1 && self.bands.iter().flatten().any(Bands::are_wide);
         let spread = has_ranges.then(|| spread::note(self.scene, self.deviation)).flatten();
         let notes = notes::of(self.scene, &self.impact, self.choices, &self.predictions);
         spread.into_iter().chain(notes).collect()

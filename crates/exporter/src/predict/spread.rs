@@ -74,8 +74,8 @@ pub fn families(scene: &Scene, choice: &Choice, impact: &Impact, given: Option<f
 
 impl Bands {
     /// The bands of `impact` by the laws of `choice` around its `prediction`; the strength of the softer body may have a deviation that is
-    /// `given`. Each strength is independent of the other, and their parts add up as squares. `None` if no strength is uncertain or none
-    /// matters, or where one within the band is beyond the law.
+    /// `given`. Each strength is independent of the other, and their parts add up as squares. `None` if no strength is uncertain, or where
+    /// one within the band is beyond the law.
     pub fn of(
         scene: &Scene,
         choice: &Choice,
@@ -116,9 +116,12 @@ impl Bands {
             };
             [(middle - down).max(0.0), (middle + up).min(most)]
         };
-        let bands = Bands { bands: std::array::from_fn(band), regimes };
-        // an uncertain strength may not matter: that of a body that stays elastic
-        bands.bands.iter().any(|[low, high]| high - low > ROUNDING * high).then_some(bands)
+        (!families.is_empty()).then(|| Bands { bands: std::array::from_fn(band), regimes })
+    }
+
+    /// Whether any is wider than rounding: an uncertain strength may not matter, as that of a body that stays elastic.
+    pub fn are_wide(&self) -> bool {
+        self.bands.iter().any(|[low, high]| high - low > ROUNDING * high)
     }
 
     /// The band of the quantity `name`, if it has one.
@@ -178,7 +181,7 @@ pub fn note(scene: &Scene, given: Option<f64>) -> Option<String> {
 
 /// The bands of `impact` by the scene's own law, in a sentence; `None` if no strength is uncertain.
 pub fn sentence(scene: &Scene, impact: &Impact) -> Option<String> {
-    let (prediction, bands) = of_impact(scene, impact, None)?;
+    let (prediction, bands) = of_impact(scene, impact, None).filter(|(_, bands)| bands.are_wide())?;
     let said = |name: &str, value: f64, unit| with_band(value, bands.get(name), unit);
     Some(format!(
         "The uncertainty of the strength spreads the impact at {}: restitution {}, largest force {}, dent {}, with a probability of 95 %. \
