@@ -285,19 +285,10 @@ class Tab:
 
     def set_viewport_size(self, size: dict[str, int]) -> None:
         # the window is larger by its frame
-        frame = [0, 0]
-        for _ in range(2):
-            self.driver.send(
-                "SetWindowRect", x=0, y=0, width=size["width"] + frame[0], height=size["height"] + frame[1]
-            )
-            with contextlib.suppress(AssertionError):
-                wait(
-                    lambda: self.evaluate("[innerWidth, innerHeight]") == [size["width"], size["height"]] or None,
-                    "a size",
-                )
-                return
-            width, height = self.evaluate("[innerWidth, innerHeight]")
-            frame = [frame[0] + size["width"] - width, frame[1] + size["height"] - height]
+        frame = self.evaluate("[outerWidth - innerWidth, outerHeight - innerHeight]")
+        wanted = [size["width"], size["height"]]
+        self.driver.send("SetWindowRect", x=0, y=0, width=wanted[0] + frame[0], height=wanted[1] + frame[1])
+        wait(lambda: self.evaluate("[innerWidth, innerHeight]") == wanted, f"a page of {wanted} pixels")
 
     def locator(self, css: str) -> Locator:
         return Locator(self, [["css", css]])
