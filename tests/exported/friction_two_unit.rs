@@ -92,7 +92,7 @@ fn the_unit_gives_the_same_bits_as_the_library() {
         contact.step_held(normal, STEP, &model.normal.yield_point(), || model).expect("within range");
         let predicted = contact.predicted_tangential_forces(&model, normal, STEP).expect("within range");
         let vectors =
-            [contact.tangential_forces(&model), contact.mean_tangential_forces(), contact.tangential_impulses()];
+            [contact.tangential_forces(&model, 0.0), contact.mean_tangential_forces(), contact.tangential_impulses()];
         let scalars = [contact.tangential_energy(&model), contact.friction_work(&model), contact.stick_radius(&model)];
         let expected = vectors.as_flattened().iter().chain(&scalars).chain(&predicted).map(|value| value.to_bits());
         assert_eq!(bits(&instance), expected.collect::<Vec<_>>());

@@ -181,7 +181,7 @@ fn a_contact_without_friction_has_no_tangential_quantities_whatever_its_law() {
         let others = [Quantity::Energy, Quantity::FrictionWork, Quantity::StickRadius];
         for quantity in of_direction.into_iter().flatten().chain(others) {
             let (first, second) = contact.tangential_derivatives(model, quantity, &course, &[course; 2]);
-            let all = [contact.tangential(model, quantity), first, second];
+            let all = [contact.tangential(model, quantity, 0.0), first, second];
             assert!(all.iter().all(|number| number.is_nan()), "{name}: {all:?}");
         }
         assert_eq!(contact.sliding(), Sliding::Apart, "{name}");

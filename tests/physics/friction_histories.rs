@@ -45,7 +45,7 @@ fn worst(model: &Model, seed: u64) -> [f64; 4] {
         scale = scale.max(contact.normal().elastic_energy(&model.normal)).max(bound);
         let excess = |one: f64, other: f64, size: f64| if one > other { (one - other) / size.max(1e-300) } else { 0.0 };
         let now = [
-            excess(size(contact.tangential_forces(&model)), coefficient * force, limit),
+            excess(size(contact.tangential_forces(&model, 0.0)), coefficient * force, limit),
             excess(work, contact.friction_work(&model), scale),
             excess(contact.friction_work(&model), bound, scale),
             excess(contact.stick_radius(&model), contact.contact_radius(&model), contact.contact_radius(&model)),
@@ -102,7 +102,7 @@ fn from_one_direction(model: &Model, seed: u64) -> [f64; 5] {
         let apart = |[x, y]: [f64; 2], expected: f64| (x - expected * angle.cos()).hypot(y - expected * angle.sin());
         let relative = |error: f64, size: f64| if size > 0.0 { error / size } else { error };
         let now = [
-            relative(apart(plane.tangential_forces(&model), line.tangential_force(&model)), limit),
+            relative(apart(plane.tangential_forces(&model, 0.0), line.tangential_force(&model)), limit),
             relative(apart(plane.mean_tangential_forces(), line.mean_tangential_force()), limit),
             relative(apart(plane.tangential_impulses(), line.tangential_impulse()), limit * time),
             relative((plane.tangential_energy(&model) - line.tangential_energy(&model)).abs(), scale),

@@ -123,7 +123,7 @@ fn a_touch_and_a_separation_in_two_steps_have_the_impulse_and_friction_work_of_a
 #[test]
 fn the_stick_radius_is_zero_in_sliding_and_never_above_the_contact_radius() {
     fn check<C: Contact<Model>>(name: &str, contact: &C, model: &Model) {
-        let (stick, radius) = (contact.tangential(model, Quantity::StickRadius), contact.contact_radius(model));
+        let (stick, radius) = (contact.tangential(model, Quantity::StickRadius, 0.0), contact.contact_radius(model));
         let what = format!("{name}: {stick:e} of {radius:e} m, {:?}", contact.sliding());
         match contact.sliding() {
             Sliding::Apart | Sliding::Sliding => assert_eq!(stick, 0.0, "{what}"),
@@ -177,7 +177,7 @@ fn derivatives_of_the_force_have_the_sign_of_its_change_while_the_motion_turns()
                 for direction in 0..2 {
                     let force = Quantity::Force(direction);
                     let first = contact.tangential_derivatives(&model, force, &normal, &tangential).0;
-                    let change = next.tangential(&model, force) - contact.tangential(&model, force);
+                    let change = next.tangential(&model, force, 0.0) - contact.tangential(&model, force, 0.0);
                     assert!(first.is_finite(), "{name}: {first:e}");
                     count += 1;
                     wrong += i32::from(first * change < 0.0 && change.abs() > 0.05 * limit);
@@ -242,7 +242,9 @@ fn a_force_is_extrapolated_better_with_its_second_derivative_than_without() {
                     for direction in 0..2 {
                         let force = Quantity::Force(direction);
                         let (first, second) = contact.tangential_derivatives(&model, force, &normal, &tangential);
-                        let change = moved.tangential(&model, force) - contact.tangential(&model, force) - first * time;
+                        let change = moved.tangential(&model, force, 0.0)
+                            - contact.tangential(&model, force, 0.0)
+                            - first * time;
                         without.push(change.abs() / limit);
                         with.push((change - 0.5 * second * time * time).abs() / limit);
                     }

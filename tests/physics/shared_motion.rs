@@ -79,7 +79,7 @@ impl<M, C: Contact<M> + SharedContact<M>> Group<M, C> {
     pub fn energy(&self) -> f64 {
         let of = |contact: &C, model: &M| {
             let quantities = [Quantity::Energy, Quantity::FrictionWork];
-            let friction: f64 = quantities.map(|quantity| contact.tangential(model, quantity)).iter().sum();
+            let friction: f64 = quantities.map(|quantity| contact.tangential(model, quantity, 0.0)).iter().sum();
             contact.work(model) + if C::HAS_FRICTION { friction } else { 0.0 }
         };
         self.contacts.iter().zip(&self.models).map(|(contact, model)| of(contact, model)).sum()

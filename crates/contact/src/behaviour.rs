@@ -177,8 +177,8 @@ pub trait Contact<M>: Copy {
     /// derivatives for the next step are those of no course. It has no effect without friction.
     fn set_tangential_end(&mut self, _direction: usize, _end: &Course) {}
 
-    /// A quantity of the friction; NaN without friction.
-    fn tangential(&self, _model: &M, _quantity: Quantity) -> f64 {
+    /// A quantity of the friction of bodies that close at this `rate` \[m/s\]; NaN without friction.
+    fn tangential(&self, _model: &M, _quantity: Quantity, _rate: f64) -> f64 {
         f64::NAN
     }
 

@@ -61,6 +61,9 @@ const GROWTH: f64 = 2.0;
 /// Largest number of iterations for the mean forces; each reduces the error by `(h omega/2)^2`.
 const ITERATIONS: u32 = 16;
 
+/// Iterations after which the limits of springs no longer change.
+const TURNS: u32 = 2;
+
 /// A change of a rate in an iteration that is rounding, relative to the largest rate.
 const CLOSE: f64 = 1e-13;
 
@@ -257,6 +260,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             for (row, stiffness) in member.rows.iter_mut().zip(member.contact.stiffnesses(model.borrow())) {
                 row.force = row.expected(time);
                 (row.stiffness_before, row.stiffness, row.beside) = (stiffness, stiffness, 0.0);
+                row.is_limited = false;
             }
         }
         let (bent, mut spent) = (time * time / 12.0, 0);
@@ -273,6 +277,8 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             for (place, member) in self.members_mut() {
                 member.moved = member.contact;
                 let refused = |deep| Refused::TooDeep(place, deep);
+                // springs that changed their limits in every turn would not come to an end
+                member.rows[0].knows_share = turn >= TURNS;
                 member.moved.go_straight(model(place).borrow(), &mut member.rows, time).map_err(refused)?;
                 spent += if C::DIRECTIONS > 1 { two } else { one };
             }
@@ -290,10 +296,11 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                     let force = if index == 0 { largest(force, 0.0) } else { force };
                     let off = time * sqrt(row.inverse_mass) * fabs(force - row.force);
                     change = if off > change || off.is_nan() { off } else { change };
+                    row.is_limited |= index > 0 && fabs(force) > row.most;
                     // for the next turn
                     (row.found, row.beside) = (force, bent * beside * normal.curved);
-                    // a contact that slides at last is taken as sliding
-                    let mean = if end > 0.0 { 0.5 * (start + end) } else { 0.0 };
+                    // a contact that slides at last, or would exceed its limit, is taken as sliding
+                    let mean = if end > 0.0 && !row.is_limited { 0.5 * (start + end) } else { 0.0 };
                     row.stiffness = [smallest(mean, most), 0.5 * (start_beside + end_beside)];
                 }
             }

@@ -74,8 +74,13 @@ pub struct Row {
     pub(crate) way: f64,
     /// Mean force on this way \[N\].
     pub(crate) found: f64,
+    /// Of the normal: the force with its loss as a part of the elastic one, and whether it is known.
+    pub(crate) share: f64,
+    pub(crate) knows_share: bool,
     /// Of a tangential direction: the largest mean force of all of them together that Coulomb's law allows \[N\].
     pub(crate) most: f64,
+    /// Whether its correction would exceed that.
+    pub(super) is_limited: bool,
     /// The stiffness at the start of the chord, and how the force grows with the indentation beside \[N/m\].
     pub(super) stiffness_before: [f64; 2],
     /// The same as means over the chord.

@@ -21,7 +21,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
     const FOLLOWS_RATE: bool = N::FOLLOWS_RATE;
     const DERIVATIVES: i32 = N::DERIVATIVES;
     // a state fits the library that computes the mean and the one that doesn't, which store the same numbers
-    const WORDS: usize = N::WORDS + SpringsOf::<D, M, true>::WORDS + 8 * D + 3;
+    const WORDS: usize = N::WORDS + SpringsOf::<D, M, true>::WORDS + 8 * D + 3 + N::LOSES as usize;
     const DIRECTIONS: usize = D;
 
     /// Where the contact begins to yield.
@@ -43,7 +43,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         let springs = SpringsOf::start(model, normal.plastic());
         let (none, courses) = (Sum::new(0.0), [Course::held(0.0); D]);
         let (mean_force, impulse) = ([0.0; D], [none; D]);
-        Ok(Rough { normal, springs, courses, ends: courses, mean_force, impulse, work: none, lost: 0.0 })
+        Ok(Rough { normal, springs, share: 1.0, courses, ends: courses, mean_force, impulse, work: none, lost: 0.0 })
     }
 
     /// Always false: the springs follow each step.
@@ -92,7 +92,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
                 }
                 Some(_) => {
                     let (force, time) = (moved.normal.force(course.rate), end - start);
-                    moved.go_with_loss(model, (increment, slip), (force, time))?.2
+                    moved.go_with_loss(model, (increment, slip), (force, time), None)?.1
                 }
             };
             impulse = add(impulse, end - start, mean);
@@ -220,10 +220,10 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         }
     }
 
-    fn tangential(&self, model: &RoughModel<L, U, N::Loss>, quantity: Quantity) -> f64 {
+    fn tangential(&self, model: &RoughModel<L, U, N::Loss>, quantity: Quantity, rate: f64) -> f64 {
         let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
         match quantity {
-            Quantity::Force(direction) => of(self.tangential_forces(model), direction),
+            Quantity::Force(direction) => of(self.tangential_forces(model, rate), direction),
             Quantity::MeanForce(direction) => of(self.mean_force, direction),
             Quantity::Impulse(direction) => of(self.tangential_impulses(), direction),
             Quantity::Energy => self.tangential_energy(model),
@@ -258,7 +258,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
     fn save(&self, store: &mut impl FnMut(u64)) {
         self.normal.save(store);
         self.springs.save(store);
-        let Rough { courses, ends, mean_force, impulse, work, lost, .. } = self;
+        let Rough { courses, ends, mean_force, impulse, work, lost, share, .. } = self;
         for (course, end) in courses.iter().zip(ends) {
             // the bend of the end is that of the course, which is over
             store_numbers(&[course.rate, course.slope, course.bend, end.rate, end.slope], store);
@@ -268,6 +268,9 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
             store_numbers(&[sum.value, sum.rest], store);
         }
         store_numbers(&[*lost], store);
+        if N::LOSES {
+            store_numbers(&[*share], store);
+        }
     }
 
     fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U, N::Loss>) -> Option<Self> {
@@ -281,14 +284,26 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
             *end = Course { rate: end_rate, slope: end_slope, bend: 0.0 };
         }
         let none = Sum::new(0.0);
-        let mut loaded =
-            Rough { normal, springs, courses, ends, mean_force: [0.0; D], impulse: [none; D], work: none, lost: 0.0 };
+        let mut loaded = Rough {
+            normal,
+            springs,
+            share: 1.0,
+            courses,
+            ends,
+            mean_force: [0.0; D],
+            impulse: [none; D],
+            work: none,
+            lost: 0.0,
+        };
         loaded.mean_force = load_numbers(words)?;
         for sum in loaded.impulse.iter_mut().chain([&mut loaded.work]) {
             let [value, rest] = load_numbers(words)?;
             *sum = Sum { value, rest };
         }
         [loaded.lost] = load_numbers(words)?;
+        if N::LOSES {
+            [loaded.share] = load_numbers(words)?;
+        }
         Some(loaded)
     }
 }

@@ -1,13 +1,26 @@
 //! A contact with friction: a normal contact, its springs, and the tangential rates.
 
-use super::{Normal, RoughModel, Sliding, SpringsOf};
+use super::vector::within;
+use super::{Friction, Normal, RoughModel, Sliding, SpringsOf};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
-use crate::numbers::largest;
+use crate::numbers::{largest, quotient};
 use crate::path::{Course, Sum};
 use crate::regime::TooDeep;
 use crate::unloading::Unloading;
+
+/// The least part of the elastic force that is a limit of springs: with less, they are as good as relaxed.
+const LEAST_SHARE: f64 = 1e-9;
+
+/// The largest multiple: where a contact begins, a damping without elastic force would be any.
+const MOST_SHARE: f64 = 1e3;
+
+/// The normal `force` \[N\] as a part of the `elastic` one, within the limits of what springs can have.
+pub(super) fn share_of(force: f64, elastic: f64) -> f64 {
+    let share = quotient(force, elastic, force < MOST_SHARE * elastic, MOST_SHARE);
+    if elastic > 0.0 { largest(share, LEAST_SHARE) } else { 1.0 }
+}
 
 /// An elastoplastic contact with friction in `D` tangential directions, whose springs form a list of `M` segments; sixteen are
 /// recommended.
@@ -19,6 +32,8 @@ use crate::unloading::Unloading;
 pub struct Rough<const D: usize, const M: usize, const MEAN: bool, N = History> {
     pub(super) normal: N,
     pub(super) springs: SpringsOf<D, M, true>,
+    /// The normal force as a part of the elastic one, by which the springs have their limits; 1 without a loss.
+    pub(super) share: f64,
     /// Tangential rates over the next step \[m/s\].
     pub(super) courses: [Course; D],
     /// Tangential rates at the end of the last step \[m/s\].
@@ -55,12 +70,32 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         self.courses = rates.map(Course::held);
     }
 
-    /// Tangential forces \[N\]; positive against positive rates.
+    /// Tangential forces \[N\] of bodies that close at this `rate` \[m/s\]; positive against positive rates.
     pub fn tangential_forces<L: Loading + Copy, U: Unloading + Copy>(
         &self,
         model: &RoughModel<L, U, N::Loss>,
+        rate: f64,
     ) -> [f64; D] {
-        self.springs.forces(&model.friction, self.normal().indentation())
+        let indentation = self.normal().indentation();
+        if !N::LOSES {
+            return self.springs.forces(&model.friction, indentation);
+        }
+        let mut now = *self;
+        let force = self.normal.force(rate);
+        now.share_limits(indentation, share_of(force, self.normal().force()));
+        within(now.springs.forces(&now.friction(model), indentation), model.friction.coefficient * force)
+    }
+
+    /// The friction by which the springs have their limits.
+    pub(super) fn friction<L, U>(&self, model: &RoughModel<L, U, N::Loss>) -> Friction {
+        Friction { coefficient: self.share * model.friction.coefficient, ..model.friction }
+    }
+
+    /// Gives the springs at this `indentation` \[m\] limits that are this share of those by the elastic force. Those beyond their new
+    /// limits slip.
+    pub(super) fn share_limits(&mut self, indentation: f64, share: f64) {
+        self.springs.scale_limits(indentation, share / self.share);
+        self.share = share;
     }
 
     /// Mean tangential forces of the last step \[N\].
@@ -86,12 +121,12 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     ) -> Result<[f64; D], TooDeep> {
         let mut moved = *self;
         moved.step(&Course::held(rate), step, || model)?;
-        Ok(moved.tangential_forces(model))
+        Ok(moved.tangential_forces(model, rate))
     }
 
     /// Elastic energy of the tangential strain \[J\].
     pub fn tangential_energy<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
-        self.springs.energy(&model.friction, self.normal().indentation())
+        self.springs.energy(&self.friction(model), self.normal().indentation())
     }
 
     /// Energy lost by slip since the start \[J\]: the work of the tangential force that is not stored.
@@ -127,7 +162,7 @@ impl<const N: usize, const MEAN: bool> RoughContact<N, MEAN> {
 
     /// Tangential force \[N\]; positive against a positive rate.
     pub fn tangential_force<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U>) -> f64 {
-        let [force] = self.tangential_forces(model);
+        let [force] = self.tangential_forces(model, 0.0);
         force
     }
 

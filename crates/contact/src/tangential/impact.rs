@@ -220,7 +220,7 @@ pub fn meet<L: Loading + Copy, U: Unloading + Copy, N: Normal>(
         let [state] = &before;
         now.impulses = [now.impulses[0] + impulses[0], now.impulses[1] + impulses[1]];
         now.contact_time += length;
-        let [force] = own.tangential_forces(model);
+        let [force] = own.tangential_forces(model, now.rates[0]);
         now.max_tangential_force = largest(now.max_tangential_force, fabs(force));
         // the state before the bodies separate is that of their last step
         let sliding = if ends { state.sliding() } else { own.sliding() };

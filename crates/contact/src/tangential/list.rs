@@ -2,7 +2,7 @@
 
 use super::SAME;
 use super::merge::merge;
-use super::vector::{add, difference, length};
+use super::vector::{add, difference, length, times};
 use super::vertex::Vertex;
 use crate::segment::Segment;
 
@@ -73,6 +73,13 @@ impl<const D: usize, const N: usize> List<D, N> {
         if let Some(slot) = self.vertices.get_mut(self.count) {
             *slot = vertex;
             self.count += 1;
+        }
+    }
+
+    /// Multiplies all offsets and slopes by `factor`.
+    pub(super) fn lengthen(&mut self, factor: f64) {
+        for vertex in self.vertices.iter_mut().take(self.count) {
+            (vertex.offset, vertex.slope) = (times(factor, vertex.offset), times(factor, vertex.slope));
         }
     }
 

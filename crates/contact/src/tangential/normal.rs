@@ -15,6 +15,9 @@ pub trait Normal: Copy {
     /// The loss in the model of the contact; `()` without one.
     type Loss: Copy;
 
+    /// Whether there is a loss: the force then differs from the elastic one, by which the springs of friction are made.
+    const LOSES: bool;
+
     /// Whether the force depends on the rate at the same instant.
     const FOLLOWS_RATE: bool;
 
@@ -92,6 +95,7 @@ type AnyModel = Model<crate::loading::Hertz, crate::unloading::ContactRadius>;
 impl Normal for History {
     type Loss = ();
 
+    const LOSES: bool = false;
     const FOLLOWS_RATE: bool = false;
     const DERIVATIVES: i32 = 2;
     const WORDS: usize = <History as Contact<AnyModel>>::WORDS;
@@ -176,6 +180,7 @@ fn with<L: Copy, U: Copy, X: Copy>(model: &Model<L, U>, loss: &X) -> losses::Mod
 impl<X: Loss> Normal for losses::History<X> {
     type Loss = X;
 
+    const LOSES: bool = true;
     const FOLLOWS_RATE: bool = X::FOLLOWS_RATE;
     const DERIVATIVES: i32 = if X::FOLLOWS_RATE { 1 } else { 0 };
     const WORDS: usize = <History as Normal>::WORDS + 4;

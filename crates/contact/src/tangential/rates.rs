@@ -19,7 +19,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     /// First and second time derivative of `quantity`, for motions that continue on these courses along the normal and in
     /// the tangential directions.
     ///
-    /// Those of the force are exact, except on a dent that grows, and the second one in two directions. All others result from
+    /// Those of the force are exact, except with a loss, on a dent that grows, and the second one in two directions. All others result from
     /// three trial steps, as in [`slopes`](crate::behaviour::slopes): their relative errors are about 1e-9 (first) and 1e-5 (second
     /// derivative), if the branch of the law and the segments that slip remain the same.
     pub(super) fn derivatives_of<L: Loading + Copy, U: Unloading + Copy>(
@@ -33,14 +33,20 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         let accelerations = (normal.slope, tangential.map(|course| course.slope));
         let indentation = self.normal().indentation();
         let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
-        let force = |direction| match self.springs.force_rates(&model.friction, indentation, rates, accelerations) {
+        let exact = match N::LOSES {
+            true => None,
+            false => self.springs.force_rates(&model.friction, indentation, rates, accelerations),
+        };
+        let force = |direction| match exact {
             Some([first, second]) => (of(first, direction), of(second, direction)),
             None => self.by_trial(model, Quantity::Force(direction), normal, tangential),
         };
         match quantity {
             Quantity::MeanForce(_) => (0.0, 0.0),
             Quantity::Force(direction) => force(direction),
-            Quantity::Impulse(direction) => (of(self.tangential_forces(model), direction), force(direction).0),
+            Quantity::Impulse(direction) => {
+                (of(self.tangential_forces(model, normal.rate), direction), force(direction).0)
+            }
             Quantity::Energy | Quantity::FrictionWork | Quantity::StickRadius => {
                 self.by_trial(model, quantity, normal, tangential)
             }
@@ -67,7 +73,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         if width == 0.0 {
             return (0.0, 0.0);
         }
-        let here = self.tangential(model, quantity);
+        let here = self.tangential(model, quantity, normal.rate);
         let (mut first, mut second) = (0.0, 0.0);
         for (steps, of_first, of_second) in [(1.0, 18.0, -5.0), (2.0, -9.0, 4.0), (3.0, 2.0, -1.0)] {
             let mut moved = *self;
@@ -75,7 +81,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
             if moved.step(normal, steps * width, || model).is_err() {
                 return (f64::NAN, f64::NAN);
             }
-            let rise = moved.tangential(model, quantity) - here;
+            let rise = moved.tangential(model, quantity, normal.rate) - here;
             first += of_first * rise;
             second += of_second * rise;
         }

@@ -121,21 +121,38 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     ) -> Result<[f64; D], TooDeep> {
         let from = contact.indentation();
         contact.advance(&model.normal, increment)?;
-        let to = contact.indentation();
+        Ok(self.follow(model, (from, contact.indentation()), slip, rates, asked))
+    }
+
+    /// Moves the springs as [`SpringsOf::advance_along`] does, of a contact that has completed its way between these indentations \[m\].
+    #[inline]
+    pub(super) fn follow<L: Loading, U: Unloading, X>(
+        &mut self,
+        model: &RoughModel<L, U, X>,
+        (from, to): (f64, f64),
+        slip: [f64; D],
+        rates: (f64, [f64; D]),
+        asked: Mean,
+    ) -> [f64; D] {
         let scale = model.friction.scale();
         let scaled = |lengths| times(scale, lengths);
         let way = Motion { from, to, shift: scaled(slip), normal: rates.0, tangential: scaled(rates.1) };
-        let pull = self.follow(model, &way, asked);
+        let pull = self.go_along(model, &way, asked);
         // a fresh surface forgets the dent once the bodies separate beyond the original surface
         if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
             self.curve = model.curve_below(0.0);
         }
-        Ok(times(model.friction.coefficient, pull))
+        times(model.friction.coefficient, pull)
+    }
+
+    /// Multiplies the limits of all springs of a contact at `indentation` \[m\] by a positive `factor`.
+    pub(super) fn scale_limits(&mut self, indentation: f64, factor: f64) {
+        self.stuck.scale_limits(&self.curve, indentation, factor);
     }
 
     /// Moves the springs along a `way` that the contact has completed: up to the growth of its dent, then over the
     /// pieces of the growth. Returns their mean force \[N\].
-    fn follow<L: Loading, U: Unloading, X>(
+    fn go_along<L: Loading, U: Unloading, X>(
         &mut self,
         model: &RoughModel<L, U, X>,
         way: &Motion<D>,

@@ -1,15 +1,16 @@
 //! A contact with friction that shares bodies with others.
 
+use super::contact::share_of;
 use super::normal::Straight;
-use super::vector::{add, length, times};
-use super::{Mean, Normal, Rough, RoughModel};
+use super::vector::{add, within};
+use super::{Friction, Mean, Normal, Rough, RoughModel};
 use crate::Model;
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
 use crate::motion::PlasticContact;
-use crate::numbers::{largest, quotient};
+use crate::numbers::largest;
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::shared::{Row, SharedContact};
@@ -61,7 +62,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
 
     fn set_forces(&self, model: &RoughModel<L, U, N::Loss>, rows: &mut [Row; 3]) {
         let [normal, ..] = *rows;
-        let tangential = self.tangential_forces(model);
+        let tangential = self.springs.forces(&self.friction(model), self.normal().indentation());
         for (row, force) in rows.iter_mut().zip([self.normal.force(normal.rate())].into_iter().chain(tangential)) {
             row.start = force;
         }
@@ -71,8 +72,9 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         let normal = self.normal();
         let (stick, edge) = self.springs.stiffnesses(normal.indentation());
         let mut rows = [[normal.stiffness(), 0.0], [0.0; 2], [0.0; 2]];
+        let Friction { coefficient, stiffness_ratio } = self.friction(model);
         for (row, edge) in rows.iter_mut().skip(1).zip(edge) {
-            *row = [model.friction.stiffness_ratio * stick, model.friction.coefficient * edge];
+            *row = [stiffness_ratio * stick, coefficient * edge];
         }
         rows
     }
@@ -86,11 +88,13 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         let [normal, tangents @ ..] = rows;
         let mut slip = [0.0; D];
         slip.iter_mut().zip(&*tangents).for_each(|(slip, row)| *slip = row.way);
-        let (mean, elastic, mut tangential) = self.go_with_loss(model, (normal.way, slip), (normal.force(), time))?;
+        let share = if normal.knows_share { Some(normal.share) } else { None };
+        let (mean, mut tangential) = self.go_with_loss(model, (normal.way, slip), (normal.force(), time), share)?;
+        normal.share = self.share;
         normal.found = mean;
         tangential.iter_mut().zip(&*tangents).for_each(|(mean, row)| *mean -= row.beside);
         // on the curved way the normal force differs as much
-        let most = largest(model.friction.coefficient * (elastic + (normal.force() - mean)), 0.0);
+        let most = largest(model.friction.coefficient * (mean + (normal.force() - mean)), 0.0);
         for ((row, mean), slip) in tangents.iter_mut().zip(within(tangential, most)).zip(slip) {
             (row.found, row.most) = (mean, most);
             self.work = self.work.plus(mean * slip);
@@ -109,38 +113,39 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
 
 impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
     /// Moves the contact on a short straight way: the bodies close by the first length and slip by the others \[m\], in a
-    /// `time` \[s\] and under a mean normal `force` \[N\] that matters to a target that gives way. Returns the mean normal force,
-    /// its part without a loss, and the mean tangential forces \[N\].
+    /// `time` \[s\] and under a mean normal `force` \[N\] that matters to a target that gives way. Returns the mean normal
+    /// force and the mean tangential forces \[N\].
     ///
-    /// With a fitted loss the tangential motion is damped as much as the normal one, within Coulomb's bound.
+    /// The limits of the springs add up to the normal force with its loss. With a fitted loss the tangential motion is damped as
+    /// much as the normal one, within Coulomb's bound.
     pub(super) fn go_with_loss<L: Loading + Copy, U: Unloading + Copy>(
         &mut self,
         model: &RoughModel<L, U, N::Loss>,
         (way, slip): (f64, [f64; D]),
         (force, time): (f64, f64),
-    ) -> Result<(f64, f64, [f64; D]), TooDeep> {
+        share: Option<f64>,
+    ) -> Result<(f64, [f64; D]), TooDeep> {
         let before = *self.normal();
         let straight = self.normal.loss().map(|loss| Straight::new(&loss, way, force, time, before.force() == 0.0));
         let increment = straight.as_ref().map_or(way, |straight| straight.increment);
         let elastic = Contact::mean_force(&before, &model.normal, increment / time, time)?;
-        let ways = (increment, slip);
-        let contact = self.normal.plastic_mut();
-        let mut mean = self.springs.advance_along(contact, model, ways, ways, Mean::OfEnds)?;
-        let mut normal = elastic;
-        if let Some(straight) = straight {
+        let from = before.indentation();
+        self.normal.plastic_mut().advance(&model.normal, increment)?;
+        let (mut normal, mut damping) = (elastic, 0.0);
+        if let Some(straight) = &straight {
             normal = straight.force(elastic, [&before, self.normal()].map(|it| (it.indentation(), it.stiffness())));
             let (swiftest, heat) = straight.lost(normal, elastic);
             self.normal.lose(&model.normal, &model.loss, swiftest, heat)?;
-            let damping = model.friction.stiffness_ratio * straight.tangential(elastic);
+            damping = model.friction.stiffness_ratio * straight.tangential(elastic);
+            self.share_limits(from, share.unwrap_or_else(|| share_of(normal, elastic)));
+        }
+        let springs_model = RoughModel { friction: self.friction(model), ..*model };
+        let to = self.normal().indentation();
+        let mut mean = self.springs.follow(&springs_model, (from, to), slip, (increment, slip), Mean::OfEnds);
+        if straight.is_some() {
             mean = add(mean, damping, slip.map(|slip| slip / time));
         }
         // the mean of both ends may be beyond the bound
-        Ok((normal, elastic, within(mean, model.friction.coefficient * elastic)))
+        Ok((normal, within(mean, model.friction.coefficient * normal)))
     }
-}
-
-/// `vector`, shortened to this `limit` if it is longer.
-fn within<const D: usize>(vector: [f64; D], limit: f64) -> [f64; D] {
-    let (limit, size) = (largest(limit, 0.0), length(vector));
-    times(quotient(limit, size, size > limit, 1.0), vector)
 }

@@ -4,7 +4,7 @@ use super::cut::Cut;
 use super::list::{Apex, List};
 use super::vector::{add, difference, dot, length};
 use super::{Motion, SAME, Sliding, Vertex};
-use crate::numbers::{largest, next_above, smallest};
+use crate::numbers::{largest, next_above, quotient, smallest};
 use crate::path::Sum;
 use crate::segment::Segment;
 
@@ -117,6 +117,30 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             if way.to > way.from {
                 cut.touching(way.from);
             }
+        }
+        self.take(cut, curve);
+    }
+
+    /// Multiplies the limits of all springs at `indentation` \[m\] by a positive `factor`, with all lengths scaled to the new
+    /// [coefficient](super::Friction::scale). Springs beyond their new limits slip.
+    pub(super) fn scale_limits(&mut self, curve: &Segment, indentation: f64, factor: f64) {
+        let longer = quotient(1.0, factor, factor > 0.0, 0.0);
+        if longer == 1.0 || self.list.vertices().is_empty() {
+            return;
+        }
+        self.displacement = self.displaced().map(|length| Sum::new(longer * length));
+        self.list.lengthen(longer);
+        self.slips_from = NONE;
+        if self.list.vertices().iter().all(|vertex| length(vertex.slope) <= 1.0 + SAME) {
+            return;
+        }
+        let apex = Apex { indentation, displacement: self.displaced() };
+        let way = Motion::straight(indentation, indentation, [0.0; D]);
+        let mut cut = Cut::new(curve, &way, apex.displacement, apex);
+        for (vertex, end) in self.segments_up_to((indentation, apex.displacement)) {
+            let at = |(height, offset)| cut.point((height, offset), longer * (indentation - height));
+            let (from, to) = (at((vertex.height, vertex.offset)), at(end));
+            cut.between(vertex.slope, &from, &to);
         }
         self.take(cut, curve);
     }

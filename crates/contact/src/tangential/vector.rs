@@ -1,6 +1,6 @@
 //! Vectors along the surface, in any number of directions.
 
-use crate::numbers::quotient;
+use crate::numbers::{largest, quotient};
 use libm::{fabs, hypot, sqrt};
 
 /// `one + factor other`
@@ -65,4 +65,10 @@ pub(super) fn direction<const D: usize>(vector: [f64; D]) -> [f64; D] {
     let mut first = [0.0; D];
     first.iter_mut().take(1).for_each(|part| *part = 1.0);
     if size > 0.0 { vector.map(|part| quotient(part, size, size > 0.0, 0.0)) } else { first }
+}
+
+/// `vector`, shortened to this `limit` if it is longer.
+pub(super) fn within<const D: usize>(vector: [f64; D], limit: f64) -> [f64; D] {
+    let (limit, size) = (largest(limit, 0.0), length(vector));
+    times(quotient(limit, size, size > limit, 1.0), vector)
 }

@@ -331,7 +331,7 @@ impl<S: Scene> Instance<S> {
         }
         // where the law ends, the state does not change
         let _ = next.step_held(rate, self.last_step(), &S::Contact::kept(&model), || &*model);
-        Some(next.tangential(&model, Quantity::Force(of)))
+        Some(next.tangential(&model, Quantity::Force(of), rate))
     }
 }
 

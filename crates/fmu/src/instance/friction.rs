@@ -59,7 +59,7 @@ impl<S: Scene> Instance<S> {
     ) -> f64 {
         let rate = if self.clock.curved { self.end_of(contact).0 } else { rate };
         let next = self.predicted(contact, model, rate);
-        next.map_or(f64::NAN, |next| next.tangential(model, Quantity::Force(direction)))
+        next.map_or(f64::NAN, |next| next.tangential(model, Quantity::Force(direction), rate))
     }
 
     /// Checks the tangential rates during the next `step` \[s\].

@@ -143,7 +143,9 @@ impl<S: Scene> Instance<S> {
         let Some(history) = self.histories().get(contact) else { return 0.0 };
         match direction {
             None => history.force(self.number(Number::Rate, row)),
-            Some(direction) => history.tangential(&self.model(contact), Quantity::Force(direction)),
+            Some(direction) => {
+                history.tangential(&self.model(contact), Quantity::Force(direction), self.number(Number::Rate, contact))
+            }
         }
     }
 

@@ -229,7 +229,7 @@ impl<S: Scene> Instance<S> {
             },
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
             output => match output.quantity() {
-                Some(quantity) => history.tangential(&model(), quantity),
+                Some(quantity) => history.tangential(&model(), quantity, shown),
                 None => of_state::<S>(output, history, &model(), shown),
             },
         }
