@@ -368,9 +368,9 @@ fn uncertain_inputs_give_bands() {
 }
 
 #[test]
-fn the_notebook_shows_what_it_prints() {
+fn the_notebooks_show_what_they_print() {
     let packages = ["nbclient", "ipykernel", "scipy", "pyarrow", "tqdm", "matplotlib"];
-    pytest(&["test_notebook.py"], &packages, "the notebook");
+    pytest(&["test_notebook.py"], &packages, "the notebooks");
 }
 
 #[test]

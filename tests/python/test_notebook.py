@@ -1,12 +1,14 @@
-"""The notebook of the guide runs, and prints what it shows. BRINELL_WRITE=1 writes it anew."""
+"""The notebooks of the guide run, and print what they show. BRINELL_WRITE=1 writes them anew."""
 
 import os
 from pathlib import Path
 
 import nbclient
 import nbformat
+import pytest
 
-NOTEBOOK = Path(os.environ["BRINELL_TEST_SCENES"]).parent / "docs/examples/impacts.ipynb"
+SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
+NOTEBOOKS = sorted((SCENES.parent / "docs/examples").glob("*.ipynb"))
 
 
 def shown(cells):
@@ -21,10 +23,11 @@ def shown(cells):
     ]
 
 
-def test_the_notebook_shows_what_it_prints(tmp_path, monkeypatch):
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_shows_what_it_prints(path, tmp_path, monkeypatch):
     # Jupyter and IPython write to the home folder, which may be full
     monkeypatch.setenv("HOME", str(tmp_path))
-    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    notebook = nbformat.read(path, as_version=4)
     before = shown(notebook.cells)
     nbclient.NotebookClient(notebook, resources={"metadata": {"path": tmp_path}}).execute()
     if os.environ.get("BRINELL_WRITE"):
@@ -32,7 +35,7 @@ def test_the_notebook_shows_what_it_prints(tmp_path, monkeypatch):
             # the times of this run
             cell.metadata.pop("execution", None)
         notebook.metadata["language_info"] = {"name": "python"}
-        nbformat.write(notebook, NOTEBOOK)
+        nbformat.write(notebook, path)
     else:
         assert shown(notebook.cells) == before
     pictures = [
@@ -42,3 +45,9 @@ def test_the_notebook_shows_what_it_prints(tmp_path, monkeypatch):
         if "image/png" in output.get("data", {})
     ]
     assert len(pictures) == 1
+
+
+def test_the_notebook_of_the_drop_test_has_the_scene_of_the_repository():
+    (path,) = (path for path in NOTEBOOKS if path.stem == "drop_test")
+    cell = nbformat.read(path, as_version=4).cells[1].source
+    assert cell == f"%%writefile drop_test.toml\n{(SCENES / 'trades/drop_test.toml').read_text().rstrip()}"
