@@ -5,6 +5,7 @@ use brinell_testing::kinds::any_scene;
 use brinell_testing::physics::Random;
 use brinell_testing::{browser, places, prebuilt, python, refusal};
 use serde_json::json;
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -48,7 +49,10 @@ fn refused() -> PathBuf {
     let count = || fs::read_dir(&folder).map_or(0, Iterator::count);
     if count() < REFUSED {
         let mut cargo = Command::new(env!("CARGO"));
-        cargo.current_dir(places::root()).args(["test", "--release", "--test", "bad_scenes"]);
+        // the same program: `target/PROFILE/brinell`
+        let profile = places::program().parent().and_then(Path::file_name).expect("a program of cargo");
+        let profile = if profile == "debug" { OsStr::new("dev") } else { profile };
+        cargo.current_dir(places::root()).args(["test", "--test", "bad_scenes", "--profile"]).arg(profile);
         // it would wait for the end of this program
         cargo.env(places::WORKER, "1");
         let output = cargo.output().expect("cargo runs this test");
