@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// The names of the laws that yield.
 pub fn yielding() -> impl Iterator<Item = &'static str> {
-    AnyLoading::ALL.into_iter().map(|(name, _)| name).filter(|name| *name != "hertz")
+    AnyLoading::of_balls().map(|(name, _)| name).filter(|name| *name != "hertz")
 }
 
 /// A loading law on `pair` with the unloading law of scenes that name none, in the form for other materials.
@@ -107,7 +107,7 @@ fn largest_jump(name: &str) -> f64 {
 /// The table of all loading laws.
 fn all_laws() -> String {
     let mut table = heading(&["law", "worst error of the force", "rms", "jump", "energy", "measured rebounds"]);
-    for (name, _) in AnyLoading::ALL {
+    for (name, _) in AnyLoading::of_balls() {
         let law = entry("loading", name);
         let (errors, jump) = (errors(name), largest_jump(name));
         assert_eq!(jump.abs() > 1e-12, says(law, "jumps"), "{name} jumps by {jump:e}");
@@ -224,7 +224,8 @@ fn the_errors_of_two_laws_are_those_of_an_independent_computation() {
 fn the_accuracy_in_the_table_of_laws_is_the_measured_one() {
     let path = root().join("modelDescription/laws.toml");
     let mut table = fs::read_to_string(&path).expect("the table of laws");
-    for law in entries("loading") {
+    // that of a line contact is not measured on balls
+    for law in entries("loading").filter(|law| text(law, "name") != "line") {
         let (name, told) = (text(law, "name"), text(law, "accuracy"));
         let Errors { worst, rms, .. } = errors(name);
         let measured = format!("{} at {} d_y, rms {:.1} %", percent(worst, 1), errors(name).place(), 100.0 * rms);
@@ -248,7 +249,7 @@ fn the_accuracy_in_the_table_of_laws_is_the_measured_one() {
 fn the_rows_of_the_readme_are_those_that_are_measured() {
     let page = read(Path::new("README.md"));
     let row = |name: &str| format!("| `{name}` | {} | {} |", percent(errors(name).worst, 1), rebounds(name));
-    let rows: Vec<String> = AnyLoading::ALL.into_iter().map(|(name, _)| row(name)).collect();
+    let rows: Vec<String> = AnyLoading::of_balls().map(|(name, _)| row(name)).collect();
     let table = page.lines().skip_while(|line| !line.starts_with("| law | force against finite elements"));
     let shown: Vec<&str> = table.skip(2).take_while(|line| line.starts_with('|')).collect();
     assert!(shown.len() >= 4, "{shown:?}");

@@ -9,7 +9,7 @@ use brinell_fmu::scene::{Absent, Scene};
 
 /// Every loading law with each unloading law that can be guarded.
 fn every_guarded() -> impl Iterator<Item = (String, Choice)> {
-    AnyLoading::ALL.into_iter().flat_map(|(name, loading)| {
+    AnyLoading::of_balls().flat_map(|(name, loading)| {
         let unloading = AnyUnloading::ALL.into_iter().filter_map(|(of, law)| Some((of, law.guarded()?)));
         unloading.map(move |(of, law)| (format!("{name} with {of}"), Choice::of(loading, law)))
     })

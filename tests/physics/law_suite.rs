@@ -156,7 +156,12 @@ fn on_unloading_force_is_the_slope_of_work_and_stiffness_the_slope_of_force() {
                 let mut history = pressed(&model, largest);
                 go(&mut history, &model, at);
                 let at = history.indentation();
-                let range = [path.lower, largest, path.origin];
+                // a chain is smooth on each of its segments
+                let part = model.unloading_segment(largest, at);
+                let range = match part.upper > part.lower.next_up() {
+                    true => [part.lower, part.upper, part.origin],
+                    false => [path.lower, largest, path.origin],
+                };
                 let what = format!("{name} from {largest:e}");
                 is_derivative(
                     &format!("{what}: force"),
@@ -232,7 +237,8 @@ fn the_dent_deepens_with_the_largest_indentation() {
 #[test]
 fn only_the_deformed_radius_jumps_at_yield_and_as_documented() {
     let d_y = unit(&mild()).indentation;
-    for (name, unloading) in AnyUnloading::ALL {
+    // that of a line needs its loading law
+    for (name, unloading) in AnyUnloading::ALL.into_iter().filter(|(name, _)| *name != "line") {
         let model = AnyModel { unloading, ..model("big-alabo", "contact-radius") };
         // so close to yield, a continuous dent is below d_m - d_y = 1e-9 d_y, or its power 2/3 for Hertz's lowered curve
         let depth = model.unloading_path(d_y * (1.0 + 1e-9)).lower / d_y;

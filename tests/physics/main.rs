@@ -31,6 +31,7 @@ mod law_brinell;
 mod law_brizmer;
 mod law_johnson;
 mod law_large_strain;
+mod law_line;
 mod law_luding;
 mod law_materials;
 mod law_pairs;

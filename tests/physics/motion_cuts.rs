@@ -127,7 +127,9 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies() {
 /// little earlier: near the surface, the contact force is negligible.
 #[test]
 fn a_touch_that_is_slow_beside_the_motion_after_it_is_as_exact_as_any() {
-    for (name, model) in all_models(pair_of(0.005, 2e11, 4e8)) {
+    // a line contact is so stiff that the body has turned many times by then
+    let of_balls = |(_, model): &(String, AnyModel)| !model.loading.is_line();
+    for (name, model) in all_models(pair_of(0.005, 2e11, 4e8)).into_iter().filter(of_balls) {
         let yields = model.pair.yield_point(1.1);
         let mass = 1.0;
         // the body stays in the elastic range of the laws that have one

@@ -294,7 +294,8 @@ fn words_that_are_not_a_history_are_refused() {
 
 #[test]
 fn on_the_way_down_the_contact_radius_is_that_of_an_elastic_recovery() {
-    for (name, model) in all_models(mild()) {
+    // that of a line is compared with finite elements
+    for (name, model) in all_models(mild()).into_iter().filter(|(_, model)| !model.loading.is_line()) {
         let hertzian = !matches!(model.unloading, AnyUnloading::Brinell(_));
         let is_etsion = matches!(model.unloading, AnyUnloading::Etsion(_));
         let is_vu_quoc = matches!(model.unloading, AnyUnloading::VuQuocZhang(_));

@@ -316,7 +316,8 @@ pub fn random_rows(random: &mut Random, count: usize, directions: usize) -> (Pla
         })
         .sum();
     let pair = pair_of(radius, modulus, strength);
-    let all = all_models(pair);
+    // what an integration over the pieces of a line contact costs is measured by itself
+    let all: Vec<_> = all_models(pair).into_iter().filter(|(_, model)| !model.loading.is_line()).collect();
     let models: Vec<AnyModel> = (0..count)
         .map(|_| {
             let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };

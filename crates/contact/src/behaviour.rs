@@ -4,6 +4,7 @@ use super::numbers::quotient;
 use super::path::Course;
 use super::regime::{Regime, TooDeep};
 use super::tangential::{Quantity, Sliding};
+use super::validity::largest_radius;
 use core::borrow::Borrow;
 use core::f64::consts::PI;
 
@@ -130,10 +131,16 @@ pub trait Contact<M>: Copy {
     /// Contact radius \[m\]; 0 while apart.
     fn contact_radius(&self, model: &M) -> f64;
 
+    /// Area of the contact \[m^2\]; 0 while apart.
+    fn contact_area(&self, model: &M) -> f64 {
+        let radius = self.contact_radius(model);
+        PI * radius * radius
+    }
+
     /// Force over contact area \[Pa\]; 0 while apart.
     fn mean_pressure(&self, model: &M, rate: f64) -> f64 {
-        let radius = self.contact_radius(model);
-        quotient(self.force(rate), PI * radius * radius, radius > 0.0, 0.0)
+        let area = self.contact_area(model);
+        quotient(self.force(rate), area, area > 0.0, 0.0)
     }
 
     /// Energy that unloading would return \[J\].
@@ -197,6 +204,13 @@ pub trait Contact<M>: Copy {
     /// How much of the contact slips.
     fn sliding(&self) -> Sliding {
         Sliding::Apart
+    }
+
+    /// The contact radii \[m\] up to which the law of `model` is valid, and from which on there is no contact at all, for bodies of this effective
+    /// `radius` \[m\], of which the smaller one has this `size` \[m\].
+    #[inline(always)]
+    fn widths(_model: &M, radius: f64, size: f64) -> [f64; 2] {
+        [largest_radius(radius, size), size]
     }
 
     /// The indentation at which the loading law of `model` has this `contact_radius` \[m\].

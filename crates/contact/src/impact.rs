@@ -69,12 +69,17 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
     let (energy, max_indentation) = turning_point(model, impact)?;
     let unloading = model.unloading_path(max_indentation);
     let peak = model.peak(max_indentation);
-    // a path that is not a segment has a different tangent at every point
-    let anywhere = 0.5 * (unloading.lower + max_indentation);
-    let follows_path = model.unloading_segment(max_indentation, anywhere).upper >= max_indentation;
+    // a path that is not a segment has a different tangent at every point, or segments of a chain
+    let part = |d: f64| model.unloading_segment(max_indentation, d);
+    let middle = part(0.5 * (unloading.lower + max_indentation));
+    let is_elastic = model.is_elastic_at(max_indentation);
+    let follows_path = middle.upper >= max_indentation && middle.lower <= unloading.lower;
+    let is_chain = !follows_path && middle.upper > middle.lower.next_up();
     // `Model::recovered_work`, but with path and peak computed once
-    let recovered = |d: f64| {
-        if follows_path { unloading.work(d) } else { model.unloading.work(&model.pair, &peak, &unloading, d) }
+    let recovered = |d: f64| match () {
+        () if is_chain && is_elastic => model.loading.work(&model.pair, d),
+        () if follows_path => unloading.work(d),
+        () => model.unloading.work(&model.pair, &peak, &unloading, d),
     };
     let rebound_energy = recovered(max_indentation);
     // the energy for which the computed works balance, so that the speed at the turning point is exactly zero
@@ -90,10 +95,16 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
         impact.mass,
         unloading.lower,
         max_indentation,
-        |_, end| {
-            move |d, way| if follows_path { unloading.mean_force(d, end) * way } else { rebound_energy - recovered(d) }
+        |start, end| {
+            let segment = if follows_path { unloading } else { part(start) };
+            let at_end = rebound_energy - recovered(end);
+            move |d, way| match follows_path || is_chain {
+                true if end == max_indentation => segment.mean_force(d, end) * way,
+                true => at_end + segment.mean_force(d, end) * way,
+                false => rebound_energy - recovered(d),
+            }
         },
-        |_| max_indentation,
+        |d| if is_chain { part(d).upper } else { max_indentation },
     );
     Some(Prediction {
         max_indentation,

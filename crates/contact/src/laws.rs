@@ -156,7 +156,7 @@ macro_rules! laws {
             impl $any {
                 /// Whether the law takes each of two bodies for itself.
                 pub fn takes_both_bodies(&self) -> bool {
-                    matches!(self, $($any::$plain(_) | $any::$paired(_))|+)
+                    matches!(self, $($any::$plain(_) | $any::$paired(_))|+) || self.is_line()
                 }
 
                 /// Its form for two bodies, if it is one.

@@ -95,6 +95,7 @@ pub mod history;
 pub mod impact;
 pub mod large_strain;
 mod laws;
+mod line;
 pub mod loading;
 pub mod losses;
 pub mod material;
@@ -121,6 +122,7 @@ pub use history::History;
 pub use laws::{LawNumbers, Numbered};
 pub use loading::Loading;
 pub use material::{Body, Pair, YieldPoint};
+use numbers::smallest;
 pub use regime::{Regime, TooDeep};
 pub use segment::Segment;
 use two_bodies::{Construction, Together};
@@ -208,16 +210,27 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         self.unloading.is_segmented() && self.loading.is_segmented()
     }
 
-    /// Whether the elastic part is one segment: it is that of Hertz, or a power of its own.
+    /// Whether the elastic part is one segment: no chain, nor a power other than Hertz's.
     #[inline(always)]
     pub(crate) fn has_elastic_segment(&self) -> bool {
-        self.loading.can_yield() || self.loading.is_segmented()
+        !L::has_chain() && (self.loading.can_yield() || self.loading.is_segmented())
     }
 
-    /// The elastic part: its segment, or the tangent at `indentation` \[m\].
+    /// The elastic part: its segment, or that of a chain or the tangent at `indentation` \[m\], up to first yield.
     #[inline(always)]
     pub(crate) fn elastic_segment(&self, indentation: f64) -> Segment {
-        self.loading.segment(&self.pair, if self.has_elastic_segment() { 0.0 } else { indentation })
+        let at = match () {
+            () if self.has_elastic_segment() => 0.0,
+            () if L::has_chain() => smallest(indentation, self.yield_point().indentation.next_down()),
+            () => indentation,
+        };
+        self.loading.segment(&self.pair, at)
+    }
+
+    /// Whether the elastic part may be more than one segment, so that the work on it is not that of a path.
+    #[inline(always)]
+    fn has_chain(&self) -> bool {
+        L::has_chain()
     }
 
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
@@ -276,7 +289,8 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The same before yield.
     fn elastic_path(&self, max_indentation: f64) -> Segment {
-        Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
+        let at = if L::has_chain() { max_indentation } else { 0.0 };
+        Segment { lower: 0.0, upper: max_indentation, ..self.elastic_segment(at) }
     }
 
     /// The same from a `peak` beyond the yield point.
@@ -292,7 +306,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The segment of the unloading path at `indentation` \[m\].
     pub fn unloading_segment(&self, max_indentation: f64, indentation: f64) -> Segment {
-        if !self.has_elastic_segment() {
+        if !self.has_elastic_segment() && self.is_elastic_at(max_indentation) {
             return self.elastic_segment(indentation);
         }
         let path = self.unloading_path(max_indentation);
@@ -304,7 +318,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// Work returned on the unloading path from `indentation` \[m\] down to the residual indentation \[J\].
     pub fn recovered_work(&self, max_indentation: f64, indentation: f64) -> f64 {
-        if !self.has_elastic_segment() {
+        if !self.has_elastic_segment() && self.is_elastic_at(max_indentation) {
             return self.loading.work(&self.pair, indentation);
         }
         let path = self.unloading_path(max_indentation);
@@ -316,7 +330,8 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The indentation up to which the loading law is valid \[m\] for bodies of which the smaller one has this `size` \[m\].
     pub fn valid_depth(&self, size: f64) -> f64 {
-        self.depth_of(validity::largest_radius(self.pair.radius, size))
+        let [valid, _] = self.loading.widths(&self.pair, size);
+        self.depth_of(valid)
     }
 
     /// The indentation at which the loading law has this `contact_radius` \[m\].

@@ -81,7 +81,7 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
         let (from, to) = (self.contact.indentation(), self.at(end));
         let rising = to > from;
         let piece = match Piece::ahead(&self.contact, self.model, rising) {
-            Ok(piece) => piece,
+            Ok(piece) => piece.part(from, rising),
             Err(surface) => {
                 // a fresh surface forgets the dent at zero
                 let forgets = !rising && self.model.surface == Surface::Fresh && from > 0.0 && to < 0.0;
@@ -104,6 +104,7 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
     fn over(&self, piece: &Piece<'_, L, U>, (start, end): (f64, f64), (from, to): (f64, f64)) -> f64 {
         // a law made of segments gets here only with a constant rate, and then needs no quadrature
         let is_held = self.model.is_segmented() || self.course.is_held();
+        // a segment of a chain is one, too
         if is_held && let Some(segment) = piece.whole() {
             return (end - start) * segment.mean_force(from, to);
         }

@@ -3,6 +3,8 @@
 use super::Model;
 use super::history::History;
 use super::loading::Loading;
+use super::numbers::{largest, next_above, smallest};
+use super::regime::LARGEST_INDENTATION;
 use super::segment::Segment;
 use super::unloading::{Peak, Unloading};
 
@@ -62,6 +64,8 @@ enum Kind {
     Elastic,
     Loading,
     Unloading,
+    /// One segment of a chain, which also has a force at its lower end.
+    Part,
 }
 
 impl<L, U> Clone for Piece<'_, L, U> {
@@ -89,8 +93,9 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     pub fn at(model: &'a Model<L, U>, indentation: f64, largest: f64, rising: bool) -> Piece<'a, L, U> {
         let upper = model.loading.yield_point(&model.pair).indentation;
         if largest <= upper && !(rising && indentation >= upper) {
-            let (kind, segment) = (Kind::Elastic, model.elastic_segment(0.0));
-            let is_whole = model.has_elastic_segment();
+            let (kind, segment) = (Kind::Elastic, model.elastic_segment(indentation));
+            let is_whole = model.has_elastic_segment()
+                || model.has_chain() && segment.lower <= 0.0 && segment.upper >= smallest(upper, LARGEST_INDENTATION);
             return Piece { model, kind, lower: 0.0, upper, segment, is_whole, unloading: None };
         }
         if rising && indentation >= largest {
@@ -100,6 +105,21 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
             return Piece { model, kind: Kind::Loading, lower: indentation, upper, segment, is_whole, unloading: None };
         }
         Piece::below(model, largest)
+    }
+
+    /// The part of the piece on which one segment of a chain holds, from `indentation` \[m\] on if it is `rising` or falling. The whole
+    /// piece, if it is none of a chain.
+    pub fn part(self, indentation: f64, rising: bool) -> Piece<'a, L, U> {
+        if !self.model.has_chain() || self.is_whole() || self.kind == Kind::Loading {
+            return self;
+        }
+        let segment = self.segment_at(if rising { indentation } else { indentation.next_down() });
+        // a tangent holds at one point
+        if segment.upper <= next_above(segment.lower) {
+            return self;
+        }
+        let (lower, upper) = (largest(segment.lower, self.lower), smallest(segment.upper, self.upper));
+        Piece { kind: Kind::Part, lower, upper, segment, is_whole: true, unloading: None, ..self }
     }
 
     /// The piece of an unloading `path` that is one segment.
@@ -127,8 +147,8 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         let middle = 0.5 * (path.lower + largest);
         let is_segmented = model.unloading.is_segmented();
         let segment = if is_segmented { path } else { model.unloading.tangent(&model.pair, &peak, &path, middle) };
-        // a path that is not a segment has a different tangent at every point
-        let is_whole = is_segmented || segment.upper >= largest;
+        // a path that is not a segment has a different tangent at every point, or segments of a chain
+        let is_whole = is_segmented || segment.upper >= largest && segment.lower <= path.lower;
         let unloading = (!is_whole).then_some((peak, path));
         Piece { model, kind: Kind::Unloading, lower: path.lower, upper: largest, segment, is_whole, unloading }
     }
@@ -145,7 +165,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
 
     /// Whether there is a force at `indentation` \[m\]: above the surface, and anywhere on the loading curve.
     fn presses_at(&self, indentation: f64) -> bool {
-        indentation > self.lower || self.kind == Kind::Loading
+        indentation > self.lower || matches!(self.kind, Kind::Loading | Kind::Part)
     }
 
     /// Force \[N\]; zero below the surface.

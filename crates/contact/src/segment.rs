@@ -51,6 +51,36 @@ impl Segment {
         }
     }
 
+    /// The segment with its origin at zero, and with value and slope of the form at both ends, of which each is indentation, force and
+    /// stiffness \[m, N, N/m\].
+    ///
+    /// Its slope is a quadratic in `u = sqrt(d)`: the straight line between the slopes at the ends, plus a multiple of
+    /// `(u - p)(u - q)` that makes the integral equal to the difference of the forces.
+    pub(crate) fn between([lower, begin, first]: [f64; 3], [upper, end, last]: [f64; 3]) -> Segment {
+        let (p, q) = (sqrt(lower), sqrt(upper));
+        let length = q - p;
+        let incline = (last - first) / length;
+        let straight = first * length * (p + q) + incline * length * length * (p + 2.0 / 3.0 * length);
+        let bend = 6.0 * (straight - (end - begin)) / (length * length * length * (p + q));
+        let linear = first - incline * p + bend * p * q;
+        let power = (incline - bend * (p + q)) / 1.5;
+        let square = 0.5 * bend;
+        let constant = begin - lower * (linear + power * p + square * lower);
+        Segment { lower, upper, origin: 0.0, constant, linear, power, square }
+    }
+
+    /// The segment from zero without force to a point of indentation, force and stiffness \[m, N, N/m\], without `c3`.
+    pub(crate) fn from_zero([upper, force, stiffness]: [f64; 3]) -> Segment {
+        let secant = force / upper;
+        let excess = 2.0 * (stiffness - secant);
+        Segment { upper, linear: secant - excess, power: excess / sqrt(upper), ..Segment::NOTHING }
+    }
+
+    /// The straight line from a point of indentation, force and stiffness \[m, N, N/m\] on.
+    pub(crate) fn beyond([lower, constant, linear]: [f64; 3]) -> Segment {
+        Segment { lower, upper: LARGEST_INDENTATION, origin: lower, constant, linear, ..Segment::NOTHING }
+    }
+
     /// Whether `indentation` \[m\] lies on the branch; false for NaN.
     #[inline]
     pub fn contains(&self, indentation: f64) -> bool {

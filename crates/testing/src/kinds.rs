@@ -132,7 +132,7 @@ pub fn of_each_kind() -> Vec<(&'static str, String)> {
 /// A scene with every output of every law, with its name.
 pub fn of_every_law() -> Vec<(&'static str, String)> {
     let outputs: Vec<_> = STATE.into_iter().chain(["impulse", "mean_force"]).collect();
-    let laws = AnyLoading::ALL.map(|(name, _)| name).into_iter().chain(AnyDamped::ALL.map(|(name, _)| name));
+    let laws = AnyLoading::of_balls().map(|(name, _)| name).chain(AnyDamped::ALL.map(|(name, _)| name));
     laws.map(|law| (law, scene(law, &outputs, IMPACT))).collect()
 }
 
@@ -176,7 +176,11 @@ pub fn any_scene(random: &mut Random) -> String {
         text += "plate_thickness = 0.01\n";
     }
     let name = |all: &[&'static str]| all[(pick * all.len() as f64) as usize];
-    let loading = if damped { name(&AnyDamped::ALL.map(|law| law.0)) } else { name(&AnyLoading::ALL.map(|law| law.0)) };
+    let loading = if damped {
+        name(&AnyDamped::ALL.map(|law| law.0))
+    } else {
+        name(&AnyLoading::of_balls().map(|law| law.0).collect::<Vec<_>>())
+    };
     if hardens && loading == "brinell" {
         text += &format!("hardening_modulus = {:e}\n", random.log_uniform(1e8, 1e10));
     }

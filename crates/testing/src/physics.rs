@@ -85,6 +85,7 @@ pub fn model(loading_name: &str, unloading_name: &str) -> AnyModel {
         unloading: unloading(unloading_name),
         surface: Surface::Dented,
     }
+    .prepared()
 }
 
 /// Whether the two laws can be combined, according to the table of laws.
@@ -164,7 +165,7 @@ pub fn all_models(pair: Pair) -> Vec<(String, AnyModel)> {
                 continue;
             }
             let model = Model { pair, loading, unloading, surface: Surface::Dented };
-            models.push((format!("{loading_name} with {unloading_name}"), model));
+            models.push((format!("{loading_name} with {unloading_name}"), model.prepared()));
         }
     }
     models

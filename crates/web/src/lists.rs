@@ -22,7 +22,7 @@ pub fn about() -> Value {
     json!({
         "version": env!("CARGO_PKG_VERSION"),
         "laws": {
-            "loading": AnyLoading::ALL.iter().map(|(name, it)| loading(&law_text::loading(name, it))).collect::<Value>(),
+            "loading": AnyLoading::of_balls().map(|(name, it)| loading(&law_text::loading(name, &it))).collect::<Value>(),
             "unloading": AnyUnloading::ALL.iter().map(|(name, it)| law(&law_text::unloading(name, it))).collect::<Value>(),
             "damped": AnyDamped::ALL.iter().map(|(name, it)| law(&law_text::damped(name, it))).collect::<Value>(),
         },

@@ -47,7 +47,7 @@ fn a_fully_plastic_dent_has_some_three_yield_strengths() {
 #[test]
 fn a_hardness_turned_round_gives_the_strength_that_made_it() {
     let mut judged = 0;
-    for (law, _) in AnyLoading::ALL.into_iter().filter(|(law, _)| *law != "hertz") {
+    for (law, _) in AnyLoading::of_balls().filter(|(law, _)| *law != "hertz") {
         for strength in [50e6, 300e6, 1.2e9] {
             let text = format!("{BALL}yield_strength = {strength:e}\n");
             let dent = tested(&text, &["--load", "2kN", "--laws", law])["laws"][0].clone();

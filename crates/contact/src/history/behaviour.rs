@@ -139,6 +139,10 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         History::contact_radius(self, model)
     }
 
+    fn contact_area(&self, model: &Model<L, U>) -> f64 {
+        model.loading.area(&model.pair, History::contact_radius(self, model))
+    }
+
     fn elastic_energy(&self, model: &Model<L, U>) -> f64 {
         History::elastic_energy(self, model)
     }
@@ -151,6 +155,8 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         let indentation = self.indentation.total();
         match self.regime {
             _ if self.is_loading() => (indentation, model.loading.next_corner(&model.pair, indentation)),
+            // a chain is smooth on each of its segments
+            Regime::Unloaded | Regime::Elastic if self.is_in_chain(model) => (self.segment.lower, self.segment.upper),
             Regime::Unloaded => (model.unloading_path(self.max_indentation).lower, self.max_indentation),
             _ if !model.has_elastic_segment() => (0.0, LARGEST_INDENTATION),
             _ => (0.0, self.segment.upper),
@@ -170,6 +176,11 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         }
         moved.indentation = Sum::new(indentation);
         moved
+    }
+
+    #[inline(always)]
+    fn widths(model: &Model<L, U>, _radius: f64, size: f64) -> [f64; 2] {
+        model.loading.widths(&model.pair, size)
     }
 
     fn depth_of(model: &Model<L, U>, contact_radius: f64) -> f64 {

@@ -3,7 +3,7 @@
 use super::{ANY, FARTHEST, History, LARGEST_FORCE, LARGEST_INDENTATION, Regime, TOUCHING, TooDeep};
 use crate::loading::Loading;
 use crate::material::YieldPoint;
-use crate::numbers::next_above;
+use crate::numbers::{next_above, smallest};
 use crate::path::Sum;
 use crate::segment::Segment;
 use crate::unloading::Unloading;
@@ -147,9 +147,13 @@ impl History {
     fn spring<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, indentation: f64, largest: f64) {
         self.regime = Regime::Elastic;
         let elastic = model.elastic_segment(indentation);
-        self.segment = match model.has_elastic_segment() {
-            true => Segment { lower: TOUCHING, upper: largest, ..elastic },
-            false => elastic,
+        self.segment = match () {
+            () if model.has_elastic_segment() => Segment { lower: TOUCHING, upper: largest, ..elastic },
+            () if L::has_chain() => {
+                let lower = if elastic.lower > TOUCHING { elastic.lower } else { TOUCHING };
+                Segment { lower, upper: smallest(elastic.upper, largest), ..elastic }
+            }
+            () => elastic,
         };
     }
 
@@ -279,8 +283,9 @@ impl History {
             self.regime = Regime::Apart;
             return true;
         }
-        // a tangent does not know the surface
-        let springs = self.regime == Regime::Elastic && !self.is_loading() && stays && residual <= 0.0;
+        // a tangent does not know the surface; the segment of a chain may be another one
+        let is_lowest = residual <= 0.0 && (U::SEGMENTED && !U::MIXED || self.segment.lower == TOUCHING);
+        let springs = self.regime == Regime::Elastic && is_lowest && !self.is_loading() && stays;
         if springs {
             self.segment = Segment::apart(FARTHEST, TOUCHING);
             self.regime = Regime::Apart;

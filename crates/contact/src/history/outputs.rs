@@ -4,6 +4,7 @@ use super::{History, Regime};
 use crate::Model;
 use crate::behaviour::{Contact, slopes};
 use crate::loading::Loading;
+use crate::numbers::next_above;
 use crate::unloading::Unloading;
 
 impl History {
@@ -98,13 +99,18 @@ impl History {
         model.loading.work(&model.pair, largest) - model.recovered_work(largest, largest)
     }
 
+    /// Whether the branch is a segment of a chain, and no tangent.
+    pub(super) fn is_in_chain<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> bool {
+        model.has_chain() && self.segment.upper > next_above(self.segment.lower)
+    }
+
     /// d2F/d(indentation)^2 on the present branch \[N/m^2\]. For a law without segments it is computed from the stiffness at
     /// neighbouring points.
     pub fn curvature<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let indentation = self.indentation();
         let segmented = match self.regime {
             Regime::Apart => return 0.0,
-            Regime::Elastic => model.has_elastic_segment(),
+            Regime::Elastic => model.has_elastic_segment() || self.is_in_chain(model),
             Regime::Unloaded => model.unloading.is_segmented(),
             _ => model.loading.is_segmented(),
         };

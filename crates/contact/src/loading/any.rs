@@ -31,6 +31,10 @@ impl Loading for AnyLoading {
         true
     }
 
+    fn has_chain() -> bool {
+        true
+    }
+
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         self.law().next_corner(pair, indentation)
     }
@@ -45,6 +49,21 @@ impl Loading for AnyLoading {
 
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         self.law().contact_radius(pair, indentation)
+    }
+
+    fn area(&self, pair: &Pair, radius: f64) -> f64 {
+        self.law().area(pair, radius)
+    }
+
+    fn widths(&self, pair: &Pair, size: f64) -> [f64; 2] {
+        self.law().widths(pair, size)
+    }
+
+    fn along_line(self, bodies: TwoBodies, is_impactor: bool) -> AnyLoading {
+        match self {
+            AnyLoading::Line(law) => AnyLoading::Line(law.along_line(bodies, is_impactor)),
+            law => law,
+        }
     }
 
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
@@ -71,11 +90,18 @@ impl Loading for AnyLoading {
     }
 
     fn prepared(self, pair: &Pair, recovery: &RecoveryOf<'_>, before: Option<&AnyLoading>) -> AnyLoading {
+        if let AnyLoading::Line(law) = self {
+            let before = before.and_then(|before| if let AnyLoading::Line(law) = before { Some(law) } else { None });
+            return AnyLoading::Line(law.prepared(pair, recovery, before));
+        }
         let before = before.and_then(AnyLoading::form);
         self.with_form(|form| form.prepared(pair, recovery, before))
     }
 
     fn prepared_for(self, pair: &Pair, energy: f64) -> AnyLoading {
+        if let AnyLoading::Line(law) = self {
+            return AnyLoading::Line(law.prepared_for(pair, energy));
+        }
         self.with_form(|form| form.prepared_for(pair, energy))
     }
 
@@ -92,6 +118,21 @@ impl Loading for AnyLoading {
     }
 
     fn strengthened_by(self, factor: f64, others: f64) -> AnyLoading {
+        if let AnyLoading::Line(law) = self {
+            return AnyLoading::Line(law.strengthened_by(factor, others));
+        }
         self.with_form(|form| form.strengthened_by(factor, others))
+    }
+}
+
+impl AnyLoading {
+    /// All laws of contacts at a point, with their names: a scene of balls can have each of them.
+    pub fn of_balls() -> impl Iterator<Item = (&'static str, AnyLoading)> {
+        AnyLoading::ALL.into_iter().filter(|(_, law)| !law.is_line())
+    }
+
+    /// Whether it is the law of a line contact.
+    pub fn is_line(&self) -> bool {
+        matches!(self, AnyLoading::Line(_))
     }
 }

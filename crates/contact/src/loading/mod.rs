@@ -12,6 +12,7 @@ pub mod hertz;
 pub mod jackson_green;
 pub mod johnson;
 pub mod kogut_etsion;
+pub mod line;
 pub mod luding;
 pub mod ma_liu;
 pub mod paired;
@@ -32,6 +33,8 @@ use super::regime::{LARGEST_INDENTATION, Regime};
 use super::segment::Segment;
 use super::two_bodies::{Construction, Together, TwoBodies};
 use super::unloading::Recovery;
+use super::validity::largest_radius;
+use core::f64::consts::PI;
 
 laws! {
     /// A loading law chosen while a program runs. In an FMU the scene names the law.
@@ -58,6 +61,7 @@ laws! {
         vu_quoc_zhang::VuQuocZhang [peak_pressure_factor, plastic_radius, curvature] { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
         johnson::Johnson [yield_pressure_factor, plastic_pressure_factor] { "johnson" = Johnson::REFERENCE }
         luding::Luding [yield_pressure_factor, stiffness_factor, stiffness_ratio, limit_depth] { "luding" = Luding::REFERENCE }
+        line::Line [length, impactor_reach, impactor_tension, target_reach, target_tension] or Line::REFERENCE { "line" = Line::REFERENCE }
     }
     paired { Brinell as PairedBrinell }
     springs { elastic::Elastic }
@@ -107,6 +111,14 @@ pub trait Loading {
         hertz::EXPONENT
     }
 
+    /// Whether the elastic part can be a chain of segments. Otherwise it is one.
+    fn has_chain() -> bool
+    where
+        Self: Sized,
+    {
+        false
+    }
+
     /// The first indentation above `indentation` where the curve or its slope is not smooth \[m\].
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         self.segment(pair, indentation).upper
@@ -123,6 +135,25 @@ pub trait Loading {
 
     /// Contact radius \[m\] while loading.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64;
+
+    /// Area \[m^2\] of a contact with this contact radius \[m\].
+    fn area(&self, _pair: &Pair, radius: f64) -> f64 {
+        PI * radius * radius
+    }
+
+    /// The contact radii \[m\] up to which the law is valid, and from which on there is no contact at all, for bodies of which the smaller
+    /// one has this `size` \[m\].
+    fn widths(&self, pair: &Pair, size: f64) -> [f64; 2] {
+        [largest_radius(pair.radius, size), size]
+    }
+
+    /// The law of a line contact between these bodies; the pair describes the impactor or the target.
+    fn along_line(self, _bodies: TwoBodies, _is_impactor: bool) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
 
     /// The regime of the loading at `indentation` and just above it.
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime;

@@ -4,7 +4,7 @@ use super::table::{Course, End, Sample, Slow, Table};
 use super::{Brinell, Loading, MOST_SEGMENTS, RecoveryOf, hertz};
 use crate::material::{Pair, YieldPoint};
 use crate::numbers::{largest, smallest};
-use crate::regime::{LARGEST_INDENTATION, Regime};
+use crate::regime::Regime;
 use crate::segment::Segment;
 use crate::two_bodies::{Construction, KNOTS, Lead, Together, TwoBodies};
 use crate::unloading::Recovery;
@@ -311,40 +311,21 @@ impl Paired {
     }
 }
 
-/// The straight line beyond the last knot.
-fn beyond(last: &Knot) -> Segment {
-    Segment {
-        lower: last.indentation,
-        upper: LARGEST_INDENTATION,
-        origin: last.indentation,
-        constant: last.force,
-        linear: last.stiffness,
-        ..Segment::NOTHING
+impl Knot {
+    /// Indentation, force and stiffness.
+    fn numbers(&self) -> [f64; 3] {
+        [self.indentation, self.force, self.stiffness]
     }
 }
 
-/// The segment with its origin at zero, and with value and slope of the form at both ends.
-///
-/// Its slope is a quadratic in `u = sqrt(d)`: the straight line between the slopes at the ends, plus a multiple of
-/// `(u - p)(u - q)` that makes the integral equal to the difference of the forces.
+/// The straight line beyond the last knot.
+fn beyond(last: &Knot) -> Segment {
+    Segment::beyond(last.numbers())
+}
+
+/// The piece between two knots.
 fn between(begin: &Knot, end: &Knot) -> Segment {
-    let (p, q) = (sqrt(begin.indentation), sqrt(end.indentation));
-    let length = q - p;
-    let incline = (end.stiffness - begin.stiffness) / length;
-    let straight = begin.stiffness * length * (p + q) + incline * length * length * (p + 2.0 / 3.0 * length);
-    let bend = 6.0 * (straight - (end.force - begin.force)) / (length * length * length * (p + q));
-    let linear = begin.stiffness - incline * p + bend * p * q;
-    let power = (incline - bend * (p + q)) / 1.5;
-    let square = 0.5 * bend;
-    Segment {
-        lower: begin.indentation,
-        upper: end.indentation,
-        origin: 0.0,
-        constant: begin.force - begin.indentation * (linear + power * p + square * begin.indentation),
-        linear,
-        power,
-        square,
-    }
+    Segment::between(begin.numbers(), end.numbers())
 }
 
 impl Loading for Paired {

@@ -168,6 +168,7 @@ pub(super) fn on_the_way<L: Loading, U: Unloading>(
         let rising = to > from;
         let goal = match Piece::ahead(&contact, model, rising) {
             Ok(piece) => {
+                let piece = piece.part(from, rising);
                 let goal = if rising { limited(to, piece.upper, true) } else { limited(to, piece.lower, false) };
                 let (force, stiffness) = (|d: f64| piece.force(d), |d: f64| piece.stiffness(d));
                 let part = Part { force: &force, stiffness: &stiffness, segment: piece.whole() };

@@ -172,7 +172,8 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
     fn piece(&mut self, rising: bool) -> Piece<'a, L, U> {
         let Bodies { indentation, largest, model, .. } = *self;
         let on_loading = rising && indentation >= largest;
-        if on_loading { Piece::at(model, indentation, largest, true) } else { self.back().clone() }
+        let piece = if on_loading { Piece::at(model, indentation, largest, true) } else { self.back().clone() };
+        piece.part(indentation, rising)
     }
 
     /// The indentation of the surface \[m\]: the bottom of the present dent.

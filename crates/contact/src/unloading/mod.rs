@@ -11,6 +11,7 @@ pub mod etsion;
 pub mod guarded;
 pub mod hertz_shift;
 pub mod jackson;
+pub mod line;
 pub mod luding;
 pub mod original_radius;
 pub mod thornton;
@@ -39,6 +40,7 @@ laws! {
         jackson::Jackson [factor, offset, exponent] { "jackson" = Jackson::REFERENCE }
         vu_quoc_zhang::VuQuocZhang [curvature] { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
         luding::Luding [stiffness_ratio, limit_depth] { "luding" = Luding::REFERENCE }
+        line::Line [length] { "line" = Line::REFERENCE }
     }
     guarded {
         ContactRadius as GuardedContactRadius,
@@ -110,7 +112,8 @@ pub trait Unloading {
     /// The path from the residual indentation `d_f` (`lower`) to `peak` (`upper`), for a peak beyond the yield point.
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment;
 
-    /// The [tangent](Segment::tangent) of a `path` that is not a segment.
+    /// The [tangent](Segment::tangent) of a `path` that is not a segment, or its segment at and just above `indentation` \[m\] if it is a
+    /// chain.
     fn tangent(&self, _pair: &Pair, _peak: &Peak, path: &Segment, _indentation: f64) -> Segment {
         *path
     }

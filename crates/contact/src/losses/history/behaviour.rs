@@ -108,6 +108,10 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
         self.plastic.contact_radius(&model.plastic)
     }
 
+    fn contact_area(&self, model: &Model<L, U, K>) -> f64 {
+        model.plastic.loading.area(&model.plastic.pair, self.plastic.contact_radius(&model.plastic))
+    }
+
     fn elastic_energy(&self, model: &Model<L, U, K>) -> f64 {
         self.plastic.elastic_energy(&model.plastic)
     }
@@ -125,6 +129,11 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
         let mut moved = History { plastic: self.plastic.moved_to(&model.plastic, indentation), ..*self };
         moved.note_bend(model);
         moved
+    }
+
+    #[inline(always)]
+    fn widths(model: &Model<L, U, K>, _radius: f64, size: f64) -> [f64; 2] {
+        model.plastic.loading.widths(&model.plastic.pair, size)
     }
 
     fn depth_of(model: &Model<L, U, K>, contact_radius: f64) -> f64 {
