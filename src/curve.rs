@@ -99,7 +99,7 @@ fn too_wide(scene: &Scene, choices: &[Choice], largest: f64) -> Option<String> {
     let is_wide = |choice: &&Choice| {
         choice.model.elastoplastic().is_some_and(|model| {
             let radius = model.loading.contact_radius(&model.pair, largest);
-            !validity::beyond((&model.pair, size), None, radius, 0.0).is_empty()
+            !validity::beyond((&model.pair, size), scene.line_size(0), None, radius, 0.0).is_empty()
         })
     };
     let wide: Vec<_> = choices.iter().filter(is_wide).map(|choice| choice.laws.as_str()).collect();

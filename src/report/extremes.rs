@@ -124,7 +124,7 @@ impl Case {
             Err(error) => return self.with(Outcome::Failed, &error.to_string()),
         };
         let pair = bodies.model.pair();
-        let beyond = validity::beyond((&pair, bodies.size), bodies.density, radius, contact.fastest);
+        let beyond = validity::beyond((&pair, bodies.size), bodies.line, bodies.density, radius, contact.fastest);
         let (due, told) = (beyond.len(), contact.instance.take_warnings().len());
         let words = beyond.iter().map(|beyond| match beyond {
             Beyond::Width(_) | Beyond::Size { .. } => format!("a/R above {LARGEST_RADIUS_RATIO}"),
@@ -159,6 +159,8 @@ struct Bodies {
     density: Option<f64>,
     /// That of the smaller body [m].
     size: f64,
+    /// The same of a line contact [m].
+    line: Option<f64>,
 }
 
 /// The quantities that differ from the scene's, with their units and values: target's Young's modulus, yield strain, radius,
@@ -207,6 +209,10 @@ impl Bodies {
         if strain.is_some() && old_strain.is_none() {
             return None;
         }
+        // the depth of a line contact depends on its sizes, which are constants
+        if radius.is_some() && scene.line.is_some() {
+            return None;
+        }
         let larger = radius.map_or(1.0, |radius| radius / old("impactor.radius"));
         let stiffer = modulus.map_or(1.0, |modulus| modulus / old("target.youngs_modulus"));
         // both bodies keep the ratio of their strengths
@@ -226,7 +232,14 @@ impl Bodies {
         }
         let impact = Impact { mass: scene.impact.mass * larger.powi(3), speed: speed.unwrap_or(scene.impact.speed) };
         let size = changed.smaller_radius_with(0, &[]);
-        Some(Bodies { parameters, model: changed.any_model(), impact, density: scene.contacts[0].density, size })
+        Some(Bodies {
+            parameters,
+            model: changed.any_model(),
+            impact,
+            density: scene.contacts[0].density,
+            size,
+            line: changed.line_size(0),
+        })
     }
 
     /// A contact of these bodies with warnings about its validity enabled.

@@ -59,8 +59,8 @@ impl Laws {
         let mut wanted: Vec<Choice> = choose(scene, &[]).unwrap_or_default();
         let (mut left_out, mut without_strength) = (Vec::new(), 0);
         let own = wanted.first().map(|choice| choice.name.clone()).unwrap_or_default();
-        for (name, _) in AnyLoading::ALL.iter().filter(|(name, _)| *name != own) {
-            match choose(scene, &[(*name).to_string()]) {
+        for (name, _) in AnyLoading::of_balls().filter(|(name, _)| *name != own && scene.line.is_none()) {
+            match choose(scene, &[name.to_string()]) {
                 Ok(more) => wanted.extend(more),
                 Err(UnknownLaw::NoYieldStrength(_)) => without_strength += 1,
                 Err(error) => left_out.push(error.to_string()),

@@ -13,6 +13,7 @@ const _: &str = env!("CARGO_BIN_EXE_brinell");
 mod bad_units;
 mod contact_groups;
 mod contacts;
+mod cylinders;
 mod descriptions;
 mod elastic_unit;
 mod every_law;

@@ -239,7 +239,11 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
         ("Largest force", prediction.max_force, "N"),
         ("Largest indentation", prediction.max_indentation, "m"),
         ("Dent", prediction.residual_indentation, "m"),
-        ("Largest contact radius", prediction.max_contact_radius, "m"),
+        (
+            if scene.line.is_some() { "Largest half-width" } else { "Largest contact radius" },
+            prediction.max_contact_radius,
+            "m",
+        ),
         ("Coefficient of restitution", prediction.restitution, ""),
         ("Contact time", prediction.contact_time(), "s"),
     ];

@@ -7,6 +7,7 @@ use crate::laws::Choice;
 use crate::measured::MeasuredStrength;
 use crate::model::AnyModel;
 use crate::numbers::in_message;
+use crate::scene::Body;
 use brinell_contact::hardening::Hardening;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::TABOR;
@@ -134,7 +135,8 @@ pub fn run_test(
     for _ in 0..30 {
         let strain = TABOR * dent.radius_ratio;
         let Hardening { yield_strength, hardening_modulus } = measured.hardening(strain);
-        let hardening = AnyModel::Elastoplastic(model).with_bodies(TwoBodies { hardening_modulus, ..bodies });
+        let hardening =
+            AnyModel::Elastoplastic(model).with_bodies(TwoBodies { hardening_modulus, ..bodies }, Body::Target);
         let (other, strength) = match hardening {
             Some(hardening) => (hardening, yield_strength),
             None => (AnyModel::Elastoplastic(model), measured.at(strain)),
@@ -148,6 +150,9 @@ pub fn run_test(
 
 fn elastoplastic(choice: &Choice) -> Result<Model<AnyLoading, AnyUnloading>, String> {
     let model = choice.model.elastoplastic().filter(|_| choice.laws != "hertz");
+    if model.is_some_and(|model| model.loading.is_line()) {
+        return Err("a hardness test has a ball, and the scene a cylinder".into());
+    }
     model
         .copied()
         .ok_or_else(|| format!("the law {} leaves no dent: a hardness test needs a law that yields", choice.laws))

@@ -3,7 +3,7 @@
 use crate::model::{AnyModel, Dampings, RateLaw, paired};
 use crate::nearest::unknown;
 use crate::pairing::{self, unloading_of};
-use crate::scene::Scene;
+use crate::scene::{LINE, Scene};
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
@@ -85,7 +85,10 @@ pub fn choose(scene: &Scene, names: &[String]) -> Result<Vec<Choice>, UnknownLaw
         return Ok(vec![own(scene)]);
     }
     let every = |name: &String| match name.as_str() {
-        "all" => AnyLoading::ALL.iter().map(|(name, _)| (*name).to_string()).collect(),
+        "all" => {
+            let all = AnyLoading::ALL.iter().filter(|(_, law)| law.is_line() == scene.line.is_some());
+            all.map(|(name, _)| (*name).to_string()).collect()
+        }
         "damped" => AnyDamped::ALL.iter().map(|(name, _)| (*name).to_string()).collect(),
         _ => vec![name.clone()],
     };
@@ -112,6 +115,12 @@ fn damped_laws(name: &str, law: &AnyDamped) -> String {
 
 fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let (loading_name, other_name) = name.split_once('/').map_or((name, None), |(one, other)| (one, Some(other)));
+    let is_line = loading_name == LINE;
+    if is_line != scene.line.is_some() && loading_names().any(|known| known == loading_name) {
+        let [law, body] = if is_line { ["cylinders", "ball"] } else { ["balls", "cylinder"] };
+        let message = format!("{loading_name} is a law of {law}, and the impactor of the scene is a {body}");
+        return Err(UnknownLaw::Pairing(message));
+    }
     if let Some((_, law)) = AnyDamped::ALL.into_iter().find(|(known, _)| *known == loading_name) {
         return choose_damped(scene, name, law, other_name);
     }
@@ -138,7 +147,7 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let yield_strength = scene.yield_strength_for(&loading).ok_or_else(|| UnknownLaw::NoYieldStrength(name.into()))?;
     let pair = Pair { yield_strength, ..scene.model().pair };
     let model = Model { pair, loading, unloading, surface: scene.contacts[0].surface };
-    let model = paired(&model, scene.two_bodies(0)).prepared();
+    let model = paired(&model, scene.two_bodies(0), scene.softer(0)).prepared();
     let laws = format!("{loading_name}/{chosen}");
     Ok(Choice { name: name.into(), laws, model: scene.with_loss(0, model) })
 }

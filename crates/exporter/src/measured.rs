@@ -652,7 +652,7 @@ fn by_rebound(number: f64, metal: &Metal) -> Result<(f64, f64), String> {
     let model = |strength: f64| {
         let pair = Pair::new(&ball, &plane, strength)?;
         let model = Model { pair, loading, unloading, surface: Surface::Dented };
-        Some(paired(&model, bodies).prepared())
+        Some(paired(&model, bodies, crate::scene::Body::Target).prepared())
     };
     let predict = |strength: f64| AnyModel::Elastoplastic(model(strength)?).predict(&DEVICE_IMPACT);
     let restitution = |strength: f64| predict(strength).map_or(0.0, |prediction| prediction.restitution);

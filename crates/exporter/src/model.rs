@@ -1,6 +1,7 @@
 //! The physical model of the contact of a scene.
 
 use crate::numbers::significant;
+use crate::scene::Body;
 use brinell_contact::damped::hunt_crossley::DampingFactor;
 use brinell_contact::damped::tsuji::TsujiDamping;
 use brinell_contact::damped::{AnyDamped, Damped, HuntCrossley, Tsuji};
@@ -119,6 +120,14 @@ impl AnyModel {
         }
     }
 
+    /// Area of a contact with this contact radius, or half-width of a line \[m^2\].
+    pub fn area(&self, radius: f64) -> f64 {
+        match self.elastoplastic() {
+            Some(model) => model.loading.area(&model.pair, radius),
+            None => std::f64::consts::PI * radius * radius,
+        }
+    }
+
     /// The indentation up to which the law is valid \[m\] for bodies of which the smaller one has this `size` \[m\].
     pub fn valid_depth(&self, size: f64) -> f64 {
         match self {
@@ -153,9 +162,9 @@ impl AnyModel {
     }
 
     /// The model with what its law needs to know of these bodies; `None` if it needs nothing beside their pair.
-    pub fn with_bodies(&self, bodies: TwoBodies) -> Option<AnyModel> {
+    pub fn with_bodies(&self, bodies: TwoBodies, softer: Body) -> Option<AnyModel> {
         let model = self.elastoplastic().filter(|model| model.loading.takes_both_bodies())?;
-        Some(self.with_plastic(paired(model, bodies).prepared()))
+        Some(self.with_plastic(paired(model, bodies, softer).prepared()))
     }
 
     /// The stiffness of the way back from `indentation` \[m\]; of a rate-dependent law that of its elastic part \[N/m\].
@@ -200,9 +209,13 @@ impl AnyModel {
     }
 }
 
-/// The model with the form of its loading law for these two bodies, if it has one.
-pub fn paired(model: &Model<AnyLoading, AnyUnloading>, bodies: TwoBodies) -> Model<AnyLoading, AnyUnloading> {
-    let loading = model.loading.of_bodies(bodies);
+/// The model with the form of its loading law for these two bodies, of which the pair describes the `softer` one, if it has one.
+pub fn paired(
+    model: &Model<AnyLoading, AnyUnloading>,
+    bodies: TwoBodies,
+    softer: Body,
+) -> Model<AnyLoading, AnyUnloading> {
+    let loading = model.loading.of_bodies(bodies).along_line(bodies, softer == Body::Impactor);
     Model { loading, ..*model }
 }
 

@@ -4,12 +4,13 @@ use crate::numbers::one_digit;
 use crate::scene::Scene;
 use crate::table::Variable;
 use brinell_contact::impact::Prediction;
-use std::f64::consts::PI;
 
 /// Typical values of one group of contacts.
 #[derive(Clone, Copy)]
 pub struct Nominal {
     prediction: Prediction,
+    /// Area of the contact of the prediction \[m^2\].
+    area: f64,
     /// Stiffness \[N/m\].
     stiffness: f64,
     /// Speed of the scene's impact \[m/s\].
@@ -22,10 +23,12 @@ pub struct Nominal {
 pub fn of(scene: &Scene) -> Vec<Nominal> {
     scene.by_bodies(|group| {
         let prediction = scene.predictions[group];
-        let stiffness = scene.any_model_of(group).stiffness(prediction.max_indentation);
+        let model = scene.any_model_of(group);
+        let stiffness = model.stiffness(prediction.max_indentation);
+        let area = model.area(prediction.max_contact_radius);
         let friction =
             scene.group_value(group, "friction.coefficient").filter(|friction| *friction > 0.0).unwrap_or(1.0);
-        Nominal { prediction, stiffness, speed: scene.impact.speed, friction }
+        Nominal { prediction, area, stiffness, speed: scene.impact.speed, friction }
     })
 }
 
@@ -37,7 +40,7 @@ impl Nominal {
             "max_force" => max_force,
             "max_indentation" => max_indentation,
             "max_contact_radius" => max_contact_radius,
-            "max_mean_pressure" => max_force / (PI * max_contact_radius * max_contact_radius),
+            "max_mean_pressure" => max_force / self.area,
             "max_stiffness" => self.stiffness,
             "energy" => energy,
             "speed" => self.speed,

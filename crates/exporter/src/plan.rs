@@ -66,7 +66,7 @@ impl Plan<'_> {
             warnings: warnings.collect(),
             waves: Waves::of(scene, speed, &[]),
             shared_bodies: moves_separately(scene).then_some(SHARED_BODIES),
-            valid: validity::limits((&model.pair(), size), density, model.valid_depth(size)),
+            valid: validity::limits((&model.pair(), size), scene.line_size(0), density, model.valid_depth(size)),
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::numbers::{quantity, significant};
 use crate::rods::{self, Waves};
 use brinell_contact::Pair;
+use brinell_contact::loading::line::LARGEST_PART;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
 
 /// Fraction of the energy of an elastic impact that waves take, for this ratio of speed to wave speed.
@@ -19,6 +20,8 @@ pub enum Beyond {
     Width(f64),
     /// Ratio of contact radius to the radius \[m\] of the smaller body, where that is smaller than the effective radius.
     Size { ratio: f64, size: f64 },
+    /// Ratio of the half-width of a line contact to the size \[m\] of the smaller body.
+    Line { ratio: f64, size: f64 },
     /// Ratio of speed to wave speed, and the fraction of energy that waves take.
     Speed { ratio: f64, waves: f64 },
     /// The waves in rods, and the ratio of the predicted force to their largest.
@@ -31,7 +34,7 @@ pub enum Beyond {
 
 impl Beyond {
     /// Number of kinds.
-    pub const KINDS: usize = 6;
+    pub const KINDS: usize = 7;
 
     /// The number of its kind, and a measure of how far it is exceeded.
     pub fn rank(&self) -> (usize, f64) {
@@ -42,25 +45,35 @@ impl Beyond {
             Beyond::Waves { excess, .. } => (3, excess),
             Beyond::Short { travels, .. } => (4, -travels),
             Beyond::Bends { excess, .. } => (5, excess),
+            Beyond::Line { ratio, .. } => (6, ratio),
         }
     }
 
     /// Whether the contact is too wide.
     pub fn is_wide(&self) -> bool {
-        matches!(self, Beyond::Width(_) | Beyond::Size { .. })
+        matches!(self, Beyond::Width(_) | Beyond::Size { .. } | Beyond::Line { .. })
     }
 }
 
 /// The limits known to the FMU that a contact of the bodies `pair`, of which the smaller one has this `size` \[m\], exceeds at this contact
-/// `radius` \[m\] and this closing `speed` \[m/s\]; the `density` \[kg/m^3\] of the target may be unknown.
-pub fn beyond((pair, size): (&Pair, f64), density: Option<f64>, radius: f64, speed: f64) -> Vec<Beyond> {
+/// `radius` \[m\] and this closing `speed` \[m/s\]; the `density` \[kg/m^3\] of the target may be unknown. A contact along a `line` has another size
+/// \[m\].
+pub fn beyond(
+    (pair, size): (&Pair, f64),
+    line: Option<f64>,
+    density: Option<f64>,
+    radius: f64,
+    speed: f64,
+) -> Vec<Beyond> {
+    let along = line.map(|size| Beyond::Line { ratio: radius / size, size });
+    let along = along.filter(|along| along.rank().1 > LARGEST_PART);
     let ratio = radius / pair.radius.min(size);
     let width = if size < pair.radius { Beyond::Size { ratio, size } } else { Beyond::Width(ratio) };
     let width = (ratio > LARGEST_RADIUS_RATIO).then_some(width);
     let waves = density.map_or(f64::INFINITY, |density| wave_speed(pair.youngs_modulus, density));
     let ratio = speed / waves;
     let speed = (ratio > LARGEST_SPEED_RATIO).then_some(Beyond::Speed { ratio, waves });
-    width.into_iter().chain(speed).collect()
+    along.or(width).into_iter().chain(speed).collect()
 }
 
 /// The force \[N\] at one point from which a plate with this `thickness` \[m\] and `strength` \[Pa\] bends for good: `2 pi M` with the
@@ -148,6 +161,12 @@ pub fn words(beyond: Beyond) -> String {
             significant(ratio, 3),
             quantity(size, "m")
         ),
+        Beyond::Line { ratio, size } => format!(
+            "the half-width reaches {} of the size of the smaller body, {}; above {LARGEST_PART} the depth isn't that of a small contact, and the \
+             law isn't valid",
+            significant(ratio, 3),
+            quantity(size, "m")
+        ),
         Beyond::Speed { ratio, waves } => format!(
             "the speed is {} of the wave speed of {waves:.0} m/s; above {LARGEST_SPEED_RATIO} elastic waves take energy \
              that the law neglects, here {} of that of an elastic impact",
@@ -172,12 +191,21 @@ pub fn words(beyond: Beyond) -> String {
 
 /// The limits of validity of an FMU on bodies of which the smaller one has this `size` \[m\], with this limit of `depth` \[m\] and this
 /// target, in words. Beyond them, the FMU logs a warning.
-pub fn limits((pair, size): (&Pair, f64), density: Option<f64>, depth: f64) -> String {
+pub fn limits((pair, size): (&Pair, f64), line: Option<f64>, density: Option<f64>, depth: f64) -> String {
     let of = if size < pair.radius { "of the radius of the smaller body" } else { "effective radii" };
     let radius = format!(
         "up to a contact radius of {LARGEST_RADIUS_RATIO} {of}, here an indentation of {}",
         quantity(depth, "m")
     );
+    let radius = match line {
+        Some(size) => format!(
+            "up to a half-width of {LARGEST_PART} of the size of the smaller body, {}, and of {LARGEST_RADIUS_RATIO} effective radii, here an \
+             indentation of {}",
+            quantity(size, "m"),
+            quantity(depth, "m")
+        ),
+        None => radius,
+    };
     match density {
         Some(density) => format!(
             "{radius}, and up to a closing speed of {LARGEST_SPEED_RATIO} of the wave speed, here {}",

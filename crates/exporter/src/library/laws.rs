@@ -15,7 +15,7 @@ pub fn of(scene: &Scene) -> String {
         .unloading
         .map_or("contact::unloading::ContactRadius".into(), |_| type_of("unloading", &scene.plain_unloading()));
     // the form for two bodies
-    let loading = if scene.is_paired() { "contact::loading::Paired".into() } else { loading };
+    let loading = if scene.is_paired() && scene.line.is_none() { "contact::loading::Paired".into() } else { loading };
     let laws = format!("{loading}, {unloading}");
     let loss = match scene.loss {
         _ if scene.damped.is_some() => Some("contact::losses::Damper"),

@@ -153,14 +153,15 @@ impl Answer<'_> {
         let mut rows = vec![
             ("largest force", spread("largest force", prediction.max_force, "N")),
             ("largest indentation", spread("largest indentation", prediction.max_indentation, "m")),
-            ("largest contact radius", radius),
+            (if self.scene.line.is_some() { "largest half-width" } else { "largest contact radius" }, radius),
             ("depth of the dent", spread("dent", prediction.residual_indentation, "m")),
         ];
         // unloading hardly narrows a dent
         if prediction.residual_indentation > 0.0 {
             let diameter =
                 bands.and_then(|bands| bands.get("largest contact radius")).map(|ends| ends.map(|end| 2.0 * end));
-            rows.push(("diameter of the dent", with_band(2.0 * prediction.max_contact_radius, diameter, "m")));
+            let what = if self.scene.line.is_some() { "width of the dent" } else { "diameter of the dent" };
+            rows.push((what, with_band(2.0 * prediction.max_contact_radius, diameter, "m")));
         }
         rows.extend([
             ("restitution", spread("restitution", prediction.restitution, "")),

@@ -223,6 +223,10 @@ pub fn varied(
 fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result<AnyModel, PredictError> {
     let missing = |name: &str| PredictError::Sweep(format!("{name}: {}", why_absent(name)));
     for (name, _) in bodies {
+        if scene.line.is_some() && (name.ends_with("radius") || name.ends_with("poissons_ratio")) {
+            let message = format!("{name}: the constant C of a line contact follows from it, and would not change");
+            return Err(PredictError::Sweep(message));
+        }
         // a rigid impactor has no modulus, a flat target no radius, and an elastic law no strength
         let is_there = scene.group_value(0, name).is_some() || ["target.radius", HARDENING].contains(name);
         let strength = *name == Body::Target.yield_strength();
@@ -244,7 +248,7 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
     if let (AnyModel::Lossy(lossy, None), Some(loss)) = (&mut model, scene.loss_with(0, bodies)) {
         lossy.loss = loss;
     }
-    match model.with_bodies(scene.two_bodies_with(0, bodies)) {
+    match model.with_bodies(scene.two_bodies_with(0, bodies), scene.softer_with(0, bodies)) {
         Some(model) => Ok(model),
         None => match bodies.iter().find(|(name, _)| Body::ALL.iter().any(|body| body.hardening_modulus() == *name)) {
             Some((name, _)) => Err(missing(name)),

@@ -37,7 +37,7 @@ pub enum PredictError {
     )]
     Beyond { law: String, mass: f64, speed: f64 },
     #[error(
-        "an impact of {} at {} would make a contact of {} radius by the law {law}, and the smaller body has a radius of {}: no contact \
+        "an impact of {} at {} would make a contact of {} radius by the law {law}, and the smaller body is one of {}: no contact \
          is wider than its body",
         quantity(*.mass, "kg"), quantity(*.speed, "m/s"), quantity(*.radius, "m"), quantity(*.size, "m")
     )]
@@ -137,7 +137,8 @@ pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
 /// `pair` by these values of some parameters.
 pub fn beyond(scene: &Scene, pair: &Pair, speed: f64, prediction: &Prediction, values: &[(&str, f64)]) -> Vec<Beyond> {
     let bodies = (pair, scene.size_with(0, values));
-    let limits = validity::beyond(bodies, scene.contacts[0].density, prediction.max_contact_radius, speed);
+    let limits =
+        validity::beyond(bodies, scene.line_size(0), scene.contacts[0].density, prediction.max_contact_radius, speed);
     let waves = Waves::of(scene, speed, values).and_then(|waves| waves.beyond(prediction));
     let plate = match scene.loss_with(0, values) {
         Some(AnyLoss::Plate(Plate { thickness, .. })) => {

@@ -3,10 +3,11 @@
 use super::{Group, Scene};
 use crate::numbers::{cell, quantity};
 use crate::rods::Rod;
+use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::Loss;
 use brinell_contact::rate::Factors;
 use brinell_contact::validity::size_of;
-use brinell_contact::{OtherBody, Pair, TwoBodies};
+use brinell_contact::{Model, OtherBody, Pair, TwoBodies};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
@@ -183,7 +184,17 @@ impl Scene {
 
     /// The smaller radius of the bodies of `group` \[m\], with other values for some of the parameters: no contact is wider.
     pub fn smaller_radius_with(&self, group: usize, values: &[(&str, f64)]) -> f64 {
-        size_of(self.bodies_with(group, values).map(|body| body.radius))
+        let size = size_of(self.bodies_with(group, values).map(|body| body.radius));
+        self.line_size(group).map_or(size, |line| size.min(line))
+    }
+
+    /// The size of the smaller body of a line contact \[m\].
+    pub fn line_size(&self, group: usize) -> Option<f64> {
+        self.line.as_ref()?;
+        match self.model_of(group) {
+            Model { loading: AnyLoading::Line(law), pair, .. } => Some(law.size(&pair)),
+            _ => None,
+        }
     }
 
     /// The size of the smaller body of `group` \[m\]: the same, or the radius of a rod, of which the FMU doesn't know.
@@ -262,7 +273,7 @@ pub fn held(scene: &Scene, mass: f64) -> Option<String> {
     let [impactor, target] = scene.bodies_with(0, &[]);
     let volumes = [volume(rods.impactor, impactor.radius), volume(rods.target, target.radius)];
     // a half-space and a socket have no volume
-    if scene.coupling.is_some() || !(volumes[1] > 0.0 && volumes[1] < f64::INFINITY) {
+    if scene.coupling.is_some() || scene.line.is_some() || !(volumes[1] > 0.0 && volumes[1] < f64::INFINITY) {
         return None;
     }
     let known = impactor_density.or(*density);

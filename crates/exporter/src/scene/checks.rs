@@ -4,7 +4,8 @@ use super::Scene;
 use super::beside;
 use super::bodies::{self, Body, Both};
 use super::contacts::{Contacts, Group, Parameter};
-use super::file::{ImpactTable, NamesName, SceneFile};
+use super::cylinders;
+use super::file::{BodyTable, ImpactTable, NamesName, SceneFile};
 use super::fmu::{self, check_input_derivatives, check_outputs, check_text, choose_settable};
 use super::friction;
 use super::laws::{self, SceneLaws};
@@ -35,7 +36,9 @@ pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     let author = check_text("author", file.author.as_ref())?;
     let (step_size, stop_time) = fmu::check_experiment(&file.fmu)?;
     let mut contacts = Contacts::of(&file)?;
-    let laws = SceneLaws::of(&file.law, &contacts)?;
+    let no_table = BodyTable::default();
+    let cylinders = cylinders::check(&file, &no_table, &contacts)?;
+    let laws = SceneLaws::of(&file.law, &contacts, cylinders.is_some())?;
     let SceneLaws { damped, loading, unloading, passivity_guard } = laws;
     if laws.takes_both_bodies() {
         contacts.let_both_yield();
@@ -65,7 +68,7 @@ pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     let shared_mass =
         inverse_masses.as_ref().and_then(|masses| masses.effective_mass(0, contacts.count() * (1 + directions)));
     let impact_mass = known_mass.clone().or(shared_mass.map(|mass| Spanned::new(0..0, mass)));
-    let impact = check_impact(file.impact.as_ref(), impact_mass.as_ref(), &contacts)?;
+    let impact = check_impact(file.impact.as_ref(), impact_mass.as_ref(), &contacts, cylinders.is_some())?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let span = file.impact.as_ref().and_then(|table| Some(table.get_ref().mass.as_ref()?.span()));
@@ -110,6 +113,7 @@ pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
         coupling,
         inverse_masses,
         meeting,
+        line: None,
         directions,
         impact,
         predictions: Vec::new(),
@@ -134,6 +138,9 @@ pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
         let of_contact = |Mistake(span, message)| Mistake(span, contacts.said(group, &message));
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
+    }
+    if let Some(cylinders) = cylinders {
+        cylinders.settle(&mut scene, &file, &contacts)?;
     }
     // an impact that can't be may be one in a wrong unit
     let doubted = |Mistake(span, message)| {
@@ -207,11 +214,14 @@ fn check_impact(
     given: Option<&Spanned<ImpactTable>>,
     known: Option<&Spanned<f64>>,
     contacts: &Contacts,
+    is_line: bool,
 ) -> Result<Impact, Mistake> {
     let number = |name| contacts.number(0, name).map(|number| *number.get_ref());
     let radius = number("impactor.radius").unwrap_or(f64::NAN);
     let rod = number(Body::Impactor.length()).zip(number(Body::Impactor.area()));
+    let length = number(Body::Impactor.length()).filter(|_| is_line);
     let solid = |density: f64| match rod {
+        None if length.is_some() => cylinders::mass(density, radius, length.unwrap_or(f64::NAN)),
         Some((length, area)) => density * length * area,
         None => density * 4.0 / 3.0 * PI * radius * radius * radius,
     };
@@ -236,7 +246,7 @@ fn check_impact(
     let Some(given) = mass else {
         let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(Body::Impactor.density()).map(solid)).ok_or_else(|| {
             let message = "missing field `mass` in [impact]: give it, or the density or material of [impactor], which is then \
-                           taken for a solid ball";
+                           taken for a solid ball or cylinder";
             Mistake(table.span(), message.into())
         })?;
         return Ok(Impact { mass, speed });

@@ -2,6 +2,7 @@
 
 use super::beside::{self, OwnMaterial};
 use super::bodies::{Body, Both};
+use super::cylinders;
 use super::file::{BodyTable, ContactTable, Impactor, SceneFile};
 use super::laws;
 use super::names::check_identifier;
@@ -66,6 +67,8 @@ pub struct Group {
     pub density: Option<f64>,
     /// Density of the impactor \[kg/m^3\], if known. It is not a variable; the mass follows from it.
     pub impactor_density: Option<f64>,
+    /// Length of a line contact \[m\].
+    pub line_length: Option<f64>,
     /// The bodies that are rods. Nothing about them is a variable; they limit the force for which the law is valid.
     pub rods: Both<Option<Rod>>,
     /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may yield.
@@ -364,11 +367,17 @@ fn flows_of(bodies: &Both<&BodyTable>, own: &Numbers, above: &Above) -> Result<F
 }
 
 /// The keys of bodies that no contact has for itself.
-pub const OF_ALL_CONTACTS: [&str; 2] = ["rate", "plate_thickness"];
+pub const OF_ALL_CONTACTS: [&str; 5] = ["rate", "plate_thickness", "shape", "thickness", "base"];
 
 /// Rejects keys in a `body` of the contact `name` that apply to all contacts.
 fn check_own(name: &str, body: Body, table: &BodyTable) -> Result<(), Mistake> {
-    let spans = [table.rate.as_ref().map(Spanned::span), table.plate_thickness.as_ref().map(Spanned::span)];
+    let spans = [
+        table.rate.as_ref().map(Spanned::span),
+        table.plate_thickness.as_ref().map(Spanned::span),
+        table.shape.as_ref().map(Spanned::span),
+        table.thickness.as_ref().map(Spanned::span),
+        table.base.as_ref().map(Spanned::span),
+    ];
     let Some((key, span)) = OF_ALL_CONTACTS.into_iter().zip(spans).find_map(|(key, span)| Some((key, span?))) else {
         return Ok(());
     };
@@ -433,15 +442,19 @@ impl Contacts {
         let all = contacts_of(file, surface, &Above { shared: Some((&shared, &bodies)), ..above })?;
         let share_bodies =
             file.body.is_some() || file.coupling.as_ref().is_some_and(|table| table.get_ref().inverse_masses.is_some());
+        // the rate of a line contact has not been compared with anything
+        let has_no_rate = share_bodies || cylinders::is_line(file);
         let mut contacts = Contacts { shared, flows, rates: Both::default(), all };
-        contacts.rates = Both::try_each(|body| contacts.rate_of(body, bodies.of(body), share_bodies))?;
+        contacts.rates = Both::try_each(|body| contacts.rate_of(body, bodies.of(body), has_no_rate))?;
         for index in 0..contacts.all.len() {
             match contacts.all[index].name {
                 Some(_) => contacts.check_complete(index, &file.own)?,
                 None => check_tables(file, &contacts)?,
             }
             contacts.check_impactor(index)?;
-            contacts.check_rods(index)?;
+            if !cylinders::is_line(file) {
+                contacts.check_rods(index)?;
+            }
         }
         Ok(contacts)
     }
@@ -455,8 +468,8 @@ impl Contacts {
     }
 
     /// The strain-rate dependence of a `body`, by the `table` of all contacts. Steel whose strength was measured slowly, in every contact,
-    /// has one also if the scene gives none, unless contacts share bodies.
-    fn rate_of(&self, body: Body, table: &BodyTable, share_bodies: bool) -> Result<Option<Spanned<Rate>>, Mistake> {
+    /// has one also if the scene gives none, unless the scene `has_no_rate`, as where contacts share bodies.
+    fn rate_of(&self, body: Body, table: &BodyTable, has_no_rate: bool) -> Result<Option<Spanned<Rate>>, Mistake> {
         fn measured(flow: Option<&Arc<Flow>>) -> Option<&MeasuredStrength> {
             flow.and_then(|flow| flow.measured())
         }
@@ -467,7 +480,7 @@ impl Contacts {
         let is_slow = if strength.is_some() { slow(of_all) } else { each_slow() };
         let rate = match &table.rate {
             Some(rate) => Some(strength::check_rate(body, rate, of_all)?),
-            None if is_slow && !share_bodies => {
+            None if is_slow && !has_no_rate => {
                 let strength = strength.or_else(|| self.all[0].own.get(body.yield_strength()));
                 Some(Spanned::new(strength.map_or(0..0, Spanned::span), STEEL_RATE))
             }
@@ -661,6 +674,7 @@ impl Contacts {
                 surface: contact.surface,
                 density: number(Body::Target.density()),
                 impactor_density: number(Body::Impactor.density()),
+                line_length: number(Body::Impactor.length()).filter(|_| number(Body::Impactor.area()).is_none()),
                 rods: Both::each(|body| {
                     let [density, length, area] = [body.density(), body.length(), body.area()].map(number);
                     Some(Rod { density: density?, length: length?, area: area? })

@@ -130,12 +130,21 @@ pub struct BodyTable {
     /// Density; the warning of [fast impacts](limits.md) and two [losses](losses.md) need it.
     #[schemars(extend("x-default" = "that of the material", "examples" = ["7.85 g/cm^3"]))]
     pub density: Option<Spanned<f64>>,
+    /// A ball or a [cylinder](line.md); the target of a cylinder is a plane, a cylinder or a bore.
+    #[schemars(extend("x-default" = "that of the impactor"))]
+    pub shape: Option<Spanned<ShapeName>>,
     /// Length of a [rod](limits.md#long-bodies), such as a piston, a chisel or a pin, with its `area`; needs density and moduli.
     #[schemars(extend("x-default" = "compact"))]
     pub length: Option<Spanned<f64>>,
     /// Area of the rod's cross-section.
     #[schemars(extend("x-default" = "compact"))]
     pub area: Option<Spanned<f64>>,
+    /// Thickness of the plate, or of the wall, below the contact of a [cylinder](line.md#size): its depth depends on it.
+    #[schemars(extend("x-default" = "none: a target with a radius is a solid roller", "examples" = ["40 mm"]))]
+    pub thickness: Option<Spanned<f64>>,
+    /// What the plate lies on.
+    #[schemars(extend("default" = "smooth"))]
+    pub base: Option<Spanned<BaseName>>,
     /// Radius of a curved target; negative for a socket, which must be wider than the impactor.
     #[schemars(extend("x-default" = "flat", "examples" = ["-50 mm"]))]
     pub radius: Option<Spanned<f64>>,
@@ -177,8 +186,17 @@ struct ImpactorKeys {
     pub rate: Option<Spanned<RateTable>>,
     /// Density: with it, `[impact]` may leave out the mass, which is then that of a solid ball, or of the rod.
     pub density: Option<Spanned<f64>>,
+    /// A ball, or a [cylinder](line.md), whose contact has the `length` of a line.
+    #[schemars(extend("default" = "ball"))]
+    pub shape: Option<Spanned<ShapeName>>,
+    /// Length of the contact of a cylinder; or length of a [rod](limits.md#long-bodies), with its `area`; needs density and moduli.
+    #[schemars(extend("x-default" = "compact", "examples" = ["20 mm"]))]
     pub length: Option<Spanned<f64>>,
     pub area: Option<Spanned<f64>>,
+    #[serde(skip)]
+    thickness: Option<Spanned<f64>>,
+    #[serde(skip)]
+    base: Option<Spanned<BaseName>>,
     #[serde(skip)]
     plate_thickness: Option<Spanned<f64>>,
     #[serde(skip)]
@@ -252,6 +270,24 @@ pub struct CurveTable {
     pub true_stress: Option<Spanned<Vec<f64>>>,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ShapeName {
+    /// Round in all directions: a contact at one point.
+    Ball,
+    /// A contact along a line.
+    Cylinder,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum BaseName {
+    /// On a rigid base, along which it can move.
+    Smooth,
+    /// Bonded to a rigid base.
+    Bonded,
+}
+
 #[derive(Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SurfaceName {
@@ -291,6 +327,9 @@ pub struct LawTable {
     /// Damping factor of a rate-dependent law.
     #[schemars(extend("x-default" = "that of the law"))]
     pub damping: Option<Spanned<String>>,
+    /// `C` of a [line contact](line.md#size), in place of the sizes from which it follows: the elastic depth is `F'/(pi E*) (C - ln(F/F_y))`.
+    #[schemars(extend("x-default" = "that of the sizes", "examples" = [11.5]))]
+    pub size_constant: Option<Spanned<f64>>,
     /// Constants of the unloading law, by name.
     #[schemars(with = "Option<ConstantKeys>", extend("x-default" = "those of the reference"))]
     pub unloading_parameters: Option<ConstantTable>,

@@ -2,6 +2,7 @@
 
 use super::Scene;
 use super::contacts::Contacts;
+use super::cylinders::LINE;
 use super::file::LawTable;
 use crate::law_check;
 use crate::mistake::Mistake;
@@ -27,11 +28,15 @@ pub struct SceneLaws {
 
 impl SceneLaws {
     /// The laws of the table `law`, which suit the `contacts`, and each other.
-    pub fn of(law: &LawTable, contacts: &Contacts) -> Result<SceneLaws, Mistake> {
+    pub fn of(law: &LawTable, contacts: &Contacts, is_line: bool) -> Result<SceneLaws, Mistake> {
+        if let Some(name) = law.loading.as_ref().filter(|name| is_line && name.get_ref() != LINE) {
+            let message = format!("law.loading = \"{}\" is a law of balls: a cylinder has \"{LINE}\"", name.get_ref());
+            return Err(Mistake(name.span(), message));
+        }
         let damped = find_damped(law)?;
         let loading = match damped {
             Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
-            None => check_loading(law, contacts)?,
+            None => check_loading(law, contacts, is_line)?,
         };
         let elastic = matches!(loading.1, AnyLoading::Hertz(_));
         let hardens = damped.is_none() && loading.1.takes_both_bodies();
@@ -125,10 +130,14 @@ fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<A
 }
 
 /// The loading law of a scene without a rate-dependent law.
-fn check_loading(given: &LawTable, contacts: &Contacts) -> Result<(&'static str, AnyLoading), Mistake> {
+fn check_loading(given: &LawTable, contacts: &Contacts, is_line: bool) -> Result<(&'static str, AnyLoading), Mistake> {
     let name = given.loading.as_ref();
     let yields = contacts.any_yields();
-    let default = if yields { pairing::DEFAULT_LOADING } else { "hertz" };
+    let default = match yields {
+        _ if is_line => LINE,
+        true => pairing::DEFAULT_LOADING,
+        false => "hertz",
+    };
     let asked = name.map_or(default, |name| name.get_ref().as_str());
     let span = name.map_or(0..0, Spanned::span);
     let law = AnyLoading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
@@ -136,6 +145,10 @@ fn check_loading(given: &LawTable, contacts: &Contacts) -> Result<(&'static str,
         let names = names.chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
         Mistake(span.clone(), unknown("law.loading", asked, names))
     })?;
+    if !yields && is_line {
+        let message = "a cylinder needs the yield strength of a body: target.yield_strength, or a material";
+        return Err(Mistake(span, message.into()));
+    }
     if !yields && law.0 != "hertz" {
         let message =
             format!("law.loading = \"{asked}\" needs target.yield_strength (or a material); \"hertz\" doesn't");

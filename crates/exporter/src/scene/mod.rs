@@ -4,6 +4,7 @@ mod beside;
 pub mod bodies;
 mod checks;
 mod contacts;
+mod cylinders;
 mod file;
 mod fmu;
 mod friction;
@@ -37,6 +38,7 @@ pub use beside::{Beside, MaterialTable, OwnMaterial};
 pub use bodies::{Body, Both};
 pub use contacts::{Group, Parameter};
 pub use contacts::{OF_ALL_CONTACTS, taken_names};
+pub use cylinders::LINE;
 pub use file::SceneFile;
 pub use fmu::INPUTS;
 pub use inverse_masses::{InverseMasses, place};
@@ -115,6 +117,8 @@ pub struct Scene {
     pub inverse_masses: Option<InverseMasses>,
     /// The two bodies of the first contact, if it has friction and its bodies are in tables.
     pub meeting: Option<[Meeting; 2]>,
+    /// Where the constant `C` of a line contact is from, in words; `None` for contacts of balls.
+    pub line: Option<String>,
     /// Number of tangential directions, zero without friction.
     pub directions: usize,
     pub impact: Impact,
@@ -265,7 +269,7 @@ impl Scene {
 
     /// The elastoplastic model of the contacts of `group`.
     pub fn model_of(&self, group: usize) -> Model<AnyLoading, AnyUnloading> {
-        paired(&self.unpaired_model_of(group), self.two_bodies(group)).prepared()
+        paired(&self.unpaired_model_of(group), self.two_bodies(group), self.softer(group)).prepared()
     }
 
     /// The same without what its laws need to know of two bodies. An elastic contact never uses its unloading law.

@@ -55,7 +55,7 @@ const ELSEWHERE: [(&str, &str); 42] = [
     ("v", "it is called speed, in [impact]"),
     ("drop_height", "[impact] has a drop_height"),
     ("height", "[impact] has a drop_height"),
-    ("thickness", "[target] has a plate_thickness, for a plate that gives way"),
+    ("thickness", "[target] has a thickness under a cylinder, and a plate_thickness for a plate that gives way"),
     ("e", "it is called youngs_modulus"),
     ("nu", "it is called poissons_ratio"),
     ("rho", "it is called density"),

@@ -183,6 +183,7 @@ fn of_body(owner: &str, body: Body, table: &BodyTable, own: &[OwnMaterial]) -> V
         ("tangent_modulus", &table.tangent_modulus, &HARDENING),
         ("tensile_strength", &table.tensile_strength, &STRENGTH),
         ("plate_thickness", &table.plate_thickness, &THICKNESS),
+        ("thickness", &table.thickness, &LENGTH),
         ("density", &table.density, &DENSITY),
         ("length", &table.length, &LENGTH),
         ("area", &table.area, &AREA),

@@ -50,7 +50,9 @@ pub fn quantity_of(table: &str, key: &str) -> Quantity {
         (_, "mass") => ("kg", POSITIVE),
         (_, "speed") => ("m/s", POSITIVE),
         (_, "drop_height") => ("m", POSITIVE),
-        (_, "length" | "gauge_length") => ("m", 1e-9..=1e6),
+        (_, "length" | "gauge_length" | "thickness") => ("m", 1e-9..=1e6),
+        // below, a contact at first yield is as wide as the body
+        (_, "size_constant") => ("", 3.0..=100.0),
         (_, "area" | "section") => ("m^2", 1e-18..=1e12),
         (_, "arms") => ("m", -1e6..=1e6),
         (_, "step_size" | "stop_time") => ("s", 1e-30..=1e30),

@@ -530,7 +530,7 @@ impl Scene {
         let bodies = self.two_bodies(group);
         let other = OtherBody { yield_strength, hardening_modulus, ..bodies.other };
         let bodies = TwoBodies { hardening_modulus: own.hardening_modulus, other, ..bodies };
-        paired(&Model { pair, ..model }, bodies).prepared()
+        paired(&Model { pair, ..model }, bodies, softer).prepared()
     }
 
     /// The prediction of `impact` on the first contact with the straight lines for `part` of the strains `found`.

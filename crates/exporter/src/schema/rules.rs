@@ -5,7 +5,7 @@ use crate::measured::{self, TEST_RATE};
 use crate::model::Dampings;
 use crate::pairing;
 use crate::parameters::{self, LawConstant};
-use crate::scene::{GROUND, WAVES, taken_names};
+use crate::scene::{GROUND, LINE, WAVES, taken_names};
 use crate::table;
 use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::loading::AnyLoading;
@@ -88,6 +88,7 @@ pub fn add(schema: &mut Value) {
         implies(knows_mass.clone(), not(derivatives(false))),
         implies(all([not(knows_mass), any([damped.clone(), elastic_loss.clone()])]), not(derivatives(true))),
         implies(damped, not(loss)),
+        of_cylinders(),
         not(all([elastic_loss, key("target", has("plate_thickness"))])),
         implies(
             mass_input.clone(),
@@ -114,6 +115,32 @@ pub fn add(schema: &mut Value) {
     keys["law"]["allOf"] = json!(of_laws());
 }
 
+/// What goes with a cylinder, and with a ball.
+fn of_cylinders() -> Value {
+    let line = key("impactor", key("shape", json!({ "const": "cylinder" })));
+    let law = |so: Value| json!({ "properties": { "law": { "properties": { "loading": so } } } });
+    let sizes = any([
+        key("target", any([has("thickness"), has("base"), key("shape", json!({ "const": "cylinder" }))])),
+        key("law", has("size_constant")),
+    ]);
+    let own = not(any(["area", "rate"].map(has)));
+    let target = not(any(["plate_thickness", "length"].map(has)));
+    let of_line = [
+        law(json!({ "const": LINE })),
+        json!({ "properties": { "impactor": own, "target": all([own.clone(), target]) } }),
+        not(has("friction")),
+        not(key("law", key("elastic_restitution", json!({ "type": "string" })))),
+        not(all([key("target", has("thickness")), key("law", has("size_constant"))])),
+        json!({ "properties": { "target": {
+            "dependentRequired": { "base": ["thickness"] }, "properties": { "shape": { "const": "cylinder" } },
+        } } }),
+    ];
+    all([
+        implies(line.clone(), all(of_line)),
+        implies(not(line), all([law(not(json!({ "const": LINE }))), not(sizes)])),
+    ])
+}
+
 /// What a contact says of the bodies of its scene.
 const ENDS: [&str; 5] = ["between", "direction", "normal", "arms", "tangent"];
 
@@ -125,7 +152,9 @@ fn of_single_contact() -> Value {
     let dense = || any([has("material"), has("density")]);
     let elastic = || any([has("material"), needs(&["youngs_modulus", "poissons_ratio"])]);
     let rod = || json!({ "dependentRequired": { "length": ["area"], "area": ["length"] } });
-    let of_elastic = STRENGTHS.into_iter().chain(["hardening_modulus", "youngs_modulus", "poissons_ratio", "length"]);
+    let of_impactor =
+        implies(not(key("shape", json!({ "const": "cylinder" }))), all([rod(), implies(has("length"), elastic())]));
+    let of_elastic = STRENGTHS.into_iter().chain(["hardening_modulus", "youngs_modulus", "poissons_ratio"]);
     let strong = any(STRENGTHS.into_iter().chain(["material"]).map(has));
     let plastic = AnyLoading::ALL.iter().map(|(name, _)| *name).filter(|name| *name != "hertz");
     all([
@@ -133,7 +162,7 @@ fn of_single_contact() -> Value {
         json!({ "properties": {
             "impactor": all([
                 has("radius"),
-                rod(),
+                of_impactor,
                 implies(any(of_elastic.map(has)), elastic()),
                 implies(has("hardening_modulus"), strong.clone()),
             ]),

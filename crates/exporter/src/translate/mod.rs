@@ -168,6 +168,10 @@ pub fn translate(scene: &Scene, request: &Request) -> Result<Translation, Transl
     if let Some(step) = request.step.filter(|step| !(*step > 0.0 && *step <= LONGEST_STEP)) {
         return Err(TranslateError::Step(step));
     }
+    if scene.line.is_some() {
+        let why = "its contacts are translated from those of balls, and the scene has a cylinder".into();
+        return Err(TranslateError::NoNumbers { tool: tool.title.clone(), why });
+    }
     let case = Case::of(scene, request)?;
     let (mut ways, mut left_out) = (Vec::new(), Vec::new());
     for way in &tool.ways {

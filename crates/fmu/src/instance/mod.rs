@@ -27,7 +27,6 @@ use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
 use account::{Account, Ending};
 use brinell_contact::behaviour::is_finite_at;
 use brinell_contact::shared::Work;
-use brinell_contact::validity::largest_radius;
 use brinell_contact::{Contact, TooDeep};
 use clock::Clock;
 use core::borrow::Borrow;
@@ -280,8 +279,9 @@ impl<S: Scene> Settings<S> {
             return bodies.depth;
         }
         let size = validity::size::<S>(group, &self.values);
-        let width = if self.limit == Limit::Valid { largest_radius(bodies.radius, size) } else { size };
-        let depth = S::Contact::depth_of(&self.model(group), width);
+        let model = self.model(group);
+        let [valid, possible] = S::Contact::widths(&model, bodies.radius, size);
+        let depth = S::Contact::depth_of(&model, if self.limit == Limit::Valid { valid } else { possible });
         self.bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.depth = depth);
         depth
     }

@@ -59,7 +59,10 @@ impl<S: Scene> Instance<S> {
     pub(super) fn check_width(&self) -> Result<(), Fault> {
         let Limit::Reached(contact) = self.settings.limit else { return Ok(()) };
         let contact = contact as usize;
-        Err(Fault::TooWide { contact, size: size::<S>(S::group(contact), &self.settings.values) })
+        let group = S::group(contact);
+        let size = size::<S>(group, &self.settings.values);
+        let [_, size] = S::Contact::widths(&self.settings.model(group), f64::INFINITY, size);
+        Err(Fault::TooWide { contact, size })
     }
 
     /// A contact has passed the present limit: the next one applies.

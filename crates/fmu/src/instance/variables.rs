@@ -5,7 +5,6 @@ use super::*;
 use crate::scene::{Integer, Real};
 use brinell_contact::path::Course;
 use brinell_contact::shared::NotInverseMasses;
-use core::f64::consts::PI;
 
 impl<S: Scene> Instance<S> {
     /// Checks whether `variable` of `contact` may be set to `value` now.
@@ -309,10 +308,7 @@ pub(super) fn of_state<S: Scene>(output: Real, contact: &S::Contact, model: &S::
     match output {
         Real::ResidualIndentation => contact.residual_indentation(model),
         Real::ContactRadius => contact.contact_radius(model),
-        Real::ContactArea => {
-            let radius = contact.contact_radius(model);
-            PI * radius * radius
-        }
+        Real::ContactArea => contact.contact_area(model),
         Real::MeanPressure => contact.mean_pressure(model, rate),
         Real::Stiffness => contact.stiffness(rate),
         Real::ElasticEnergy => contact.elastic_energy(model),

@@ -42,7 +42,7 @@ fn law<L: Numbered>(numbers: &LawNumbers) -> L {
 
 /// The elastoplastic model of a scene.
 #[inline(always)]
-fn plastic<L: Numbered, U: Numbered, X: OfScene>(
+fn plastic<L: Loading + Numbered, U: Numbered, X: OfScene>(
     data: &Data,
     given: &Given,
     value: impl Fn(Parameter) -> f64 + Copy,
@@ -53,7 +53,13 @@ fn plastic<L: Numbered, U: Numbered, X: OfScene>(
         return Model { pair, loading, unloading, surface };
     }
     let loading = law::<L>(&data.loading);
-    let loading = if data.has(Flag::Paired) { loading.of_bodies(two_bodies(value)) } else { loading };
+    let loading = match data.has(Flag::Paired) {
+        true => {
+            let bodies = two_bodies(value);
+            loading.of_bodies(bodies).along_line(bodies, impactor_yields(value))
+        }
+        false => loading,
+    };
     Model { pair, loading, unloading, surface }
 }
 
