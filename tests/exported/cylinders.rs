@@ -34,7 +34,11 @@ fn an_fmu_of_cylinders_agrees_with_the_prediction() {
     let folder = empty_folder();
     for (impactor, target, more) in [
         (ROLLER, PLATE, ""),
-        (ROLLER, "radius = \"30 mm\", material = \"steel AISI 4340, 30 HRC\", hardening_modulus = \"2 GPa\"", ""),
+        (
+            ROLLER,
+            "radius = \"30 mm\", material = \"steel AISI 4340, 30 HRC\", yield_strength = \"900 MPa\", hardening_modulus = \"2 GPa\"",
+            "",
+        ),
         (
             "radius = 0.01, length = 0.02",
             "material = \"aluminium 6061-T6\", thickness = 0.02, base = \"bonded\"",
@@ -202,7 +206,7 @@ fn commands_of_balls_say_so() {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene(ROLLER, PLATE, "")).unwrap();
     for (arguments, words) in [
-        (vec!["hardness", "scene.toml"], "the scene a cylinder"),
+        (vec!["hardness", "scene.toml", "--load", "1kN"], "the scene a cylinder"),
         (vec!["translate", "scene.toml", "--for", "mujoco"], "the scene has a cylinder"),
         (vec!["predict", "scene.toml", "--laws", "brinell"], "is a law of balls"),
         (vec!["predict", "scene.toml", "--sweep", "impactor.radius=0.01:0.02:3"], "the constant C"),

@@ -36,8 +36,9 @@ fn force_work_and_contact_radius_are_continuous_for_any_bodies() {
                 for (left, right) in below.into_iter().zip(above) {
                     // beyond the end of a fit there is no number, on either side
                     assert_eq!(left.is_finite(), right.is_finite(), "{name}, {pair:?} at {corner:e}: {left} {right}");
-                    // a few units in the last place; a sum of large parts of opposite signs would have more
-                    let allowed = 4e-15 * right + f64::MIN_POSITIVE;
+                    // a few units in the last place; a sum of large parts of opposite signs, as on the pieces of a line contact, has more
+                    let digits = if model.loading.is_line() { 1e-13 } else { 4e-15 };
+                    let allowed = digits * right + f64::MIN_POSITIVE;
                     let is_close = !left.is_finite() || (left - right).abs() <= allowed;
                     assert!(is_close, "{name}, {pair:?} at {corner:e}: {left:e} {right:e}");
                     compared += 1;

@@ -7,6 +7,7 @@ use super::file::{BaseName, BodyTable, SceneFile, ShapeName};
 use super::quantities::check_quantity;
 use crate::mistake::{Mistake, Spanned};
 use crate::numbers::{in_message, quantity, significant};
+use crate::table;
 use brinell_contact::loading::{AnyLoading, Line, line::ROLLER};
 use brinell_contact::unloading::{self, AnyUnloading};
 use std::f64::consts::PI;
@@ -75,6 +76,10 @@ pub fn check<'a>(
         let message = "the contact of a cylinder needs impactor.length, as in length = \"20 mm\"";
         return Err(Mistake(shape, contacts.said(index, message)));
     }
+    if !contacts.any_yields() {
+        let message = "a cylinder needs the yield strength of a body: target.yield_strength, or a material";
+        return Err(Mistake(shape, message.into()));
+    }
     for body in Body::ALL {
         let table = if body == Body::Impactor { impactor } else { target };
         if let Some(rate) = &table.rate {
@@ -84,6 +89,10 @@ pub fn check<'a>(
             );
             return Err(Mistake(rate.span(), message));
         }
+    }
+    if let Some(friction) = &file.friction {
+        let why = table::unloading_law(LINE).no_friction.as_deref().unwrap_or_default();
+        return Err(Mistake(friction.span(), format!("[friction] doesn't go with a cylinder: {why}")));
     }
     if let Some(thickness) = &target.plate_thickness {
         let message = "target.plate_thickness is that of a sheet that gives way to a ball; the plate under a cylinder has a `thickness`";

@@ -145,10 +145,6 @@ fn check_loading(given: &LawTable, contacts: &Contacts, is_line: bool) -> Result
         let names = names.chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
         Mistake(span.clone(), unknown("law.loading", asked, names))
     })?;
-    if !yields && is_line {
-        let message = "a cylinder needs the yield strength of a body: target.yield_strength, or a material";
-        return Err(Mistake(span, message.into()));
-    }
     if !yields && law.0 != "hertz" {
         let message =
             format!("law.loading = \"{asked}\" needs target.yield_strength (or a material); \"hertz\" doesn't");
