@@ -6,7 +6,7 @@
 //! compression is `F'/(pi E_i) (2 ln(2t/a) + k)` it is `s = 2 t e^(k/2)`.
 //!
 //! For every convex profile without friction `dd/dF' = (2 ln(s/a) - 1)/(pi E*)` with the present half-width: a flat punch is pushed in. So an
-//! unloading needs only the half-width as a function of the force: [`Chain`].
+//! unloading needs only the half-width as a function of the force.
 
 use crate::numbers::{quotient, smallest};
 use crate::segment::Segment;
