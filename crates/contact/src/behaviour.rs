@@ -209,7 +209,7 @@ pub trait Contact<M>: Copy {
     /// The contact radii \[m\] up to which the law of `model` is valid, and from which on there is no contact at all, for bodies of this effective
     /// `radius` \[m\], of which the smaller one has this `size` \[m\].
     #[inline(always)]
-    fn widths(_model: &M, radius: f64, size: f64) -> [f64; 2] {
+    fn widths<B: Borrow<M>>(_model: impl FnOnce() -> B, radius: f64, size: f64) -> [f64; 2] {
         [largest_radius(radius, size), size]
     }
 

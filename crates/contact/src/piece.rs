@@ -165,7 +165,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
 
     /// Whether there is a force at `indentation` \[m\]: above the surface, and anywhere on the loading curve.
     fn presses_at(&self, indentation: f64) -> bool {
-        indentation > self.lower || matches!(self.kind, Kind::Loading | Kind::Part)
+        indentation > self.lower || self.kind == Kind::Loading || self.model.has_chain() && self.kind == Kind::Part
     }
 
     /// Force \[N\]; zero below the surface.

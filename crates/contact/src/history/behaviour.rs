@@ -8,6 +8,7 @@ use crate::numbers::largest;
 use crate::path::Course;
 use crate::segment::Segment;
 use crate::unloading::Unloading;
+use crate::validity::largest_radius;
 use crate::{Model, momentum};
 use core::borrow::Borrow;
 
@@ -179,8 +180,13 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     }
 
     #[inline(always)]
-    fn widths(model: &Model<L, U>, _radius: f64, size: f64) -> [f64; 2] {
-        model.loading.widths(&model.pair, size)
+    fn widths<B: Borrow<Model<L, U>>>(model: impl FnOnce() -> B, radius: f64, size: f64) -> [f64; 2] {
+        if !L::has_chain() {
+            return [largest_radius(radius, size), size];
+        }
+        let model = model();
+        let Model { loading, pair, .. } = model.borrow();
+        loading.widths(pair, size)
     }
 
     fn depth_of(model: &Model<L, U>, contact_radius: f64) -> f64 {

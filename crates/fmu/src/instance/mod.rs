@@ -280,7 +280,7 @@ impl<S: Scene> Settings<S> {
         }
         let size = validity::size::<S>(group, &self.values);
         let model = self.model(group);
-        let [valid, possible] = S::Contact::widths(&model, bodies.radius, size);
+        let [valid, possible] = S::Contact::widths(|| &*model, bodies.radius, size);
         let depth = S::Contact::depth_of(&model, if self.limit == Limit::Valid { valid } else { possible });
         self.bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.depth = depth);
         depth

@@ -61,7 +61,7 @@ impl<S: Scene> Instance<S> {
         let contact = contact as usize;
         let group = S::group(contact);
         let size = size::<S>(group, &self.settings.values);
-        let [_, size] = S::Contact::widths(&self.settings.model(group), f64::INFINITY, size);
+        let [_, size] = S::Contact::widths(|| self.settings.model(group), f64::INFINITY, size);
         Err(Fault::TooWide { contact, size })
     }
 

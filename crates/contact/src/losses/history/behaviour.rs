@@ -7,6 +7,7 @@ use crate::loading::Loading;
 use crate::losses::{Loss, Model};
 use crate::path::Course;
 use crate::unloading::Unloading;
+use crate::validity::largest_radius;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
@@ -132,8 +133,13 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
     }
 
     #[inline(always)]
-    fn widths(model: &Model<L, U, K>, _radius: f64, size: f64) -> [f64; 2] {
-        model.plastic.loading.widths(&model.plastic.pair, size)
+    fn widths<B: Borrow<Model<L, U, K>>>(model: impl FnOnce() -> B, radius: f64, size: f64) -> [f64; 2] {
+        if !L::has_chain() {
+            return [largest_radius(radius, size), size];
+        }
+        let model = model();
+        let plastic = &model.borrow().plastic;
+        plastic.loading.widths(&plastic.pair, size)
     }
 
     fn depth_of(model: &Model<L, U, K>, contact_radius: f64) -> f64 {
