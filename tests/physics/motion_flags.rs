@@ -3,7 +3,7 @@
 
 use crate::physics::{AnyModel, Random, all_models, pair_of};
 use crate::shared_losses::random_losing_bodies;
-use crate::shared_motion::random_bodies;
+use crate::shared_motion::{as_rollers, random_bodies};
 use brinell_contact::momentum::impulse;
 use brinell_contact::motion::{Drive, follow};
 use brinell_contact::path::Course;
@@ -118,6 +118,7 @@ fn no_motion_of_shared_bodies_raises_an_exception() {
     let mut done = 0;
     for index in 0..2_000 {
         let (group, _) = random_bodies(&mut random, 2 + index % 5);
+        let group = if index % 4 == 3 { as_rollers(group) } else { group };
         done += shared_steps(&mut random, &group.models, group.contacts, &group.entries, group.rates);
         let (group, _) = random_losing_bodies(&mut random, 1 + index % 5);
         done += shared_steps(&mut random, &group.models, group.contacts, &group.entries, group.rates);

@@ -46,7 +46,7 @@ impl Numbers {
 
 /// A smooth piece of a law.
 pub struct Piece<'a, L, U> {
-    model: &'a Model<L, U>,
+    pub(crate) model: &'a Model<L, U>,
     kind: Kind,
     /// Lower end of the piece \[m\].
     pub lower: f64,
@@ -93,7 +93,8 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     pub fn at(model: &'a Model<L, U>, indentation: f64, largest: f64, rising: bool) -> Piece<'a, L, U> {
         let upper = model.loading.yield_point(&model.pair).indentation;
         if largest <= upper && !(rising && indentation >= upper) {
-            let (kind, segment) = (Kind::Elastic, model.elastic_segment(indentation));
+            let within = if indentation > 0.0 { indentation } else { 0.0 };
+            let (kind, segment) = (Kind::Elastic, model.elastic_segment(within));
             let is_whole = model.has_elastic_segment()
                 || model.has_chain() && segment.lower <= 0.0 && segment.upper >= smallest(upper, LARGEST_INDENTATION);
             return Piece { model, kind, lower: 0.0, upper, segment, is_whole, unloading: None };
@@ -110,14 +111,12 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     /// The part of the piece on which one segment of a chain holds, from `indentation` \[m\] on if it is `rising` or falling. The whole
     /// piece, if it is none of a chain.
     pub fn part(self, indentation: f64, rising: bool) -> Piece<'a, L, U> {
-        if !self.model.has_chain() || self.is_whole() || self.kind == Kind::Loading {
-            return self;
-        }
-        let segment = self.segment_at(if rising { indentation } else { indentation.next_down() });
         // a tangent holds at one point
-        if segment.upper <= next_above(segment.lower) {
+        let is_tangent = self.segment.upper <= next_above(self.segment.lower);
+        if !self.model.has_chain() || self.is_whole() || self.kind == Kind::Loading || is_tangent {
             return self;
         }
+        let segment = self.segment_at(largest(if rising { indentation } else { indentation.next_down() }, self.lower));
         let (lower, upper) = (largest(segment.lower, self.lower), smallest(segment.upper, self.upper));
         Piece { kind: Kind::Part, lower, upper, segment, is_whole: true, unloading: None, ..self }
     }

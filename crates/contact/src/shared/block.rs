@@ -10,6 +10,7 @@ use super::targets::Target;
 use super::work::Work;
 use super::{Refused, SharedContact};
 use crate::impact::Impact;
+use crate::loading::Loading;
 use crate::losses::Damping;
 use crate::motion::MOST_EVALUATIONS;
 use crate::numbers::{largest, quotient, root, smallest};
@@ -275,6 +276,14 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         clocks.reduce(|best, next| if next.until < best.until { next } else { best })
     }
 
+    /// The time in which a contact leaves a segment of a chain \[s\]; infinite without one.
+    fn time_on_segments(&self) -> f64 {
+        if !C::Loading::has_chain() {
+            return f64::INFINITY;
+        }
+        self.members().fold(f64::INFINITY, |least, (_, member)| smallest(member.time_on_segment(), least))
+    }
+
     /// One step of the integration, or as much of it as there is before the next event.
     fn go_on(&mut self) -> Result<(), Refused> {
         if self.cost == 0 {
@@ -287,7 +296,8 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             time = smallest(first * self.scales.time, self.left);
         }
         self.touched = false;
-        let mut length = clock.as_ref().map_or(time, |clock| clock.length(time));
+        let within = smallest(time, self.time_on_segments());
+        let mut length = clock.as_ref().map_or(within, |clock| clock.length(within));
         let factor = loop {
             let error = self.attempt(clock.as_ref(), length)?;
             let factor = dop853::factor(error);
@@ -306,7 +316,7 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
         let growth = if factor < GROWTH { factor } else { GROWTH };
         let Some((target, part)) = self.first_target(clock.as_ref(), length, None) else {
             if !is_last || growth < 1.0 {
-                self.next = passed * growth;
+                self.next = if within < time { largest(time, passed * growth) } else { passed * growth };
             }
             self.accept(clock.as_ref(), length);
             self.left = if is_last { 0.0 } else { largest(self.left - passed, 0.0) };
@@ -319,8 +329,9 @@ impl<'a, C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'a, C, M
             self.next = 0.5 * self.passed(clock.as_ref(), length);
             return Ok(());
         }
-        // the time of a step by the clock beyond the surface goes back
-        self.next = if clock.is_some() { time } else { passed * smallest(growth, 1.0) };
+        // the time of a step by the clock beyond the surface goes back; across a joint the motion goes on as it was
+        let goes_on = matches!(target, Target::Event(_, watched) if watched.event() == Event::Joint);
+        self.next = if clock.is_some() || goes_on { time } else { passed * smallest(growth, 1.0) };
         let passed = if length > 0.0 { self.passed(clock.as_ref(), length) } else { 0.0 };
         if length > 0.0 {
             self.accept(clock.as_ref(), length);

@@ -16,6 +16,9 @@ use libm::{fabs, sqrt};
 /// processor takes long for them.
 const LEAST_HEIGHT: f64 = 1e-100;
 
+/// The part of its length for which a segment of a chain goes on beyond its joint.
+const BEYOND_JOINT: f64 = 0.1;
+
 /// The kind of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -40,6 +43,8 @@ pub enum Event {
     Corner,
     /// It reaches the largest indentation on its path.
     End,
+    /// It reaches the end of a segment of a chain.
+    Joint,
     /// A fresh surface forgets the dent.
     Forget,
     /// The rate exceeds the largest one since the touch.
@@ -106,8 +111,10 @@ impl Watched {
 #[derive(Clone, Copy)]
 pub struct Branch {
     pub kind: Kind,
-    /// The piece; of a contact that is apart, the path that it would meet.
+    /// The piece, of a chain one of its segments; of a contact that is apart, the path that it would meet.
     numbers: Numbers,
+    /// Where the piece, of a chain the whole one, begins and ends \[m\].
+    ends: [f64; 2],
     /// The largest indentation of the dent \[m\].
     pub largest: f64,
     /// Whether a fresh surface forgets the dent.
@@ -122,19 +129,24 @@ impl Branch {
     pub const NOTHING: Branch = Branch {
         kind: Kind::Apart,
         numbers: Numbers::NOTHING,
+        ends: [0.0; 2],
         largest: 0.0,
         forgets: false,
         stiffest: Segment::NOTHING,
         exponent: HERTZ,
     };
 
-    fn new<L: Loading, U: Unloading>(model: &Model<L, U>, kind: Kind, numbers: Numbers, largest: f64) -> Branch {
+    /// The branch of a contact at `indentation` \[m\], `rising` or falling, on this piece, beyond yield or below `largest` \[m\].
+    fn on<L: Loading, U: Unloading>(piece: Piece<'_, L, U>, indentation: f64, rising: bool, largest: f64) -> Branch {
+        let (model, ends) = (piece.model, [piece.lower, piece.upper]);
+        let numbers = piece.part(indentation, rising).numbers();
+        let kind = if numbers.is_loading() { Kind::Loading } else { Kind::Path };
         let stiffest = match (kind, numbers.whole()) {
-            (Kind::Path | Kind::Apart, Some(&segment)) => segment,
+            (Kind::Path, Some(&segment)) if ends == [numbers.lower, numbers.upper] => segment,
             _ => model.loading.scale(&model.pair),
         };
         let exponent = model.loading.elastic_exponent();
-        Branch { kind, numbers, largest, forgets: model.surface == Surface::Fresh, stiffest, exponent }
+        Branch { kind, numbers, ends, largest, forgets: model.surface == Surface::Fresh, stiffest, exponent }
     }
 
     /// The branch of a contact with this `history` that closes at `rate` \[m/s\].
@@ -145,7 +157,7 @@ impl Branch {
             Some(path) => Piece::on_path(model, path),
             None => Piece::at(model, indentation, largest, false),
         };
-        let branch = Branch::new(model, Kind::Path, path.numbers(), largest);
+        let branch = Branch::on(path, indentation, rate > 0.0, largest);
         let surface = branch.surface();
         let is_apart = indentation < surface || (indentation == surface && rate < 0.0);
         if is_apart {
@@ -159,9 +171,7 @@ impl Branch {
 
     /// The piece of the loading curve from `indentation` \[m\] on, or the elastic curve.
     fn loading<L: Loading, U: Unloading>(model: &Model<L, U>, indentation: f64, largest: f64) -> Branch {
-        let numbers = Piece::at(model, indentation, largest, true).numbers();
-        let kind = if numbers.is_loading() { Kind::Loading } else { Kind::Path };
-        Branch::new(model, kind, numbers, largest)
+        Branch::on(Piece::at(model, indentation, largest, true), indentation, true, largest)
     }
 
     /// The scale of the contact's motion: its stiffest segment, and the exponent of the power in it.
@@ -171,7 +181,19 @@ impl Branch {
 
     /// The indentation of the surface \[m\]: on the loading curve, that of the piece.
     pub fn surface(&self) -> f64 {
-        self.numbers.lower
+        let [surface, _] = self.ends;
+        surface
+    }
+
+    /// The ways from `indentation` down and up to where a segment of a chain has gone on for a tenth of its length beyond its joint, and with
+    /// its square would leave the curve; infinite where the piece ends \[m\].
+    pub fn ways(&self, indentation: f64) -> [f64; 2] {
+        let (Numbers { lower, upper, .. }, [surface, end]) = (self.numbers, self.ends);
+        let beyond = BEYOND_JOINT * (upper - lower);
+        let way =
+            |is_joint: bool, distance: f64| if is_joint { largest(distance, 0.0) + beyond } else { f64::INFINITY };
+        let is_pressed = self.kind == Kind::Path;
+        [way(is_pressed && lower > surface, indentation - lower), way(is_pressed && upper < end, upper - indentation)]
     }
 
     /// Number of evaluations that one evaluation counts for.
@@ -185,7 +207,7 @@ impl Branch {
 
     /// What the contact waits for on its branch.
     pub fn watched(&self, indentation: f64) -> [Option<Watched>; 2] {
-        let Numbers { lower, upper, .. } = self.numbers;
+        let (Numbers { lower, upper, .. }, [surface, end]) = (self.numbers, self.ends);
         let at = |event, threshold: f64, sign| {
             threshold.is_finite().then_some(Watched::Indentation { event, threshold, sign })
         };
@@ -194,7 +216,11 @@ impl Branch {
                 let forgets = self.forgets && indentation > 0.0 && self.largest > 0.0;
                 [at(Event::Touch, lower, 1.0), if forgets { at(Event::Forget, 0.0, -1.0) } else { None }]
             }
-            Kind::Path => [at(Event::Part, lower, -1.0), at(Event::End, upper, 1.0)],
+            Kind::Path => {
+                let below = if lower > surface { Event::Joint } else { Event::Part };
+                let above = if upper < end { Event::Joint } else { Event::End };
+                [at(below, lower, -1.0), at(above, upper, 1.0)]
+            }
             Kind::Loading => [at(Event::Corner, upper, 1.0), Some(Watched::TURN)],
         }
     }
@@ -207,11 +233,15 @@ impl Branch {
             Event::Touch => Branch { kind: Kind::Path, ..*self },
             Event::Corner => Branch::loading(model, numbers.upper, largest(numbers.upper, before)),
             Event::End => Branch::loading(model, numbers.upper, largest(numbers.upper, before)),
+            Event::Joint => {
+                let rising = indentation - numbers.lower > numbers.upper - indentation;
+                let at = if rising { numbers.upper } else { numbers.lower };
+                Branch::on(Piece::at(model, at, before, false), at, rising, before)
+            }
             Event::Lead | Event::Peak | Event::Slack | Event::Grip | Event::Border => *self,
             Event::Turn | Event::Forget => {
                 let largest = largest(indentation, before);
-                let numbers = Piece::at(model, largest, largest, false).numbers();
-                Branch::new(model, Kind::Path, numbers, largest)
+                Branch::on(Piece::at(model, largest, largest, false), largest, false, largest)
             }
         }
     }

@@ -130,7 +130,7 @@ impl Loss {
             }
             Event::Slack => self.slack = true,
             Event::Grip | Event::End => self.slack = false,
-            Event::Turn | Event::Corner | Event::Forget | Event::Border => (),
+            Event::Turn | Event::Corner | Event::Joint | Event::Forget | Event::Border => (),
         }
     }
 

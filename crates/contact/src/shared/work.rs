@@ -393,6 +393,22 @@ impl<C> Work<C> {
         now <= near && sign * self.now.bend() <= 0.0 && trial > near
     }
 
+    /// The time in which the contact leaves a segment of a chain, at its present acceleration \[s\].
+    pub(super) fn time_on_segment(&self) -> f64 {
+        let (rate, bend) = (self.now.approach, self.now.bend());
+        let [down, up] = self.branch.ways(self.now.indentation());
+        // the way is rate t + bend t^2/2
+        let time = |way: f64, rate: f64, bend: f64| {
+            if way == f64::INFINITY {
+                return way;
+            }
+            let speed = root(rate * rate + 2.0 * bend * way);
+            let (top, bottom) = if rate < 0.0 { (speed - rate, bend) } else { (2.0 * way, rate + speed) };
+            quotient(top, bottom, speed > 0.0 && bottom > 1e-100 * top, f64::INFINITY)
+        };
+        smallest(time(up, rate, bend), time(down, -rate, -bend))
+    }
+
     /// Tries the flight over `time` \[s\] of a contact that no force acts on.
     pub(super) fn fly(&mut self, time: f64) {
         let ([indentation, rate, impulse, moment], acceleration) = (self.now.numbers, self.acceleration);
