@@ -158,8 +158,8 @@ def alone(path, height, gravity, mass, end, h):
     return np.array(rows).T
 
 
-def ball(engine, motion, reference, own, error):
-    """Judges the dropped ball and draws it: times [s], heights [m] and speeds [m/s] in the engine and
+def ball(engine, motion, reference, own, error, body="ball"):
+    """Judges the dropped `body` and draws it: times [s], heights [m] and speeds [m/s] in the engine and
     with the FMU alone, and times and heights with the engine's own contact. Heights may differ by
     `error` [m]."""
     time, height, speed = motion
@@ -167,7 +167,7 @@ def ball(engine, motion, reference, own, error):
     agree("height, engine against the unit alone [m]", height, reference[1], error)
     second_flight(height, own[1])
     picture(
-        f"{engine}: a steel ball bounces, 1 ms steps",
+        f"{engine}: a steel {body} bounces, 1 ms steps",
         [
             (time, 1e3 * height, "engine with the unit", "-"),
             (reference[0][::25], 1e3 * reference[1][::25], "the unit alone", "."),

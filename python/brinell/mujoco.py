@@ -15,6 +15,9 @@ from .errors import ContactError, UnknownName, nearest
 
 SPHERE, PLANE = mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_PLANE
 CAPSULE, BOX = mujoco.mjtGeom.mjGEOM_CAPSULE, mujoco.mjtGeom.mjGEOM_BOX
+CYLINDER = mujoco.mjtGeom.mjGEOM_CYLINDER
+LEVEL = 1e-6
+"""Largest angle between the axis of a cylinder and its plane [rad]."""
 
 
 def attach(
@@ -32,6 +35,8 @@ def attach(
     `pairs` are names of geoms, of one pair or of several in the order of the contacts of the FMU:
 
     - a sphere and a plane, or two spheres: one contact;
+    - a cylinder that lies on a plane: one contact along its length, for a scene with
+      `impactor.shape = "cylinder"`; its axis must stay parallel to the plane;
     - a capsule and a plane: its two ends, the positive one first;
     - a box and a plane: its eight corners, spheres of the radius `corner` [m] inside the box, in
       the order of their coordinates (x first, negative ones first).
@@ -88,12 +93,12 @@ def _pairs_of(model: mujoco.MjModel, names: tuple[str, str], corner: float | Non
             )
     geoms.sort(key=lambda geom: model.geom_type[geom] == PLANE)
     kinds = [mujoco.mjtGeom(model.geom_type[geom]) for geom in geoms]
-    on_plane = kinds[0] in (SPHERE, CAPSULE, BOX) and kinds[1] == PLANE
+    on_plane = kinds[0] in (SPHERE, CYLINDER, CAPSULE, BOX) and kinds[1] == PLANE
     if not on_plane and kinds != [SPHERE, SPHERE]:
         found = " and ".join(kind.name.removeprefix("mjGEOM_").lower() for kind in kinds)
         raise ContactError(
-            f"pair {shown}: {found}; allowed are a sphere, a capsule or a box and a plane, or two "
-            "spheres"
+            f"pair {shown}: {found}; allowed are a sphere, a cylinder, a capsule or a box and a "
+            "plane, or two spheres"
         )
     if _collide(model, *geoms):
         raise ContactError(
@@ -148,6 +153,7 @@ class Attached(attached.Attached):
         self._geoms = np.array([pair.geom for pair in pairs])
         self._places = np.array([pair.place for pair in pairs])
         self._others = np.array([pair.other for pair in pairs])
+        self._lying = np.flatnonzero(model.geom_type[self._geoms] == CYLINDER)
         # those that joints move
         moving = {body for pair in pairs for body in pair.bodies if model.body_weldid[body] > 0}
         self._moving = sorted(moving)
@@ -193,6 +199,14 @@ class Attached(attached.Attached):
 
     def _spheres(self) -> tuple[Array, Array, Array]:
         places, axes = self.data.geom_xpos, self.data.geom_xmat.reshape(-1, 3, 3)
+        for pair in self._lying:
+            first, other = self._geoms[pair], self._others[pair]
+            tilt = abs(float(axes[first, :, 2] @ axes[other, :, 2]))
+            if not tilt <= LEVEL:
+                raise ContactError(
+                    f"cylinder {self.model.geom(first).name!r}: its axis is tilted by {tilt:.3g} rad "
+                    f"against the plane; allowed is {LEVEL:g}: it touches along its whole length"
+                )
         centres = places[self._geoms]
         if self._places.any():
             centres += (axes[self._geoms] @ self._places[..., None])[..., 0]

@@ -81,8 +81,9 @@ struct Example {
     animated: bool,
 }
 
-const EXAMPLES: [Example; 20] = [
+const EXAMPLES: [Example; 21] = [
     Example { name: "mujoco_ball", packages: &["mujoco"], animated: false },
+    Example { name: "mujoco_roller", packages: &["mujoco"], animated: false },
     Example { name: "mujoco_arm", packages: &["mujoco"], animated: true },
     Example { name: "mujoco_box", packages: &["mujoco"], animated: false },
     Example { name: "mujoco_cradle", packages: &["mujoco"], animated: false },

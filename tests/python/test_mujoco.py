@@ -378,10 +378,15 @@ def test_what_is_refused_names_the_pair(unit):
     with pytest.raises(ContactError, match="pair 'foot1' and 'floor'"):
         brinell.mujoco.attach(model, data, PAIRS, unit(4))
 
+    log = '<geom name="log" type="cylinder" size=".1 .1" euler="88 0 0" contype="0" conaffinity="0"/>'
+    model, data = world(FLOOR + BOX + log)
+    with pytest.raises(ContactError, match="cylinder 'log': its axis is tilted by 0.0349 rad against the plane"):
+        brinell.mujoco.attach(model, data, [("log", "floor")] * 4, unit(4))
+
     model, data = world(FLOOR + BOX + '<geom name="block" type="box" size=".1 .1 .1"/>')
     for pairs, error, text in (
         ([("foot0", "roof")], UnknownName, r"no geom 'roof'; there are: floor, block, foot0"),
-        ([("foot0", "block")], ContactError, r"pair 'foot0' and 'block': sphere and box; allowed are a sphere, a capsule or a box and a plane"),
+        ([("foot0", "block")], ContactError, r"pair 'foot0' and 'block': sphere and box; allowed are a sphere, a cylinder, a capsule or a box and a plane"),
         (["foot0"], ContactError, r"pair 'foot0': two names of geoms are needed"),
         ([("block", "floor")], ContactError, r"pair 'block' and 'floor': corner = None: a box needs the radius"),
         ([("foot0", "flor")], UnknownName, r"no geom 'flor' \(did you mean 'floor'\?\); there are"),
