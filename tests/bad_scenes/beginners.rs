@@ -593,11 +593,18 @@ fn a_typing_mistake_finds_the_word_that_is_meant() {
 }
 
 #[test]
+fn a_cylinder_needs_its_length_and_the_size_of_what_it_lies_on() {
+    for (keys, needs) in [("", "needs impactor.length"), ("\nlength = \"20 mm\"", "target.thickness is missing")] {
+        let said = said(&with_impact().replacen("[impactor]", &format!("[impactor]\nshape = \"cylinder\"{keys}"), 1));
+        assert!(said.contains(needs), "{said}");
+    }
+}
+
+#[test]
 fn missing_features_are_called_not_supported() {
     for (from, to) in [
         ("[impact]", "[impact]\nangle = 30"),
         ("[target]", "[target]\ncoating = \"TiN\""),
-        ("[impactor]", "[impactor]\nshape = \"cylinder\""),
         ("[target]", "[target]\nadhesion = 0.1"),
         ("[target]", "[target]\nroughness = 1e-6"),
     ] {

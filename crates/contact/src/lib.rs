@@ -72,7 +72,7 @@
 //! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
 //! | [`shared`] | contacts that share bodies move together |
 //! | [`rate`] | strain rate: the strength of an impact from its closing speed |
-//! | [`line`] | contacts along a line: how far the bodies give way, and back |
+//! | [`mod@line`] | contacts along a line: how far the bodies give way, and back |
 //! | [`two_bodies`] | two bodies pressed together, from the law `brinell` of each |
 //! | [`strength`] | hardening and Poisson's ratio as one effective strength |
 //! | [`tangential`] | friction: the tangential force of a contact |

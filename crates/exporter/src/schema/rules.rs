@@ -152,8 +152,11 @@ fn of_single_contact() -> Value {
     let dense = || any([has("material"), has("density")]);
     let elastic = || any([has("material"), needs(&["youngs_modulus", "poissons_ratio"])]);
     let rod = || json!({ "dependentRequired": { "length": ["area"], "area": ["length"] } });
-    let of_impactor =
-        implies(not(key("shape", json!({ "const": "cylinder" }))), all([rod(), implies(has("length"), elastic())]));
+    let cylinder = || key("shape", json!({ "const": "cylinder" }));
+    let of_impactor = all([
+        implies(not(cylinder()), all([rod(), implies(has("length"), elastic())])),
+        implies(cylinder(), has("length")),
+    ]);
     let of_elastic = STRENGTHS.into_iter().chain(["hardening_modulus", "youngs_modulus", "poissons_ratio"]);
     let strong = any(STRENGTHS.into_iter().chain(["material"]).map(has));
     let plastic = AnyLoading::ALL.iter().map(|(name, _)| *name).filter(|name| *name != "hertz");
@@ -168,6 +171,13 @@ fn of_single_contact() -> Value {
             ]),
             "target": all([elastic(), rod(), implies(any([has("length"), has("plate_thickness")]), dense())]),
         } }),
+        implies(
+            key("impactor", cylinder()),
+            all([
+                any([key("target", any(["thickness", "radius"].map(has))), key("law", has("size_constant"))]),
+                any([key("impactor", strong.clone()), key("target", strong.clone())]),
+            ]),
+        ),
         implies(
             key("law", key("elastic_restitution", json!({ "const": WAVES }))),
             json!({ "properties": { "target": dense() } }),
