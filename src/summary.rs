@@ -173,8 +173,7 @@ impl OtherLaws {
             None => [Some(scene.loading.0), scene.unloading.map(|(name, _)| name)],
         };
         let [first, second] = used;
-        let loading =
-            AnyLoading::ALL.iter().filter(|(_, law)| law.is_line() == scene.line.is_some()).map(|(name, _)| *name);
+        let loading = AnyLoading::ALL.iter().map(|(name, _)| *name);
         let unloading = AnyUnloading::ALL.iter().map(|(name, _)| *name);
         let damped = AnyDamped::ALL.iter().map(|(name, _)| *name);
         OtherLaws {
