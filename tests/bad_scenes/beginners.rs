@@ -631,7 +631,7 @@ fn missing_features_are_called_not_supported() {
         ("nu = 0.3", "it is called poissons_ratio"),
         ("rho = 7850", "it is called density"),
         ("diameter = 0.01", "give the radius"),
-        ("thickness = 0.01", "[target] has a plate_thickness, for a plate that gives way"),
+        ("thickness = 0.01", "a ball has a plate that gives way of target.plate_thickness"),
         ("drop_height = 0.3", "[impact] has a drop_height"),
     ] {
         let said = said(&with_impact().replacen("[target]", &format!("[target]\n{key}"), 1)).replace("\n  ", " ");

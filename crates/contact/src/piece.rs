@@ -110,7 +110,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
 
     /// The part of the piece on which one segment of a chain holds, from `indentation` \[m\] on if it is `rising` or falling. The whole
     /// piece, if it is none of a chain.
-    pub fn part(self, indentation: f64, rising: bool) -> Piece<'a, L, U> {
+    pub(crate) fn part(self, indentation: f64, rising: bool) -> Piece<'a, L, U> {
         // a tangent holds at one point
         let is_tangent = self.segment.upper <= next_above(self.segment.lower);
         if !self.model.has_chain() || self.is_whole() || self.kind == Kind::Loading || is_tangent {
