@@ -60,7 +60,9 @@ def test_a_contact_at_the_limits_gives_finite_values_until_it_is_as_wide_as_its_
                 instance.step(1e-6, rate)
             except Refused as refused:
                 assert "the radius of the smaller body: no contact law holds" in str(refused)
-                assert key in ("impactor.radius", "initial_gap")
+                # without strength, a line is as wide as its cylinder at any depth
+                strength = {"target.yield_strength"} if "roller" in name else set()
+                assert key in {"impactor.radius", "initial_gap"} | strength
                 break
             assert all(math.isfinite(output) for output in instance.outputs().values()), (value, instance.outputs())
 
