@@ -36,7 +36,6 @@ mod schema;
 mod sources;
 mod ssp;
 mod summary;
-mod tangential_curve;
 mod temporary;
 mod translate;
 mod truth;
