@@ -24,8 +24,10 @@ pub struct Arguments {
     pub version: bool,
 }
 
-/// The meaning of the exit status of the program.
+/// What is not in the list of commands, and the meaning of the exit status of the program.
 const STATUS: &str = "\
+For packagers and editors: prebuild, schema, completions, man; each has its own --help.
+
 Exit status: 0 success; 1 the job failed, or its result is bad (a wrong scene, no compiler, an FMU
 that fails its check); 2 the command line is wrong (an unknown option or law, a value out of range).";
 
@@ -66,26 +68,21 @@ pub enum Command {
     /// List the laws with their error against finite elements, or show one law
     Laws(law_list::Arguments),
     /// Compile the libraries from which FMUs are made where there is no compiler
+    #[command(hide = true)]
     Prebuild(PrebuildArguments),
-    /// Join FMUs of one scene that were made for different platforms
-    Merge {
-        /// The FMUs
-        #[arg(num_args = 2.., required = true)]
-        fmus: Vec<PathBuf>,
-        /// Where to write the FMU with the libraries of all
-        #[arg(short, long)]
-        output: PathBuf,
-    },
     /// List the built-in materials
     Materials,
     /// Print the JSON Schema of scenes, by which editors complete and check them
+    #[command(hide = true)]
     Schema(schema::Arguments),
     /// Print the script that completes the arguments of this program in a shell
+    #[command(hide = true)]
     Completions {
         /// The shell
         shell: Shell,
     },
     /// Write the manual pages of this program and its commands
+    #[command(hide = true)]
     Man {
         /// The folder for the pages
         #[arg(short, long, value_name = "DIR")]

@@ -3,17 +3,15 @@
 use crate::files::{self, deliver, ending};
 use crate::messages::WrongCall;
 use crate::scene_file;
-use crate::tangential_curve::{Loops, Wanted};
 use crate::truth;
 use brinell_contact::impact::Impact;
 use brinell_contact::{Loading, TooDeep};
 use brinell_exporter::columns::Columns;
 use brinell_exporter::curve::{self, columns};
 use brinell_exporter::laws::{self, Choice};
-use brinell_exporter::layout::{json_line, paragraph};
+use brinell_exporter::layout::json_line;
 use brinell_exporter::numbers::in_message;
 use brinell_exporter::plot::{Picture, Series};
-use brinell_exporter::predict::{PredictError, oblique};
 use brinell_exporter::scene::{Scene, plausible};
 use brinell_exporter::{predict, units, validity};
 use std::error::Error;
@@ -28,7 +26,7 @@ const TABLE_ROWS: usize = 17;
 pub struct Arguments {
     /// The scene file
     pub scene: PathBuf,
-    /// Write the curve: .csv with all digits or, without --tangential, .svg [default: print a short table]
+    /// Write the curve: .csv with all digits, or .svg [default: print a short table]
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
@@ -40,15 +38,6 @@ pub struct Arguments {
     /// Add the finite-element loading curve as dots to the picture
     #[arg(long)]
     pub truth: bool,
-    /// Loops of the tangential force instead, with the indentation --to held
-    #[arg(long, conflicts_with = "truth")]
-    pub tangential: bool,
-    /// Coefficient of friction of the loops [default: the scene's]
-    #[arg(long, allow_hyphen_values = true, requires = "tangential")]
-    pub friction: Option<f64>,
-    /// Amplitudes of the loops [m] [default: 0.3, 0.6, 0.9 and 1.2 of that at which the contact slides]
-    #[arg(long, allow_hyphen_values = true, value_delimiter = ',', value_parser = units::lengths, requires = "tangential")]
-    pub amplitude: Vec<f64>,
 }
 
 /// The finite elements of `--truth` are those of another pair of bodies.
@@ -59,8 +48,7 @@ const OTHER_BODIES: &str = "the dots are finite elements of a rigid sphere on a 
 /// The command: draws or tabulates the curve for these arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let output = arguments.output.as_deref();
-    let formats: &[_] = if arguments.tangential { &["csv"] } else { &["csv", "svg"] };
-    let format = ending(output, formats).map_err(WrongCall)?;
+    let format = ending(output, &["csv", "svg"]).map_err(WrongCall)?;
     if let Some(path) = output {
         files::check_goal(path)?;
     }
@@ -74,9 +62,6 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     doubt.into_iter().chain(too_wide(&scene, &choices, largest)).for_each(|warning| crate::messages::warn(&warning));
     if arguments.truth && !truth::is_of(&scene, largest) {
         crate::messages::warn(OTHER_BODIES);
-    }
-    if arguments.tangential {
-        return tangential(&scene, &choices, largest, arguments, as_json);
     }
     let too_deep = |_: TooDeep| WrongCall(format!("to = {} m is too deep for the law", in_message(largest)));
     let text = match (output, format) {
@@ -104,34 +89,6 @@ fn too_wide(scene: &Scene, choices: &[Choice], largest: f64) -> Option<String> {
     };
     let wide: Vec<_> = choices.iter().filter(is_wide).map(|choice| choice.laws.as_str()).collect();
     (!wide.is_empty()).then(|| validity::too_wide((&choices[0].model.pair(), size), &wide))
-}
-
-/// A loss below yield takes its energy by the speed of the contact.
-const SLOW: &str = "these loops are slow, so that the loss below yield takes nothing from them";
-
-/// Loops of the tangential force at the indentation `held` [m].
-fn tangential(
-    scene: &Scene,
-    choices: &[Choice],
-    held: f64,
-    arguments: &Arguments,
-    as_json: bool,
-) -> Result<(), Box<dyn Error>> {
-    let takes_some = arguments.laws.iter().any(|name| name == "all");
-    let choices = oblique::with_friction(choices.to_vec(), takes_some).map_err(WrongCall::of)?;
-    let coefficient = arguments.friction.or(scene.group_value(0, oblique::FRICTION));
-    let coefficient = coefficient.ok_or_else(|| WrongCall::of(PredictError::NoCoefficient))?;
-    let wanted = Wanted { coefficient, indentation: held, amplitudes: &arguments.amplitude };
-    let loops = Loops::of(scene, &choices, wanted).map_err(WrongCall::of)?;
-    let text = match &arguments.output {
-        Some(_) => loops.columns().csv(),
-        None if as_json => json_line(&loops.columns().json()),
-        None if choices.iter().any(|choice| choice.model.lossy().is_some()) => {
-            loops.text() + &paragraph("note: ", SLOW)
-        }
-        None => loops.text(),
-    };
-    Ok(deliver(&text, arguments.output.as_deref())?)
 }
 
 /// A short table for a terminal.

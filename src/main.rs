@@ -23,7 +23,6 @@ mod importer;
 mod law_list;
 mod master;
 mod materials;
-mod merge;
 mod messages;
 mod new;
 mod package;
@@ -37,7 +36,6 @@ mod schema;
 mod sources;
 mod ssp;
 mod summary;
-mod tangential_curve;
 mod temporary;
 mod translate;
 mod truth;
@@ -150,7 +148,6 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Hardness(arguments)) => hardness::run(arguments, json)?,
         Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
         Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
-        Some(Command::Merge { fmus, output }) => merge::run(fmus, output, json)?,
         Some(Command::Schema(arguments)) => schema::run(arguments)?,
         Some(Command::Materials) => materials::run(json)?,
         Some(Command::Completions { shell }) => about::completions(*shell),

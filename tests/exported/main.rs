@@ -29,7 +29,6 @@ mod law_parameters;
 mod library;
 mod long_messages;
 mod loss_parameters;
-mod merge;
 mod parameters_per_contact;
 mod prebuilt_libraries;
 mod prebuilt_refusals;

@@ -90,7 +90,9 @@ fn the_command_line_is_that_of_the_list() {
     // a long description goes on in a second line, further in
     let commands = lines.filter_map(|line| line.strip_prefix("  ")?.split(' ').next().filter(|name| !name.is_empty()));
     let mut text = format!("$ brinell --help\n{whole}");
-    for command in commands.filter(|name| *name != "help") {
+    let (_, rest) = whole.split_once("For packagers and editors: ").expect("the other commands");
+    let (others, _) = rest.split_once(';').expect("their end");
+    for command in commands.filter(|name| *name != "help").chain(others.split(", ")) {
         write!(text, "\n$ brinell {command} --help\n{}", printed(&[command, "--help"])).unwrap();
     }
     promises("command-line", &text);

@@ -139,7 +139,6 @@ fn a_file_name_gives_no_commands_to_the_terminal() {
     let calls = [
         vec!["export".into(), path("toml"), "-o".into(), path("fmu")],
         vec!["check".into(), path("fmu")],
-        vec!["merge".into(), path("fmu"), path("fmu"), "-o".into(), path("fmu")],
         vec!["ssp".into(), path("toml"), "-o".into(), path("ssp")],
         vec!["predict".into(), path("toml"), "--time-history".into(), path("csv")],
         vec!["new".into(), "ball".into(), "-o".into(), path("new")],
@@ -320,7 +319,7 @@ fn a_path_that_is_not_unicode_is_in_the_json_with_a_replacement() {
     let call = |arguments: &[&OsStr]| output(brinell(&inside).args(arguments).arg("--json")).with_status(0).json();
     let os = OsStr::new;
     let exported = call(&[os("export"), os("ball.toml"), os("-o"), name]);
-    for answer in [exported, call(&[os("check"), name]), call(&[os("merge"), name, name, os("-o"), name])] {
+    for answer in [exported, call(&[os("check"), name])] {
         assert_eq!(answer["fmu"], "b\u{fffd}ll.fmu", "{answer}");
     }
 }

@@ -1,4 +1,4 @@
-//! `brinell predict --angle` and `brinell curve --tangential`: oblique impacts and loops of the tangential force.
+//! `brinell predict --angle`: oblique impacts.
 
 use super::{close, number};
 use crate::command::{empty_folder, run, scene};
@@ -271,77 +271,6 @@ fn bodies_in_tables_have_their_own_mass_and_inertia() {
             run(folder.path(), ["predict", "scene.toml", "--angle", "30"].iter().chain(&arguments)).with_status(2);
         let said = failed.err.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(said.contains(words), "{said}");
-    }
-    // slow loops of a contact with a loss are those without
-    let loops = |law: &str| {
-        fs::write(folder.path().join("scene.toml"), balls(law, 0.1, true)).unwrap();
-        run(folder.path(), ["curve", "scene.toml", "--tangential", "--to", "1e-5", "--json"]).with_status(0).json()
-    };
-    let [lossy, plain] = ["loading = \"hertz\", elastic_restitution = 0.95", "loading = \"hertz\""].map(loops);
-    assert_eq!(lossy["laws"], plain["laws"]);
-}
-
-/// Rows of a loop as numbers, without the name of the law.
-fn rows(text: &str) -> Vec<Vec<f64>> {
-    text.lines().skip(1).map(|line| line.split(',').skip(1).map(|cell| cell.parse().unwrap()).collect()).collect()
-}
-
-/// Energy lost per cycle: `9 (mu N)^2/(10 a G*) {1 - (1 - t)^(5/3) - 5t/6 [1 + (1 - t)^(2/3)]}` with `t = T/(mu N)`.
-///
-/// Reference: R. D. Mindlin, H. Deresiewicz, *J. Appl. Mech.* 20 (1953) 327-344, with `8 G* a` for the initial stiffness.
-#[test]
-fn loops_of_an_elastic_contact_lose_what_mindlin_says() {
-    let folder = empty_folder();
-    fs::write(folder.path().join("scene.toml"), KHARAZ).unwrap();
-    let run = |arguments: &[&str]| run(folder.path(), ["curve", "scene.toml", "--tangential"].iter().chain(arguments));
-    run(&["--to", "1e-6", "-o", "loop.csv"]).with_status(0);
-    let all = rows(&fs::read_to_string(folder.path().join("loop.csv")).unwrap());
-    assert_eq!(all.len(), 4 * 601, "four loops of three branches");
-    let modulus = 1.0 / ((1.0 - 0.23f64.powi(2)) / 380e9 + (1.0 - 0.25f64.powi(2)) / 70e9);
-    let compliance = |e: f64, nu: f64| 2.0 * (1.0 + nu) * (2.0 - nu) / e;
-    let shear = 1.0 / (compliance(380e9, 0.23) + compliance(70e9, 0.25));
-    let radius = (2.5e-3f64 * 1e-6).sqrt();
-    let limit = 0.092 * 4.0 / 3.0 * modulus * radius.powi(3) / 2.5e-3;
-    for one in all.chunks(601).take(3) {
-        let part = one[200][2] / limit;
-        let lost = one[600][4] - one[200][4];
-        let bracket = 1.0 - (1.0 - part).powf(5.0 / 3.0) - 5.0 / 6.0 * part * (1.0 + (1.0 - part).powf(2.0 / 3.0));
-        close(lost, 0.9 * limit * limit / (radius * shear) * bracket, 1e-9);
-        // the loop closes
-        close(one[600][2], one[200][2], 1e-12);
-        close(one[400][2], -one[200][2], 1e-12);
-    }
-    let sliding = &all[3 * 601 + 200];
-    close(sliding[2], limit, 1e-12);
-    assert_eq!(sliding[6], 3.0);
-    let slips = limit * 3.0 / (16.0 * shear * radius);
-    close(sliding[0], 1.2 * slips, 1e-12);
-}
-
-#[test]
-fn loops_have_amplitudes_laws_and_reasons_for_refusals() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    let run = |arguments: &[&str]| run(folder.path(), ["curve", &scene, "--tangential"].iter().chain(arguments));
-    let text = run(&["--friction", "0.2", "--amplitude", "1e-7,3e-7"]).with_status(0).out;
-    assert!(text.contains("amplitude 100 nm") && text.contains("amplitude 300 nm"), "{text}");
-    run(&["--friction", "0.2", "--laws", "brinell,hertz", "-o", "loop.csv"]).with_status(0);
-    let table = fs::read_to_string(folder.path().join("loop.csv")).unwrap();
-    assert!(table.contains("tangential_displacement_m") && table.contains("\nhertz,"), "{table}");
-    let json = run(&["--friction", "0.2", "--json"]).with_status(0).json();
-    assert_eq!(json["laws"][0]["tangential_force"].as_array().unwrap().len(), 4 * 601);
-    for (arguments, words) in [
-        (&[][..], "the scene has no friction"),
-        (&["--friction", "0"], "friction = 0 must be positive"),
-        (&["--friction", "20"], "allowed is 0 to 10"),
-        (&["--friction", "0.1", "--amplitude", "0"], "amplitude = 0 must be positive"),
-        (&["--friction", "0.1", "--amplitude", "5 nN"], "nN is a force; a length has a unit like"),
-        (&["--friction", "0.1", "--laws", "kogut-etsion"], "doesn't support friction"),
-        (&["--friction", "0.1", "--truth"], "cannot be used with"),
-        (&["--friction", "0.1", "-o", "loop.svg"], "loop.svg: the name must end in .csv"),
-    ] {
-        let failed = run(arguments).with_status(2);
-        assert!(failed.err.contains(words), "{arguments:?}: {}, not {words}", failed.err);
     }
 }
 
