@@ -210,10 +210,7 @@ fn a_file_that_is_larger_than_any_fmu_is_not_read() {
     let folder = empty_folder();
     fs::File::create(folder.path().join("unit.fmu")).unwrap().set_len(10_000_000_000_000).unwrap();
     let scene = unit::scene("steel_ball").display().to_string();
-    for call in [
-        &["check", "unit.fmu"][..],
-        &["ssp", &scene, "--with", "unit.fmu", "-o", "out.ssp"],
-    ] {
+    for call in [&["check", "unit.fmu"][..], &["ssp", &scene, "--with", "unit.fmu", "-o", "out.ssp"]] {
         let said = run(folder.path(), call).with_status(1).err;
         assert!(said.contains("unit.fmu: it has 10000000 MB; allowed for an FMU is 2000 MB"), "{call:?}: {said}");
     }
