@@ -15,7 +15,7 @@
 //! | [`master`] | the ways to couple a contact with bodies |
 //! | [`translate`] | numbers for the contact models of other tools, with their error |
 //! | [`nominal`], [`interface`], [`plan`] | what all files of an FMU have in common |
-//! | [`constants`], [`model_description`], [`documentation`] | these files |
+//! | [`model_description`], [`documentation`] | these files |
 //! | [`platform`], [`signature`], [`symbols`], [`c_source`], [`package`], [`prebuilt`] | libraries as bytes or as C source, and the archive |
 //!
 //! Each uses only those above it. Text and bytes come in; text, bytes and mistakes go out. No file is read here, no process or thread
