@@ -34,7 +34,8 @@ pub fn way_of(scene: &Scene) -> &'static Way {
     }
 }
 
-/// Moves the mass of `impact` across `gap` [m] and against the contact until they separate again.
+/// Moves the mass of `impact` across the `gap` [m] and against the contact until they separate again. The force ends with this `power`
+/// of the time.
 ///
 /// # Errors
 /// [`ImportError`] if the FMU rejects a call, for a force that is not finite, and for an impact that doesn't end.
@@ -42,7 +43,7 @@ pub fn simulate(
     contact: &mut Contact,
     way: &Way,
     impact: &Impact,
-    gap: f64,
+    (gap, power): (f64, f64),
     step: f64,
 ) -> Result<Simulated, ImportError> {
     approach(contact, way, impact.speed, gap, step)?;
@@ -62,7 +63,7 @@ pub fn simulate(
         max_indentation = f64::max(max_indentation, indentation);
         max_force = f64::max(max_force, force);
         if force <= 0.0 && speed < 0.0 {
-            let (contact_time, residual_indentation) = end_of_force(before);
+            let (contact_time, residual_indentation) = end_of_force(before, power);
             return Ok(Simulated {
                 max_indentation,
                 max_force,
@@ -92,10 +93,10 @@ fn approach(contact: &mut Contact, way: &Way, speed: f64, gap: f64, step: f64) -
     Ok(())
 }
 
-/// Time \[s\] and indentation \[m\] at which the force ends, from the last two points in contact: it vanishes as `(t - t_f)^1.5`. A
-/// force with a loss vanishes in another way, within the same step.
-fn end_of_force([first, last]: [(f64, f64, f64); 2]) -> (f64, f64) {
-    let root = |force: f64| f64::powf(force, 2.0 / 3.0);
+/// Time \[s\] and indentation \[m\] at which the force ends, from the last two points in contact: it vanishes with this
+/// `power` of the time. A force with a loss vanishes in another way, within the same step.
+fn end_of_force([first, last]: [(f64, f64, f64); 2], power: f64) -> (f64, f64) {
+    let root = |force: f64| f64::powf(force, 1.0 / power);
     let steps = root(last.2) / (root(first.2) - root(last.2));
     (last.0 + steps * (last.0 - first.0), last.1 + steps * (last.1 - first.1))
 }

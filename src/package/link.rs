@@ -44,7 +44,7 @@ const WINDOWS: [&str; 6] =
 const MACOS: [&str; 6] = ["-adhoc_codesign", "-lSystem", "-x", "-S", "-no_function_starts", "-install_name"];
 
 /// The stack is below the data, and large enough to find out how much of it is needed.
-const WEB_ASSEMBLY: [&str; 3] = ["--stack-first", "-z", "stack-size=65536"];
+const WEB_ASSEMBLY: [&str; 3] = ["--stack-first", "-z", "stack-size=262144"];
 
 /// The input files of the linker.
 pub fn files() -> [(&'static str, &'static str); 2] {

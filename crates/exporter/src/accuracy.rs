@@ -168,7 +168,7 @@ fn of_line(scene: &Scene, size: &str) -> String {
     let rigid = scene.group_value(0, Body::Impactor.youngs_modulus()).is_none();
     let errors = match rigid {
         true => "depth within 0.8 %, half-width 0.9 %, restitution 0.4 %, dent 1 %",
-        false => "depth within 1 %, restitution 0.4 %; depth 1.6 % beside an elastic body of a third of the modulus",
+        false => "depth within 1 % (1.6 % beside an elastic body of a third of the modulus), restitution 0.4 %",
     };
     let walls = match scene.group_value(0, Body::Target.radius()) {
         Some(radius) if radius < 0.0 => {
@@ -177,8 +177,8 @@ fn of_line(scene: &Scene, size: &str) -> String {
         _ => "",
     };
     format!(
-        "Line contact: {size}.{walls} Against finite elements in plane strain: {errors}. The ends of the cylinder, a misalignment, a bore that is \
-         hardly wider than the cylinder, and discs that are thin beside the half-width are not in the law."
+        "Line contact: {size}.{walls} Against finite elements in plane strain: {errors}. Not in the law: the ends of the cylinder, \
+         misalignment, a bore that is hardly wider than the cylinder, and discs that are thin beside the half-width."
     )
 }
 

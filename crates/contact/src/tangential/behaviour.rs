@@ -1,5 +1,6 @@
 //! A contact with friction as a [`Contact`].
 
+use super::contact::is_share;
 use super::parts::{MOST_PARTS, ends_of_parts, next_of};
 use super::vector::{add, dot};
 use super::{Mean, Normal, Quantity, Rough, RoughModel, Sliding, SpringsOf};
@@ -303,6 +304,9 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         [loaded.lost] = load_numbers(words)?;
         if N::LOSES {
             [loaded.share] = load_numbers(words)?;
+            if !is_share(loaded.share) {
+                return None;
+            }
         }
         Some(loaded)
     }

@@ -22,6 +22,11 @@ pub(super) fn share_of(force: f64, elastic: f64) -> f64 {
     if elastic > 0.0 { largest(share, LEAST_SHARE) } else { 1.0 }
 }
 
+/// Whether springs can have this share.
+pub(super) fn is_share(share: f64) -> bool {
+    (LEAST_SHARE..=MOST_SHARE).contains(&share)
+}
+
 /// An elastoplastic contact with friction in `D` tangential directions, whose springs form a list of `M` segments; sixteen are
 /// recommended.
 ///

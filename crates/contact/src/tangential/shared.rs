@@ -93,8 +93,8 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         normal.share = self.share;
         normal.found = mean;
         tangential.iter_mut().zip(&*tangents).for_each(|(mean, row)| *mean -= row.beside);
-        // on the curved way the normal force differs as much
-        let most = largest(model.friction.coefficient * (mean + (normal.force() - mean)), 0.0);
+        // with the normal force on the curved way
+        let most = largest(model.friction.coefficient * normal.force(), 0.0);
         for ((row, mean), slip) in tangents.iter_mut().zip(within(tangential, most)).zip(slip) {
             (row.found, row.most) = (mean, most);
             self.work = self.work.plus(mean * slip);

@@ -21,6 +21,8 @@ pub enum ModuleError {
     Import(String),
     #[error("the depth of the stack has no bound, since {0} calls itself")]
     Recursion(String),
+    #[error("its calls take a stack of {needed} bytes, and it is linked with one of {given}")]
+    Stack { needed: u64, given: u32 },
     #[error("the block of the scene is not the last of the data")]
     Behind,
 }
@@ -34,8 +36,8 @@ const RECURSIONS: [(&str, u64); 3] = [
     ("9mean_pull", 2),
     // a contact at rest goes on as one that has begun to move
     ("10pull_rates", 2),
-    // each halves a part of a segment: HALVINGS times
-    ("3cut12Cut_LT___GT_4slip", 7),
+    // each halves a part of a segment: HALVINGS times; the parameters of the type stand between its name and this
+    ("_GT_4slip", 7),
 ];
 
 /// What precedes the name of a thing in the text.
@@ -335,6 +337,9 @@ pub fn c_text(text: &str, kind: &str) -> Result<String, ModuleError> {
     for root in &roots {
         deepest = deepest.max(calls.depth(&module, root, &mut Vec::new(), &mut known)?);
     }
+    if deepest > module.stack.into() {
+        return Err(ModuleError::Stack { needed: deepest, given: module.stack });
+    }
     let fixed = module.functions.get("w2c_brinell_fixed_size").map(|function| function.body.as_slice());
     let fixed = fixed.and_then(|body| body.iter().find_map(|line| leading(line.split_once(" = ")?.1)));
     let fixed = fixed.ok_or(ModuleError::Missing("size of an instance"))?;
@@ -541,10 +546,13 @@ mod tests {
     }
 
     #[test]
-    fn a_module_without_a_bound_or_with_a_panic_path_is_refused() {
+    fn a_module_without_a_bound_with_too_small_a_stack_or_with_a_panic_path_is_refused() {
         let recursive =
             c_text(&text("  w2c_i0 = w2c_fmi2DoStep(instance, w2c_i0, w2c_d0, w2c_d1, w2c_i1);\n"), "state");
         assert!(matches!(recursive, Err(ModuleError::Recursion(name)) if name == "w2c_fmi2DoStep"));
+        let deep = "  w2c_i0 = instance->w2c___stack_pointer;\n  w2c_i1 = 65552u;\n  w2c_i0 -= w2c_i1;\n";
+        let deep = c_text(&text(deep), "state");
+        assert!(matches!(deep, Err(ModuleError::Stack { needed: 65552, given: 65536 })), "{deep:?}");
         let panics = c_text(&text("  (*Z_envZ_brinell_a_panic_path_survived)(instance->Z_env_instance);\n"), "state");
         assert!(matches!(panics, Err(ModuleError::Import(name)) if name == "brinell_a_panic_path_survived"));
     }

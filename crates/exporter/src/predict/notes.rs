@@ -27,7 +27,8 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
         .zip(predictions)
         .any(|(choice, prediction)| choice.model.elastoplastic().is_some() && prediction.residual_indentation > 0.0);
     let keeps = scene.contacts[0].surface == Surface::Dented;
-    let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.to_string());
+    let what = if scene.line.is_some() { "cylinder" } else { "ball" };
+    let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.replace("ball", what));
     let softer = predictions.first().map(|prediction| accuracy::notes(scene, prediction)).unwrap_or_default();
     let rods = Waves::of(scene, impact.speed, &[]).and_then(|waves| waves.note(predictions));
     let notes = scene.materials.iter().cloned().chain(endless).chain(loss(scene, impact, predictions));
