@@ -121,11 +121,11 @@ struct Body {
 /// The largest pressure at first yield over the strength: the largest equivalent stress of von Mises under Hertz's pressure lies on the axis
 /// or, for small Poisson's ratios, at the surface.
 ///
-/// Within 1e-4 for all Poisson's ratios. Reference: K. L. Johnson, *Contact Mechanics*, 1985, eq. 4.45 to 4.49.
+/// Within 5e-5 for all Poisson's ratios. Reference: K. L. Johnson, *Contact Mechanics*, 1985, eq. 4.45 to 4.49.
 fn pressure_at_yield(nu: f64) -> f64 {
     let away = nu - 0.3;
     // the depth of the largest stress over the half-width, to which the stress is stationary
-    let z = 0.704 + away * (0.89 - 2.7 * away);
+    let z = 0.704 + away * (0.94 - 2.8 * away);
     let root = sqrt(1.0 + z * z);
     let (along, down) = (2.0 * z - (1.0 + 2.0 * z * z) / root, -1.0 / root);
     let across = nu * (along + down);
