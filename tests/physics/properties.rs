@@ -1,52 +1,56 @@
-//! Properties that hold for every material, sphere, pair of laws and path: random cases, shrunk on failure.
+//! Properties that hold for every material, sphere, pair of laws and path: random cases, the same in every run, so that a
+//! failure is caused by a change. A failure prints its case.
 
 use crate::physics::{
-    self, AnyModel, advance, all_models, is_passive, is_scale_free, loading_force, mild, pressed, unit,
+    self, AnyModel, Random, advance, all_models, is_passive, is_scale_free, loading_force, mild, pressed, unit,
 };
 use brinell_contact::impact::{Impact, predict};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, History, Pair, Regime, Surface};
-use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+use std::fmt::Debug;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-/// No files: a failing case is printed with its input, and becomes a separate test. The cases are the same in every run, so
-/// that a failure is caused by a change; PROPTEST_RNG_SEED and PROPTEST_CASES extend the search.
-fn config(cases: u32) -> ProptestConfig {
-    let chosen = |name| std::env::var_os(name).is_some();
-    let default = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
-    ProptestConfig {
-        cases: if chosen("PROPTEST_CASES") { default.cases } else { cases },
-        rng_seed: if chosen("PROPTEST_RNG_SEED") { default.rng_seed } else { RngSeed::Fixed(1900) },
-        ..default
+/// Random cases of each property.
+const CASES: usize = 256;
+
+/// Checks random cases; one that fails is printed.
+fn check_all<T: Debug>(case: impl Fn(&mut Random) -> T, check: impl Fn(&T)) {
+    let mut random = Random(1900);
+    for number in 0..CASES {
+        let case = case(&mut random);
+        if let Err(failure) = catch_unwind(AssertUnwindSafe(|| check(&case))) {
+            eprintln!("case {number}: {case:#?}");
+            resume_unwind(failure);
+        }
     }
 }
 
-/// Log-uniform numbers from `10^low` to `10^high`.
-fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> {
-    (low..high).prop_map(|exponent| 10f64.powf(exponent))
-}
-
 /// Any model: E from rubber to beyond diamond, S/E from lead to glass, spheres from a grain of powder to a boulder.
-fn models() -> impl Strategy<Value = AnyModel> {
-    let bodies = (decades(6.0, 12.5), decades(-5.0, -1.0), decades(-6.0, 1.0), 0.0..0.5f64, any::<bool>());
-    let laws = prop::sample::select(all_models(mild()));
-    (bodies, laws, any::<bool>()).prop_map(|((youngs_modulus, strain, radius, nu, rigid), (_, laws), fresh)| {
-        let impactor_modulus = if rigid { f64::INFINITY } else { 3.0 * youngs_modulus };
-        let sphere = Body { radius, youngs_modulus: impactor_modulus, poissons_ratio: 0.3 };
-        // these laws depend on the contact radius over R, and hold where it is small
-        let strain = if is_scale_free(&laws) { strain } else { strain.min(1e-3) };
-        let target = Body { radius: f64::INFINITY, youngs_modulus, poissons_ratio: nu };
-        let pair = Pair::new(&sphere, &target, strain * youngs_modulus).expect("a sphere on a plane");
-        let surface = if fresh { Surface::Fresh } else { Surface::Dented };
-        AnyModel { pair, surface, ..laws }
-    })
+fn any_model(random: &mut Random) -> AnyModel {
+    let youngs_modulus = random.log_uniform(1e6, 3e12);
+    let (strain, radius) = (random.log_uniform(1e-5, 0.1), random.log_uniform(1e-6, 10.0));
+    let (poissons_ratio, is_rigid, is_fresh) = (0.5 * random.next(), random.next() < 0.5, random.next() < 0.5);
+    let models = all_models(mild());
+    let (_, laws) = models[(random.next() * models.len() as f64) as usize];
+    let impactor_modulus = if is_rigid { f64::INFINITY } else { 3.0 * youngs_modulus };
+    let sphere = Body { radius, youngs_modulus: impactor_modulus, poissons_ratio: 0.3 };
+    // these laws depend on the contact radius over R, and hold where it is small
+    let strain = if is_scale_free(&laws) { strain } else { strain.min(1e-3) };
+    let target = Body { radius: f64::INFINITY, youngs_modulus, poissons_ratio };
+    let pair = Pair::new(&sphere, &target, strain * youngs_modulus).expect("a sphere on a plane");
+    let surface = if is_fresh { Surface::Fresh } else { Surface::Dented };
+    AnyModel { pair, surface, ..laws }
 }
 
-/// Turning points in yield indentations, over five decades; some of them are apart.
-fn turns() -> impl Strategy<Value = Vec<f64>> {
-    let inside = decades(-2.0, 3.0);
-    let turn = prop_oneof![4 => inside, 1 => decades(-2.0, 1.0).prop_map(|x| -x)];
-    prop::collection::vec(turn, 1..12)
+/// Turning points in yield indentations, over five decades; one in five is apart.
+fn any_turns(random: &mut Random) -> Vec<f64> {
+    let count = 1 + (11.0 * random.next()) as usize;
+    let mut turn = || if random.next() < 0.2 { -random.log_uniform(0.01, 10.0) } else { random.log_uniform(0.01, 1e3) };
+    (0..count).map(|_| turn()).collect()
+}
+
+fn any_path(random: &mut Random) -> (AnyModel, Vec<f64>) {
+    (any_model(random), any_turns(random))
 }
 
 /// Energies that cancel in the results [J]: the work of loading and, for Hertz's lowered curve, Hertz's own.
@@ -62,20 +66,15 @@ fn force_size(model: &AnyModel, largest: f64) -> f64 {
 }
 
 /// Moves through `turns`, and after each part calls `check` with the history before and after it.
-fn follow(
-    model: &AnyModel,
-    turns: &[f64],
-    mut check: impl FnMut(&History, &History, f64) -> Result<(), TestCaseError>,
-) -> Result<(), TestCaseError> {
+fn follow(model: &AnyModel, turns: &[f64], mut check: impl FnMut(&History, &History, f64)) {
     let d_y = unit(&model.pair).indentation;
     let (mut history, mut largest) = (pressed(model, 0.0), 0.0_f64);
     for turn in turns {
         let before = history;
         physics::go(&mut history, model, turn * d_y);
         largest = largest.max(history.indentation());
-        check(&before, &history, largest)?;
+        check(&before, &history, largest);
     }
-    Ok(())
 }
 
 /// Integral of the force over `[low, high]` with Simpson's rule, bisected until both halves agree within `allowed`.
@@ -89,45 +88,48 @@ fn simpson(force: &dyn Fn(f64) -> f64, low: f64, high: f64, allowed: f64, depth:
     simpson(force, low, middle, 0.5 * allowed, depth - 1) + simpson(force, middle, high, 0.5 * allowed, depth - 1)
 }
 
-proptest! {
-    #![proptest_config(config(256))]
-
-    #[test]
-    fn force_is_finite_and_never_pulls(model in models(), turns in turns()) {
-        follow(&model, &turns, |_, history, _| {
+#[test]
+fn force_is_finite_and_never_pulls() {
+    check_all(any_path, |(model, turns)| {
+        follow(model, turns, |_, history, _| {
             let force = history.force();
-            prop_assert!(force >= 0.0 && force.is_finite(), "{force:e} at {:e}", history.indentation());
-            prop_assert!(history.stiffness() >= 0.0 && history.stiffness().is_finite());
-            prop_assert!(history.regime() != Regime::Apart || force == 0.0);
-            let dent = history.residual_indentation(&model);
-            prop_assert!((dent >= 0.0 || !is_passive(&model)) && dent <= history.max_indentation());
-            Ok(())
-        })?;
-    }
+            assert!(force >= 0.0 && force.is_finite(), "{force:e} at {:e}", history.indentation());
+            assert!(history.stiffness() >= 0.0 && history.stiffness().is_finite());
+            assert!(history.regime() != Regime::Apart || force == 0.0);
+            let dent = history.residual_indentation(model);
+            assert!((dent >= 0.0 || !is_passive(model)) && dent <= history.max_indentation());
+        });
+    });
+}
 
-    #[test]
-    fn dissipated_energy_never_falls_and_completes_the_work(model in models(), turns in turns()) {
-        let passive = is_passive(&model);
-        follow(&model, &turns, |before, after, largest| {
+#[test]
+fn dissipated_energy_never_falls_and_completes_the_work() {
+    check_all(any_path, |(model, turns)| {
+        let passive = is_passive(model);
+        follow(model, turns, |before, after, largest| {
             // a few rounding errors of the energies whose difference it is; fresh surfaces sum those of every dent
-            let rounding = 32.0 * f64::EPSILON * turns.len() as f64 * energy_size(&model, largest.max(0.0));
-            let [lost_before, lost] = [before, after].map(|history| history.dissipated_energy(&model));
-            prop_assert!(!passive || lost >= lost_before - rounding, "from {lost_before:e} to {lost:e}");
-            let elastic = after.elastic_energy(&model);
-            prop_assert!(elastic >= -rounding && (!passive || lost >= -rounding), "elastic {elastic:e}, dissipated {lost:e}");
-            prop_assert!((after.work(&model) - elastic - lost).abs() <= rounding);
-            Ok(())
-        })?;
-    }
+            let rounding = 32.0 * f64::EPSILON * turns.len() as f64 * energy_size(model, largest.max(0.0));
+            let [lost_before, lost] = [before, after].map(|history| history.dissipated_energy(model));
+            assert!(!passive || lost >= lost_before - rounding, "from {lost_before:e} to {lost:e}");
+            let elastic = after.elastic_energy(model);
+            assert!(
+                elastic >= -rounding && (!passive || lost >= -rounding),
+                "elastic {elastic:e}, dissipated {lost:e}"
+            );
+            assert!((after.work(model) - elastic - lost).abs() <= rounding);
+        });
+    });
+}
 
-    #[test]
-    fn work_is_the_integral_of_the_force_along_the_path(model in models(), turns in turns()) {
-        follow(&model, &turns, |before, after, largest| {
+#[test]
+fn work_is_the_integral_of_the_force_along_the_path() {
+    check_all(any_path, |(model, turns)| {
+        follow(model, turns, |before, after, largest| {
             let (from, to) = (before.indentation(), after.indentation());
-            let size = energy_size(&model, largest.max(0.0));
+            let size = energy_size(model, largest.max(0.0));
             let force = |indentation: f64| {
                 let mut history = *before;
-                advance(&mut history, &model, indentation - from);
+                advance(&mut history, model, indentation - from);
                 history.force()
             };
             // many panels from the start, because two coarse estimates may agree by chance; at a corner, where they do not
@@ -135,48 +137,57 @@ proptest! {
             let panel = |index: u32| from + (to - from) * f64::from(index) / 64.0;
             let part = |index| simpson(&force, panel(index), panel(index + 1), 1e-14 * size, 20);
             let integral: f64 = (0..64).map(part).sum();
-            let work = after.work(&model) - before.work(&model);
+            let work = after.work(model) - before.work(model);
             // the estimate of Simpson's error is not a bound: about ten times the tolerance of 64 panels. Where the force
             // jumps, Simpson's rule misses at most the jump, 8 % of the force, over half of the last panel
-            let jump = if physics::has_jumps(&model) { 0.08 * (to - from).abs() / 67_108_864.0 } else { 0.0 };
-            let missed = 3.0 * jump * loading_force(&model, largest.max(0.0));
-            prop_assert!((work - integral).abs() <= 1e-11 * size + missed, "{work:e}, by integration {integral:e}");
-            Ok(())
-        })?;
-    }
+            let jump = if physics::has_jumps(model) { 0.08 * (to - from).abs() / 67_108_864.0 } else { 0.0 };
+            let missed = 3.0 * jump * loading_force(model, largest.max(0.0));
+            assert!((work - integral).abs() <= 1e-11 * size + missed, "{work:e}, by integration {integral:e}");
+        });
+    });
+}
 
-    #[test]
-    fn a_step_may_be_cut_anywhere(model in models(), turns in turns(), cut in 0.0..1.0f64) {
-        let deepest = turns.iter().fold(0.0_f64, |deepest, &turn| deepest.max(turn)) * unit(&model.pair).indentation;
-        // within 1e-12 of the largest force, and at the end of Hertz's lowered curve, of the forces that cancel in it
-        let force_rounding = 1e-12 * force_size(&model, deepest);
-        let energy_rounding = 1e-12 * energy_size(&model, deepest);
-        follow(&model, &turns, |before, whole, _| {
-            let increment = whole.indentation() - before.indentation();
-            let mut parts = *before;
-            advance(&mut parts, &model, cut * increment);
-            advance(&mut parts, &model, increment - cut * increment);
-            let (one, two) = (whole.force(), parts.force());
-            prop_assert!((one - two).abs() <= force_rounding, "{one:e} in one step, {two:e} in two");
-            let (one, two) = (whole.work(&model), parts.work(&model));
-            prop_assert!((one - two).abs() <= energy_rounding, "{one:e} J in one step, {two:e} J in two");
-            Ok(())
-        })?;
-    }
+#[test]
+fn a_step_may_be_cut_anywhere() {
+    check_all(
+        |random| (any_path(random), random.next()),
+        |&((ref model, ref turns), cut)| {
+            let deepest =
+                turns.iter().fold(0.0_f64, |deepest, &turn| deepest.max(turn)) * unit(&model.pair).indentation;
+            // within 1e-12 of the largest force, and at the end of Hertz's lowered curve, of the forces that cancel in it
+            let force_rounding = 1e-12 * force_size(model, deepest);
+            let energy_rounding = 1e-12 * energy_size(model, deepest);
+            follow(model, turns, |before, whole, _| {
+                let increment = whole.indentation() - before.indentation();
+                let mut parts = *before;
+                advance(&mut parts, model, cut * increment);
+                advance(&mut parts, model, increment - cut * increment);
+                let (one, two) = (whole.force(), parts.force());
+                assert!((one - two).abs() <= force_rounding, "{one:e} in one step, {two:e} in two");
+                let (one, two) = (whole.work(model), parts.work(model));
+                assert!((one - two).abs() <= energy_rounding, "{one:e} J in one step, {two:e} J in two");
+            });
+        },
+    );
+}
 
-    #[test]
-    fn an_impact_never_gains_energy(model in models(), mass in decades(-9.0, 4.0), speed_ratio in decades(-2.0, 4.0)) {
-        let unit = unit(&model.pair);
-        let speed = speed_ratio * (0.8 * unit.force * unit.indentation / mass).sqrt();
-        let prediction = predict(&model, &Impact { mass, speed }).expect("an ordinary impact");
-        // the root of a sum of a few rounded energies, including those that cancel in it
-        let rounding = 16.0 * f64::EPSILON * energy_size(&model, prediction.max_indentation) / prediction.energy;
-        let most = if is_passive(&model) { 1.0 + rounding } else { f64::INFINITY };
-        prop_assert!(prediction.restitution > 0.0 && prediction.restitution <= most, "{prediction:?}");
-        prop_assert!(prediction.loading_time > 0.0 && prediction.unloading_time > 0.0);
-        let work = pressed(&model, prediction.max_indentation).work(&model);
-        prop_assert!((work / prediction.energy - 1.0).abs() <= rounding.max(1e-14), "the work done is the energy");
-    }
+#[test]
+fn an_impact_never_gains_energy() {
+    check_all(
+        |random| (any_model(random), random.log_uniform(1e-9, 1e4), random.log_uniform(0.01, 1e4)),
+        |&(ref model, mass, speed_ratio)| {
+            let unit = unit(&model.pair);
+            let speed = speed_ratio * (0.8 * unit.force * unit.indentation / mass).sqrt();
+            let prediction = predict(model, &Impact { mass, speed }).expect("an ordinary impact");
+            // the root of a sum of a few rounded energies, including those that cancel in it
+            let rounding = 16.0 * f64::EPSILON * energy_size(model, prediction.max_indentation) / prediction.energy;
+            let most = if is_passive(model) { 1.0 + rounding } else { f64::INFINITY };
+            assert!(prediction.restitution > 0.0 && prediction.restitution <= most, "{prediction:?}");
+            assert!(prediction.loading_time > 0.0 && prediction.unloading_time > 0.0);
+            let work = pressed(model, prediction.max_indentation).work(model);
+            assert!((work / prediction.energy - 1.0).abs() <= rounding.max(1e-14), "the work done is the energy");
+        },
+    );
 }
 
 /// Largest indentation [m], restitution and duration [s] of an impact, by leapfrog steps of `1/steps` of `duration`.
