@@ -34,7 +34,7 @@ export class TryIt {
   #timer = 0;
   #asked = 0;
   #listed: Promise<void> | null = null;
-  /** The question whose answer is shown. */
+  /** The question whose answer is shown, or will be. */
   #shown = "";
 
   constructor(readonly scene: Scene, readonly results: Results, readonly module: WebAssembly.Module) {
@@ -76,7 +76,8 @@ export class TryIt {
 
   /** What is computed, if that is anything. */
   get #question(): string {
-    return JSON.stringify([this.scene.text, this.#seconds, this.#boxes.filter(({ box }) => box.checked).map(({ way }) => way.name)]);
+    const { prediction } = this.results; // it may still be that of an earlier text
+    return JSON.stringify([this.scene.text, prediction?.speed, this.#seconds, this.#boxes.filter(({ box }) => box.checked).map(({ way }) => way.name)]);
   }
 
   /** Says whether the rebounds are yet to come; the table has those of an earlier question until then. */
@@ -104,20 +105,21 @@ export class TryIt {
 
   async run(): Promise<void> {
     const asked = ++this.#asked;
+    clearTimeout(this.#timer);
     this.#stop();
     const prediction = this.results.prediction;
     const law = prediction?.laws[0];
+    this.#shown = prediction && law ? this.#question : "";
     if (!prediction || !law) return this.#say("");
     const height = prediction.speed ** 2 / (2 * GRAVITY);
     const time = Math.sqrt((2 * height) / GRAVITY) * (1 + 5 * law.restitution);
     const step = Math.max(this.#seconds, Number(((time * prediction.contacts) / MOST).toPrecision(2)));
     const { text } = this.scene;
     this.#say("Computing …", true);
-    this.#shown = "";
     try {
       await this.#list();
       if (asked !== this.#asked) return;
-      const question = this.#question;
+      this.#shown = this.#question;
       const bounce = async (way: Way): Promise<Bounce["seen"]> => {
         const engine = new Engine(this.module); // a bounce needs an instance of its own
         this.#engines.push(engine);
@@ -129,7 +131,6 @@ export class TryIt {
       if (asked !== this.#asked) return;
       this.#stop();
       this.#say(step > this.#seconds ? `The step is ${format(step, "s", 2)}: shorter ones take a page too long.` : "");
-      this.#shown = question;
       const runs = chosen.map(({ way, colour, box }, index) => ({ way, colour, shown: box.checked, seen: seen[index]! }));
       this.#runs = runs.filter(({ shown }) => shown);
       this.#tell(runs.find(({ way }) => way === exact?.way)?.seen.rebounds ?? []);
@@ -137,6 +138,7 @@ export class TryIt {
     } catch (error) {
       if (asked !== this.#asked) return;
       this.#stop();
+      this.#shown = "";
       this.#runs = [];
       this.#tell([]);
       this.#draw(0);
