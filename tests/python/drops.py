@@ -216,18 +216,18 @@ def unloaded_steeper(numbers, mass, speed):
     }
 
 
-def outcome_of(tool, name, numbers, radius, mass, speed):
-    """An impact by the law of a tool, without errors of a step."""
+def outcome_of(tool, name, numbers, radius, mass, speed, patience=1000):
+    """An impact by the law of a tool, without errors of a step. `patience` is how many times as long as its way in a ball may take."""
     if (tool, name) == ("exudyn", "plastic"):
         return unloaded_steeper(numbers, mass, speed)
     force, pulls = law_of_tool(tool, name, numbers, radius, mass, speed)
     if name == "impact":
         # its damping falls faster than its spring, so that the surface lets go and grips again
-        return touched(lambda x, w: max(force(x, w), 0.0), True, mass, speed)
-    return touched(force, pulls, mass, speed)
+        return touched(lambda x, w: max(force(x, w), 0.0), True, mass, speed, patience)
+    return touched(force, pulls, mass, speed, patience)
 
 
-def touched(force, pulls, mass, speed):
+def touched(force, pulls, mass, speed, patience=1000):
     """An impact without errors of a step."""
     times = []
 
@@ -247,7 +247,7 @@ def touched(force, pulls, mass, speed):
     half = guess.t_events[0][0]
     run = solve_ivp(
         slope,
-        (0, 1000 * half),
+        (0, patience * half),
         [0.0, speed],
         events=[over, turns],
         rtol=1e-11,
