@@ -72,25 +72,26 @@ impl Trade {
         heading(&["", ""]) + &rows.collect::<String>()
     }
 
-    /// The restitution of a linear spring with a damper at a tenth of the speed and at three times.
+    /// What a linear spring with a damper does that has the restitution and the contact time of this impact: the restitution at a tenth
+    /// of the speed and at three times, and here the largest force and the depth.
     fn spring(&self) -> String {
         let speeds = Some((0.1 * self.impact.speed, 3.0 * self.impact.speed));
-        let request = Request { tool: "modelica", speeds, step: None, millimetres: false };
+        let request = Request { tool: "simscape", speeds, step: None, millimetres: false };
         let translation = match translate(&self.scene, &request) {
             Ok(translation) => translation,
             Err(why) => return why.to_string(),
         };
+        let promised = &translation.ways[0].promised;
         let at = |place: usize| {
-            let (law, tool) =
-                (translation.wanted[place].restitution, translation.ways[0].promised[place].mean.restitution);
-            format!(
-                "{} for {} at {}",
-                significant(tool, 3),
-                significant(law, 3),
-                quantity(translation.speeds[place], "m/s")
-            )
+            let restitutions = [promised[place].mean.restitution, translation.wanted[place].restitution];
+            let [tool, law] = restitutions.map(|value| significant(value, 3));
+            format!("{tool} for {law} at {}", quantity(translation.speeds[place], "m/s"))
         };
-        format!("restitution {}, {}", at(0), at(translation.speeds.len() - 1))
+        let here = translation.speeds.iter().position(|&speed| speed == translation.speed).expect("it is one of them");
+        let [force, depth] = [promised[here].mean.largest_force, promised[here].mean.depth];
+        let (force, depth) = (quantity(force, "N"), quantity(depth, "m"));
+        let last = translation.speeds.len() - 1;
+        format!("restitution {}, {}; here at most {force}, {depth} deep, and no dent", at(0), at(last))
     }
 }
 

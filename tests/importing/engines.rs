@@ -321,6 +321,16 @@ fn numbers_for_other_tools_do_what_is_promised() {
 }
 
 #[test]
+fn the_comparison_with_other_models_is_what_its_command_measures() {
+    if have(&["mujoco", "scipy"], "the comparison") {
+        let script = root().join("docs/guide/pictures/comparison.py");
+        let output = interpreter(&["mujoco", "scipy"]).arg(script).arg("--check").output();
+        let output = output.expect("the environment has an interpreter");
+        assert!(output.status.success(), "{}", text(&output));
+    }
+}
+
+#[test]
 fn numbers_for_the_large_engines_do_what_is_promised_in_them() {
     for (package, name) in [
         ("pydrake.all", "drake"),

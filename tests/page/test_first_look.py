@@ -44,6 +44,19 @@ def test_it_opens_with_a_fresh_drop_test_in_words(page: Page) -> None:
     assert opened.at("drawing.svg").is_visible()
 
 
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_a_link_with_its_name_opens_an_example(page: Page, path: Path) -> None:
+    opened = ScenePage(page, f"#example={path.stem}")
+    assert opened.text == path.read_text()
+
+
+def test_a_link_with_an_unknown_name_says_which_examples_there_are(page: Page) -> None:
+    opened = ScenePage(page, "#example=anvil")
+    said = opened.at("toast").text_content() or ""
+    assert said.startswith("There is no example anvil; there are drop_test, ")
+    assert opened.text == example("drop_test")
+
+
 # The outlines of both bodies in each panel, in pixels, and the pixels of a metre.
 OUTLINES = """() => {
   const svg = document.querySelector('[data-test="drawing.svg"]');

@@ -4,7 +4,6 @@ import functools
 import re
 
 import brinell
-import mujoco
 import numpy as np
 import pytest
 from brinell import ProgramError
@@ -18,6 +17,7 @@ from drops import (
     touched,
     two_spheres,
 )
+from in_engines import in_mujoco
 from scipy.integrate import solve_ivp
 
 RADIUS, MASS = 5e-3, 4e-3
@@ -36,25 +36,10 @@ def test_a_ball_in_mujoco_rebounds_as_promised(step):
             at = block.index('solref="-')
             block = block[:at] + f'solref="{positive}"' + block[block.index('"', at + 8) + 1 :]
             assert direct.split()[0][:6] in way.block
-        model = mujoco.MjModel.from_xml_string(
-            f'<mujoco><worldbody><geom name="flat" type="plane" size="1 1 .1"/>'
-            f'<body><freejoint/><geom name="ball" size="{RADIUS}" mass="{MASS}"/>'
-            f"</body></worldbody>{block}</mujoco>"
-        )
-        model.opt.gravity[:] = 0.0
-        data = mujoco.MjData(model)
-        assert model.opt.timestep == way.step
         for speed in (0.1, 1.0, 3.0):
-            rebounds = []
-            for phase in PHASES:
-                mujoco.mj_resetData(model, data)
-                data.qpos[2] = RADIUS + phase * way.step * speed
-                data.qvel[2] = -speed
-                for _ in range(5000):
-                    mujoco.mj_step(model, data)
-                    if data.qvel[2] > 0 and data.qpos[2] > RADIUS:
-                        break
-                rebounds.append(data.qvel[2] / speed)
+            drops = in_mujoco(block, RADIUS, MASS, speed, PHASES)
+            assert drops.step == way.step
+            rebounds = drops.rebounds
             promise = promised_at(way, speed)
             assert np.mean(rebounds) == pytest.approx(promise["restitution"], abs=1e-5)
             assert np.min(rebounds) == pytest.approx(promise["least_restitution"], abs=1e-5)

@@ -3,7 +3,8 @@ import type { About } from "./contract";
 import { h, options } from "./dom";
 import type { Scene } from "./scene";
 
-const nameOf = (text: string): string | undefined => /^name = "(.*)"/m.exec(text)?.[1];
+/** The name of a scene. */
+export const nameOf = (text: string): string | undefined => /^name = "(.*)"/m.exec(text)?.[1];
 
 export class Examples {
   readonly element: HTMLElement;

@@ -83,7 +83,8 @@ async function start(): Promise<void> {
   const module = await compiled();
   // one for each change, one for curves, one for their bands, one for what takes longer: none waits for another
   const [engine, drawing, spreading, workshop] = [new Engine(module), new Engine(module), new Engine(module), new Engine(module)] as const;
-  const [about, root, given] = await Promise.all([workshop.ask("about"), engine.ask("schema"), linked()]);
+  const [about, root] = await Promise.all([workshop.ask("about"), engine.ask("schema")]);
+  const given = await linked(about.ok.examples);
   const scene = new Scene(engine);
   const context: Context = { scene, schema: new Schema(root.ok), about: about.ok };
 
@@ -140,7 +141,7 @@ async function start(): Promise<void> {
     document.querySelector(".printed")!.textContent = scene.text;
   });
   addEventListener("hashchange", async () => {
-    const other = await linked();
+    const other = await linked(about.ok.examples);
     if (other !== null) editor.open(other);
   });
   addEventListener("keydown", (event) => {

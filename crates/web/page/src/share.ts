@@ -1,7 +1,9 @@
 // A scene by link, by file, and by dropping a file anywhere.
+import type { About } from "./contract";
 import { describe, fold, h, toast } from "./dom";
 import { copy } from "./download";
 import { type Engine, through } from "./engine";
+import { nameOf } from "./examples";
 import type { Scene } from "./scene";
 
 /** The scene in an address: deflated, in the alphabet of addresses. */
@@ -16,16 +18,22 @@ export async function unpacked(fragment: string): Promise<string> {
   return new TextDecoder("utf-8", { fatal: true }).decode(await bytes.arrayBuffer());
 }
 
-/** The scene that the page's address has, if any. */
-export async function linked(): Promise<string | null> {
-  const fragment = /^#scene=(.+)$/.exec(location.hash)?.[1];
-  if (!fragment) return null;
+/** The scene that the page's address has, if any: behind `#scene=` all of it, behind `#example=` the name of an example. */
+export async function linked(examples: About["examples"]): Promise<string | null> {
+  const [, kind, value] = /^#(scene|example)=(.+)$/.exec(location.hash) ?? [];
+  if (!kind || !value) return null;
   try {
-    return await unpacked(fragment);
-  } catch {
-    toast("The scene in this link is damaged: was it cut?");
+    return kind === "scene" ? await unpacked(value) : exampleOf(examples, value);
+  } catch (error) {
+    toast(kind === "scene" ? "The scene in this link is damaged: was it cut?" : describe(error));
     return null;
   }
+}
+
+function exampleOf(examples: About["examples"], name: string): string {
+  const found = examples.find(({ text }) => nameOf(text) === name);
+  if (!found) throw new Error(`There is no example ${name}; there are ${examples.map(({ text }) => nameOf(text)).join(", ")}.`);
+  return found.text;
 }
 
 export class Share {
