@@ -1,9 +1,10 @@
 //! The stuck offsets of a contact as a polyline of bounded length.
 
-use super::SAME;
-use super::merge::merge;
-use super::vector::{add, difference, length, times};
+use super::merge::{Merging, merge};
+use super::vector::{add, difference, direction, length, times};
 use super::vertex::Vertex;
+use super::{SAME, TINY};
+use crate::numbers::{largest, quotient};
 use crate::segment::Segment;
 
 /// The current point: indentation and scaled tangential displacement \[m\]. It is the apex of the cone of all springs
@@ -54,6 +55,13 @@ impl<const D: usize, const N: usize> List<D, N> {
         }
     }
 
+    /// Turns the highest segment so that it ends at `apex`.
+    pub(super) fn stretch(&mut self, apex: &Apex<D>) {
+        if let Some(last) = self.vertices.get_mut(..self.count).and_then(<[Vertex<D>]>::last_mut) {
+            last.slope = slope(last, (apex.indentation, apex.displacement));
+        }
+    }
+
     /// Keeps the lowest `count` segments.
     #[inline(always)]
     pub(super) fn truncate(&mut self, count: usize) {
@@ -63,9 +71,29 @@ impl<const D: usize, const N: usize> List<D, N> {
     /// Adds a segment on top. A full list first merges two of its segments.
     pub(super) fn push(&mut self, curve: &Segment, vertex: Vertex<D>) {
         if self.count >= N {
-            self.count = merge(&mut self.vertices, &vertex, curve, None);
+            self.count = merge(&mut self.vertices, &vertex, curve, None, Merging::Halfway);
         }
         self.add(vertex);
+    }
+
+    /// Relaxes springs at vertices beyond their limit, where merged segments meet in two directions. Otherwise the next growth would
+    /// do it, however small it is.
+    fn settle(&mut self, apex: &Apex<D>) {
+        let mut end = (apex.indentation, apex.displacement);
+        let mut has_moved = false;
+        for vertex in self.vertices.iter_mut().take(self.count).rev() {
+            let is_beyond = apex.distance(vertex.height, vertex.offset) < -SAME * apex.indentation;
+            if is_beyond {
+                let unit = direction(difference(apex.displacement, vertex.offset));
+                let limit = largest(apex.indentation - vertex.height, 0.0);
+                vertex.offset = add(apex.displacement, -limit, unit);
+            }
+            if is_beyond || has_moved {
+                vertex.slope = slope(vertex, end);
+            }
+            has_moved = is_beyond;
+            end = (vertex.height, vertex.offset);
+        }
     }
 
     /// Adds a segment on top of a list that is not full.
@@ -109,6 +137,11 @@ impl<const D: usize, const N: usize> Draft<D, N> {
         self.count < 2 * N
     }
 
+    /// The segments so far.
+    pub(super) fn vertices(&self) -> &[Vertex<D>] {
+        self.vertices.as_flattened().get(..self.count).unwrap_or(&[])
+    }
+
     /// Height of the lowest springs \[m\].
     pub(super) fn lowest(&self) -> f64 {
         self.vertices.as_flattened().first().map_or(0.0, |vertex| vertex.height)
@@ -127,13 +160,21 @@ impl<const D: usize, const N: usize> Draft<D, N> {
     }
 
     /// The list of these segments; excess segments are merged.
-    pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>) -> List<D, N> {
+    pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>, merging: Merging) -> List<D, N> {
+        let is_settled = self.count > N && merging != Merging::Halfway;
         let room = self.vertices.as_flattened_mut();
+        if is_settled
+            && let Some([.., below, last]) = room.get_mut(..self.count)
+            && cone.indentation - last.height <= TINY * cone.indentation
+        {
+            below.slope = slope(below, (cone.indentation, cone.displacement));
+            self.count -= 1;
+        }
         while self.count > N
             && let Some(([rest @ .., last], _)) = room.split_at_mut_checked(self.count)
         {
             let last = *last;
-            let left = merge(rest, &last, curve, Some(cone));
+            let left = merge(rest, &last, curve, Some(cone), merging);
             if let Some(slot) = room.get_mut(left) {
                 *slot = last;
             }
@@ -143,6 +184,15 @@ impl<const D: usize, const N: usize> Draft<D, N> {
         for vertex in room.iter().take(self.count) {
             list.add(*vertex);
         }
+        if is_settled && D > 1 {
+            list.settle(cone);
+        }
         list
     }
+}
+
+/// Slope of the straight line from `vertex` to the height and offset \[m\] of its `end`.
+fn slope<const D: usize>(vertex: &Vertex<D>, (height, offset): (f64, [f64; D])) -> [f64; D] {
+    let rise = height - vertex.height;
+    difference(offset, vertex.offset).map(|shift| quotient(shift, rise, rise > 0.0, 0.0))
 }
