@@ -155,7 +155,7 @@ fn impacts_through_yield_agree_with_the_rebounds_of_the_table() {
         let what = format!("{}, {degrees} degrees, limit {limit}", row.case);
         assert_eq!(found.steps, row.get("steps") as u32, "{what}");
         assert_close(&format!("{what}, e_n"), found.restitution.0, row.get("e_n"), 1.0, 1e-12);
-        // for `brinell` the table's steps have an error, as above, and segments of short lists merge otherwise: these have full ones beside them
+        // for `brinell` the table's steps have an error, as above, and its short lists merge otherwise: compared with full ones
         let is_full = |other: &&Row| {
             other.case == row.case && other.get("limit") == 0.0 && other.get("angle_deg_or_psi1") == degrees
         };
