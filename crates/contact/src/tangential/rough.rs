@@ -14,7 +14,7 @@ use crate::{Model, Surface};
 
 /// More pieces than a step can have. A law has a dozen corners. The [lattice](next_of_lattice) has fewer points than
 /// this between the smallest and the largest indentation.
-const MOST_PIECES: u32 = 10_000;
+const MOST_PIECES: u32 = 40_000;
 
 /// How the mean tangential force of a way is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
