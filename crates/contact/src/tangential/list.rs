@@ -1,10 +1,10 @@
 //! The stuck offsets of a contact as a polyline of bounded length.
 
 use super::merge::{Merging, merge};
-use super::vector::{add, difference, direction, length, times};
+use super::vector::{add, difference, length, times};
 use super::vertex::Vertex;
 use super::{SAME, TINY};
-use crate::numbers::{largest, quotient};
+use crate::numbers::quotient;
 use crate::segment::Segment;
 
 /// The current point: indentation and scaled tangential displacement \[m\]. It is the apex of the cone of all springs
@@ -76,26 +76,6 @@ impl<const D: usize, const N: usize> List<D, N> {
         self.add(vertex);
     }
 
-    /// Relaxes springs at vertices beyond their limit, where merged segments meet in two directions. Otherwise the next growth would
-    /// do it, however small it is.
-    fn settle(&mut self, apex: &Apex<D>) {
-        let mut end = (apex.indentation, apex.displacement);
-        let mut has_moved = false;
-        for vertex in self.vertices.iter_mut().take(self.count).rev() {
-            let is_beyond = apex.distance(vertex.height, vertex.offset) < -SAME * apex.indentation;
-            if is_beyond {
-                let unit = direction(difference(apex.displacement, vertex.offset));
-                let limit = largest(apex.indentation - vertex.height, 0.0);
-                vertex.offset = add(apex.displacement, -limit, unit);
-            }
-            if is_beyond || has_moved {
-                vertex.slope = slope(vertex, end);
-            }
-            has_moved = is_beyond;
-            end = (vertex.height, vertex.offset);
-        }
-    }
-
     /// Adds a segment on top of a list that is not full.
     pub(super) fn add(&mut self, vertex: Vertex<D>) {
         if let Some(slot) = self.vertices.get_mut(self.count) {
@@ -161,9 +141,9 @@ impl<const D: usize, const N: usize> Draft<D, N> {
 
     /// The list of these segments; excess segments are merged.
     pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>, merging: Merging) -> List<D, N> {
-        let is_settled = self.count > N && merging != Merging::Halfway;
         let room = self.vertices.as_flattened_mut();
-        if is_settled
+        if self.count > N
+            && merging != Merging::Halfway
             && let Some([.., below, last]) = room.get_mut(..self.count)
             && cone.indentation - last.height <= TINY * cone.indentation
         {
@@ -183,9 +163,6 @@ impl<const D: usize, const N: usize> Draft<D, N> {
         let mut list = List::EMPTY;
         for vertex in room.iter().take(self.count) {
             list.add(*vertex);
-        }
-        if is_settled && D > 1 {
-            list.settle(cone);
         }
         list
     }
