@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 pub const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 /// The allowed error of two directions on a growing dent, relative to Coulomb's limit or to the work of a step.
-const IN_TWO_DIRECTIONS: f64 = 6e-3;
+const IN_TWO_DIRECTIONS: f64 = 3e-3;
 /// Segments of the springs of an FMU.
 const MEMORY: usize = 16;
 
@@ -265,7 +265,8 @@ fn a_step_too_short_to_matter_hardly_changes_the_energies() {
     let mut failed = Vec::new();
     for (name, model) in models() {
         let mut worst = [[0.0_f64; 2]; 2];
-        for seed in 0..20 {
+        // with the seed 80 a step on a full list, part of which is steeper than the cones, once forgot more than it changed
+        for seed in (0..20).chain([80]) {
             let found =
                 [changes_of_short_steps::<1>(&model, seed, 1e-11), changes_of_short_steps::<2>(&model, seed, 1e-11)];
             for (worst, found) in worst.iter_mut().zip(found) {

@@ -143,7 +143,6 @@ impl<const D: usize, const N: usize> Draft<D, N> {
     pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>, merging: Merging) -> List<D, N> {
         let room = self.vertices.as_flattened_mut();
         if self.count > N
-            && merging != Merging::Halfway
             && let Some([.., below, last]) = room.get_mut(..self.count)
             && cone.indentation - last.height <= TINY * cone.indentation
         {
