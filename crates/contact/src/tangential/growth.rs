@@ -21,7 +21,7 @@ use libm::fabs;
 
 /// A segment whose image on a new path is bent is divided if the tangential force would else be off by more than this part of
 /// Coulomb's limit, times the relative growth: the error of a large growth is then the same in however many steps.
-const BEND: f64 = 1e-4;
+const BEND: f64 = 4e-4;
 
 /// The most parts of a segment.
 const MOST_PARTS: u32 = 8;

@@ -132,11 +132,16 @@ impl<const D: usize> Three<'_, D> {
         (exists && fits).then_some([Vertex { slope, ..low }, above])
     }
 
-    /// The two segments that meet at the height `middle` \[m\], and how much more energy they store, times `kappa/mu` \[J\].
-    fn gain_at(&self, middle: f64, displacement: [f64; D]) -> Option<([Vertex<D>; 2], f64)> {
+    /// Tangential energy of the three segments at this `displacement` \[m\], times `kappa/mu` \[J\].
+    fn energy(&self, displacement: [f64; D]) -> f64 {
+        self.segments().iter().fold(0.0, |sum, (vertex, end)| sum + vertex.energy(self.curve, displacement, *end))
+    }
+
+    /// The two segments that meet at the height `middle` \[m\], and how much more energy they store than the energy `before`, times
+    /// `kappa/mu` \[J\].
+    fn gain_at(&self, middle: f64, displacement: [f64; D], before: f64) -> Option<([Vertex<D>; 2], f64)> {
         let [low, above] = self.meeting_at(middle)?;
         let energy = |vertex: &Vertex<D>, end| vertex.energy(self.curve, displacement, end);
-        let before = self.segments().iter().fold(0.0, |sum, (vertex, end)| sum + energy(vertex, *end));
         let after = energy(&low, (above.height, above.force)) + energy(&above, self.end);
         Some(([low, above], after - before))
     }
@@ -145,15 +150,17 @@ impl<const D: usize> Three<'_, D> {
     fn with_the_same_energy(&self, displacement: [f64; D]) -> Option<[Vertex<D>; 2]> {
         let Three { low, one, two, end, .. } = self;
         let half = |from: f64, to: f64| 0.5 * (from + to);
-        let halfway = self.gain_at(half(one.height, two.height), displacement);
+        let before = self.energy(displacement);
+        let gain_at = |height: f64| self.gain_at(height, displacement, before);
+        let halfway = gain_at(half(one.height, two.height));
         let mut best = halfway;
         let places = [one.height, two.height, half(low.height, one.height), half(two.height, end.0)];
         for place in places {
             let Some((from, gain)) = best else {
-                best = self.gain_at(place, displacement);
+                best = gain_at(place);
                 continue;
             };
-            let Some((to, other)) = self.gain_at(place, displacement) else { continue };
+            let Some((to, other)) = gain_at(place) else { continue };
             if gain * other > 0.0 {
                 continue;
             }
@@ -162,7 +169,7 @@ impl<const D: usize> Three<'_, D> {
             for _ in 0..MOST_TRIES {
                 let share = quotient(low.1, low.1 - high.1, low.1 != high.1, 0.5);
                 let height = low.0 + share * (high.0 - low.0);
-                let Some((found, gain)) = self.gain_at(height, displacement) else { break };
+                let Some((found, gain)) = gain_at(height) else { break };
                 best = Some((found, gain));
                 if fabs(gain) <= ENOUGH * (fabs(low.1) + fabs(high.1)) {
                     break;
