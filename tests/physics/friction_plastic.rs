@@ -109,13 +109,36 @@ fn growth_in_steps_over_fixed_depths_comes_close_to_the_full_model() {
     }
 }
 
-fn impact<const N: usize>(case: &str, ball: Ball, step: f64) -> Rebound {
+/// The impact of a `ball` in steps of `step` \[s\], in each of which the contact moves in so many `parts`.
+fn impact<const N: usize>(case: &str, ball: Ball, step: f64, parts: u32) -> Rebound {
     let mut run = Run::<N, false>::new(case);
+    let part = 1.0 / f64::from(parts);
     ball.impact(step, |rise, slip| {
-        run.step(rise, slip);
+        (0..parts).for_each(|_| run.step(rise * part, slip * part));
         let force = run.contact.force();
         (force > 0.0).then(|| (force, run.pull()))
     })
+}
+
+/// A steel ball that hits at this angle from the normal \[degrees\].
+fn ball_at(degrees: f64) -> Ball {
+    Ball { mass: 4.11e-3, radius: 5e-3, normal: 1.0, tangential: degrees.to_radians().tan(), spin: 0.0 }
+}
+
+#[test]
+fn impacts_on_brinell_are_nearer_to_their_parts_than_the_table() {
+    let rows = table("impact").into_iter().filter(|row| row.case == "brinell/brinell" && row.get("limit") == 0.0);
+    let (mut worst, mut worst_of_table) = (0.0_f64, 0.0_f64);
+    for row in rows {
+        let of =
+            |parts| impact::<512>(&row.case, ball_at(row.get("angle_deg_or_psi1")), row.get("h"), parts).restitution.1;
+        let divided = of(16);
+        worst = worst.max((of(1) - divided).abs());
+        worst_of_table = worst_of_table.max((row.get("e_t") - divided).abs());
+    }
+    // its new springs touch evenly over the height
+    println!("from sixteen parts: {worst:.1e}, the table {worst_of_table:.1e}");
+    assert!(worst < 3e-5 && worst_of_table > 4.0 * worst);
 }
 
 #[test]
@@ -124,19 +147,27 @@ fn impacts_through_yield_agree_with_the_rebounds_of_the_table() {
     let mut worst = 0.0_f64;
     for row in rows.iter().filter(|row| row.case.contains('/')) {
         let (degrees, limit) = (row.get("angle_deg_or_psi1"), row.get("limit"));
-        let tangential = degrees.to_radians().tan();
-        let ball = Ball { mass: 4.11e-3, radius: 5e-3, normal: 1.0, tangential, spin: 0.0 };
+        let ball = ball_at(degrees);
         let found = match limit {
-            0.0 => impact::<512>(&row.case, ball, row.get("h")),
-            _ => impact::<12>(&row.case, ball, row.get("h")),
+            0.0 => impact::<512>(&row.case, ball, row.get("h"), 1),
+            _ => impact::<12>(&row.case, ball, row.get("h"), 1),
         };
         let what = format!("{}, {degrees} degrees, limit {limit}", row.case);
-        worst = worst.max((found.restitution.1 - row.get("e_t")).abs());
         assert_eq!(found.steps, row.get("steps") as u32, "{what}");
         assert_close(&format!("{what}, e_n"), found.restitution.0, row.get("e_n"), 1.0, 1e-12);
-        assert_close(&format!("{what}, e_t"), found.restitution.1, row.get("e_t"), 1.0, 1e-12);
-        let spin = row.get("omega");
-        assert_close(&format!("{what}, spin"), found.ball.spin, spin, spin, 1e-11);
+        // for `brinell` the table's steps have an error, as above, and its short lists merge otherwise: compared with full ones
+        let is_full = |other: &&Row| {
+            other.case == row.case && other.get("limit") == 0.0 && other.get("angle_deg_or_psi1") == degrees
+        };
+        let (other, exact) = match (row.case.as_str(), limit) {
+            ("brinell/brinell", 0.0) => (row, 1e-4),
+            ("brinell/brinell", _) => (rows.iter().find(is_full).expect("an impact with a full list"), 8e-4),
+            _ => (row, 1e-12),
+        };
+        worst = worst.max((found.restitution.1 - other.get("e_t")).abs());
+        assert_close(&format!("{what}, e_t"), found.restitution.1, other.get("e_t"), 1.0, exact);
+        let spin = other.get("omega");
+        assert_close(&format!("{what}, spin"), found.ball.spin, spin, spin, 10.0 * exact);
     }
     println!("worst difference of e_t: {worst:.1e}");
 }
@@ -150,9 +181,7 @@ fn restitution_on_steel<const N: usize>(laws: (&str, &str), degrees: f64, steps:
     let model = RoughModel { normal, friction: Friction::between(&ball, &block, pair.modulus, 0.4), loss: () };
     let mut contact = History::start(&model.normal, 0.0).expect("within range");
     let mut springs: Springs<N> = Springs::start(&model, &contact);
-    let tangential = degrees.to_radians().tan();
-    let ball = Ball { mass: 4.11e-3, radius: 5e-3, normal: 1.0, tangential, spin: 0.0 };
-    let rebound = ball.impact(4e-5 / steps, |rise, slip| {
+    let rebound = ball_at(degrees).impact(4e-5 / steps, |rise, slip| {
         springs.advance(&mut contact, &model, (rise, slip), (rise, slip), Mean::Skipped).expect("within range");
         let force = contact.force();
         (force > 0.0).then(|| (force, springs.force(&model.friction, contact.indentation())))
@@ -166,7 +195,7 @@ fn a_list_of_sixteen_changes_rebounds_by_as_much_as_the_guide_says() {
         (("hertz", "contact-radius"), 5e-6),
         (("big-alabo", "thornton"), 2e-5),
         (("big-alabo", "contact-radius"), 6e-5),
-        (("brinell", "brinell"), 8e-4),
+        (("brinell", "brinell"), 4e-4),
     ];
     for (laws, allowed) in allowed {
         let mut worst = 0.0_f64;

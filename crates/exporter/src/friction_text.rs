@@ -77,9 +77,10 @@ fn accuracy(scene: &Scene) -> Vec<String> {
     if let Some((name, _)) = scene.unloading {
         let error = table::unloading_law(name).friction_error_after(scene.loading.0);
         if let Some(error) = error {
+            let turning = if scene.directions > 1 { "; where the motion turns, up to 3e-3" } else { "" };
             items.push(format!(
                 "In a step in which the dent grows, one step instead of many has an error of up to {error:e} of Coulomb's \
-                 limit with these laws."
+                 limit with these laws, over random histories along a line{turning}."
             ));
         }
         items.push(

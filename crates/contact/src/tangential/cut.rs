@@ -1,10 +1,11 @@
 //! Moves a polyline on a way that ends outside the cones of some of its springs.
 
 use super::list::{Apex, Draft};
+use super::merge::Merging;
 use super::pursuit::Spring;
 use super::vector::{across, add, difference, dot, length, times};
 use super::vertex::Vertex;
-use super::{Motion, SAME};
+use super::{Motion, SAME, TINY};
 use crate::numbers::{largest, quotient, root, smallest};
 use crate::segment::Segment;
 
@@ -55,6 +56,8 @@ pub(super) struct Cut<'a, const D: usize, const N: usize> {
     pub apex: Apex<D>,
     /// Force at the end of the way \[N\].
     force: f64,
+    /// How excess segments are merged.
+    pub merging: Merging,
     /// The result.
     pub left: Draft<D, N>,
     /// Height of the lowest springs that slip \[m\].
@@ -74,6 +77,7 @@ impl<'a, const D: usize, const N: usize> Cut<'a, D, N> {
             direction: way.direction(),
             apex,
             force,
+            merging: Merging::Halfway,
             left: Draft::EMPTY,
             slips_from: None,
             sticks: false,
@@ -248,7 +252,8 @@ impl<'a, const D: usize, const N: usize> Cut<'a, D, N> {
             let bend = length(difference(middle.after, times(0.5, add(from.after, 1.0, to.after))));
             let stiffening = self.curve.stiffness(to.height) - self.curve.stiffness(from.height);
             let is_bent = bend * stiffening > BEND * self.force;
-            if is_bent || bend > NEAR * self.apex.indentation && rise * stiffening > SPACING * self.force {
+            let near = if self.merging == Merging::Halfway { NEAR } else { TINY };
+            if is_bent || bend > near * self.apex.indentation && rise * stiffening > SPACING * self.force {
                 self.slip(from, &middle, halvings - 1);
                 return self.slip(&middle, to, halvings - 1);
             }

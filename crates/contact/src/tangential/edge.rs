@@ -5,7 +5,7 @@
 
 use super::list::Apex;
 use super::vector::{add, difference, direction, dot, length, times};
-use super::{Motion, SAME, Stuck, Vertex};
+use super::{Motion, SAME, Stuck, TINY, Vertex};
 use crate::numbers::{quotient, smallest};
 use crate::path::Sum;
 use crate::segment::Segment;
@@ -61,7 +61,9 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
         };
         if !last.slips(slip) {
             let front = last.front(slip, last.distance(slip, &apex));
-            if front < way.to {
+            // an annulus that is too thin to matter takes no place in a full list
+            let is_kept = self.segments() < N || way.to - front > TINY * way.to;
+            if front < way.to && is_kept {
                 let offset = last.offset_at(front);
                 self.list.push(curve, Vertex::new(curve, front, offset, slip));
             }

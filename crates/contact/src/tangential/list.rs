@@ -1,9 +1,10 @@
 //! The stuck offsets of a contact as a polyline of bounded length.
 
-use super::SAME;
-use super::merge::merge;
+use super::merge::{Merging, merge};
 use super::vector::{add, difference, length, times};
 use super::vertex::Vertex;
+use super::{SAME, TINY};
+use crate::numbers::quotient;
 use crate::segment::Segment;
 
 /// The current point: indentation and scaled tangential displacement \[m\]. It is the apex of the cone of all springs
@@ -54,6 +55,13 @@ impl<const D: usize, const N: usize> List<D, N> {
         }
     }
 
+    /// Turns the highest segment so that it ends at `apex`.
+    pub(super) fn stretch(&mut self, apex: &Apex<D>) {
+        if let Some(last) = self.vertices.get_mut(..self.count).and_then(<[Vertex<D>]>::last_mut) {
+            last.slope = slope(last, (apex.indentation, apex.displacement));
+        }
+    }
+
     /// Keeps the lowest `count` segments.
     #[inline(always)]
     pub(super) fn truncate(&mut self, count: usize) {
@@ -63,7 +71,7 @@ impl<const D: usize, const N: usize> List<D, N> {
     /// Adds a segment on top. A full list first merges two of its segments.
     pub(super) fn push(&mut self, curve: &Segment, vertex: Vertex<D>) {
         if self.count >= N {
-            self.count = merge(&mut self.vertices, &vertex, curve, None);
+            self.count = merge(&mut self.vertices, &vertex, curve, None, Merging::Halfway);
         }
         self.add(vertex);
     }
@@ -109,6 +117,11 @@ impl<const D: usize, const N: usize> Draft<D, N> {
         self.count < 2 * N
     }
 
+    /// The segments so far.
+    pub(super) fn vertices(&self) -> &[Vertex<D>] {
+        self.vertices.as_flattened().get(..self.count).unwrap_or(&[])
+    }
+
     /// Height of the lowest springs \[m\].
     pub(super) fn lowest(&self) -> f64 {
         self.vertices.as_flattened().first().map_or(0.0, |vertex| vertex.height)
@@ -127,13 +140,20 @@ impl<const D: usize, const N: usize> Draft<D, N> {
     }
 
     /// The list of these segments; excess segments are merged.
-    pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>) -> List<D, N> {
+    pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>, merging: Merging) -> List<D, N> {
         let room = self.vertices.as_flattened_mut();
+        if self.count > N
+            && let Some([.., below, last]) = room.get_mut(..self.count)
+            && cone.indentation - last.height <= TINY * cone.indentation
+        {
+            below.slope = slope(below, (cone.indentation, cone.displacement));
+            self.count -= 1;
+        }
         while self.count > N
             && let Some(([rest @ .., last], _)) = room.split_at_mut_checked(self.count)
         {
             let last = *last;
-            let left = merge(rest, &last, curve, Some(cone));
+            let left = merge(rest, &last, curve, Some(cone), merging);
             if let Some(slot) = room.get_mut(left) {
                 *slot = last;
             }
@@ -145,4 +165,10 @@ impl<const D: usize, const N: usize> Draft<D, N> {
         }
         list
     }
+}
+
+/// Slope of the straight line from `vertex` to the height and offset \[m\] of its `end`.
+fn slope<const D: usize>(vertex: &Vertex<D>, (height, offset): (f64, [f64; D])) -> [f64; D] {
+    let rise = height - vertex.height;
+    difference(offset, vertex.offset).map(|shift| quotient(shift, rise, rise > 0.0, 0.0))
 }

@@ -88,6 +88,10 @@ use super::numbers::{largest, quotient};
 /// Otherwise rounding would leave an extra vertex at each reversal of a vibration.
 const SAME: f64 = 1e-13;
 
+/// A way shorter than this part of the indentation takes no place in a full list of segments, which would have to forget more than
+/// the way changes.
+const TINY: f64 = 1e-10;
+
 /// The smallest coefficient of friction that determines the [scale](Friction::scale) of the displacements.
 const SMALLEST: f64 = 1e-100;
 

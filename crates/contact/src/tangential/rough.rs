@@ -6,7 +6,7 @@ use super::vector::{add, times};
 use super::{Friction, Motion, Sliding, Stuck};
 use crate::history::History;
 use crate::loading::Loading;
-use crate::numbers::{largest, quotient, smallest};
+use crate::numbers::{largest, next_above, quotient, smallest};
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::unloading::Unloading;
@@ -14,7 +14,7 @@ use crate::{Model, Surface};
 
 /// More pieces than a step can have. A law has a dozen corners. The [lattice](next_of_lattice) has fewer points than
 /// this between the smallest and the largest indentation.
-const MOST_PIECES: u32 = 10_000;
+const MOST_PIECES: u32 = 40_000;
 
 /// How the mean tangential force of a way is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -163,12 +163,22 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
         }
         let (mut here, mut sum) = (way.from, [0.0; D]);
         let rise = way.rise();
+        let unit = model.normal.yield_point().indentation;
+        let mut corner = unit;
         for _ in 0..MOST_PIECES {
             if here >= way.to {
                 break;
             }
             let grows = here >= self.curve.upper;
-            let end = if grows { smallest(self.next_border(model, here), way.to) } else { self.curve.upper };
+            let mut end = self.curve.upper;
+            if grows {
+                if LATTICE && here == corner {
+                    self.jump(model, here, way.to);
+                }
+                corner = model.normal.loading.next_corner(&model.normal.pair, here);
+                let lattice = if LATTICE { next_of_lattice(here, unit) } else { f64::INFINITY };
+                end = smallest(smallest(lattice, corner), way.to);
+            }
             let part = (end - here) / rise;
             let piece = Motion { from: here, to: end, shift: times(part, way.shift), ..*way };
             let mean = if grows { self.grow(model, &piece, asked) } else { self.move_on_curve(&piece, asked) };
@@ -178,14 +188,13 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
         sum
     }
 
-    /// The next corner of the loading law or lattice point above `indentation` \[m\].
-    fn next_border<L: Loading, U: Unloading, X>(&self, model: &RoughModel<L, U, X>, indentation: f64) -> f64 {
-        let corner = model.normal.loading.next_corner(&model.normal.pair, indentation);
-        if LATTICE {
-            smallest(next_of_lattice(indentation, model.normal.yield_point().indentation), corner)
-        } else {
-            corner
-        }
+    /// Moves the springs to the path that begins at the indentation `here` \[m\]: that of the old dent may end there with another
+    /// one, at yield and at corners of some laws.
+    fn jump<L: Loading, U: Unloading, X>(&mut self, model: &RoughModel<L, U, X>, here: f64, to: f64) {
+        let way = Motion::straight(here, largest(next_above(here), f64::EPSILON * to), [0.0; D]);
+        let curve = model.curve_below(way.to);
+        self.stuck.grow(&self.curve, &curve, &way);
+        self.curve = curve;
     }
 
     /// Moves the springs on a `way` along the current curve. Returns their mean force \[N\].
@@ -210,13 +219,8 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
         asked: Mean,
     ) -> [f64; D] {
         let before = *self;
-        let after = |way: &Motion<D>| {
-            let mut springs = before;
-            springs.curve = model.curve_below(way.to);
-            springs.stuck.grow(&before.curve, &springs.curve, way);
-            springs
-        };
-        *self = after(way);
+        self.curve = model.curve_below(way.to);
+        self.stuck.grow(&before.curve, &self.curve, way);
         match asked {
             Mean::Skipped => return [0.0; D],
             Mean::OfEnds => return middle(before.pull(way.from), self.pull(way.to)),
@@ -225,7 +229,7 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
         let tolerance = TOLERANCE * largest(before.curve.force(way.from), self.curve.force(way.to));
         mean_over(before.pull(way.from), self.pull(way.to), tolerance, |part| {
             let begun = way.first_part(part);
-            after(&begun).pull(begun.to)
+            before.stuck.pull_after(&before.curve, &model.curve_below(begun.to), &begun)
         })
     }
 

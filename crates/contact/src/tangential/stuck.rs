@@ -2,8 +2,8 @@
 
 use super::cut::Cut;
 use super::list::{Apex, List};
-use super::vector::{add, difference, dot, length};
-use super::{Motion, SAME, Sliding, Vertex};
+use super::vector::{add, difference, length};
+use super::{Motion, SAME, Sliding, TINY, Vertex};
 use crate::numbers::{largest, next_above, quotient, smallest};
 use crate::path::Sum;
 use crate::segment::Segment;
@@ -79,6 +79,10 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
         if is_fresh {
             self.list.set_slope(way.slope());
         } else if way.to > way.from && self.turns(way.slope()) {
+            if self.segments() >= N && way.rise() <= TINY * way.to {
+                let displacement = self.displaced();
+                return self.list.stretch(&Apex { indentation: way.to, displacement });
+            }
             self.list.push(curve, Vertex::new(curve, way.from, before, way.slope()));
         }
     }
@@ -162,7 +166,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             None => NONE,
         };
         let indentation = cut.apex.indentation;
-        self.list = cut.left.into_list(curve, &cut.apex);
+        self.list = cut.left.into_list(curve, &cut.apex, cut.merging);
         if self.sliding() == Sliding::Sliding {
             // from here on only the tension of the springs matters
             self.list.rebase(indentation);
@@ -184,15 +188,10 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
     pub fn energy(&self, curve: &Segment, indentation: f64) -> f64 {
         let displacement = self.displaced();
         let vertices = self.list.vertices();
-        let ends = vertices.iter().skip(1).map(|next| (next.force, next.height));
-        let ends = ends.chain(core::iter::once((curve.force(indentation), indentation)));
-        let energy = vertices.iter().zip(ends).fold(0.0, |sum, (vertex, (force, height))| {
-            // r {[w F] + r [int F dh]}, in a form without cancellation on a short segment
-            let tension = difference(displacement, vertex.offset);
-            let shortfall = (height - vertex.height) * (force - curve.mean_force(vertex.height, height));
-            let pull = dot(vertex.slope, tension) * (force - vertex.force);
-            sum + pull - dot(vertex.slope, vertex.slope) * shortfall
-        });
+        let ends = vertices.iter().skip(1).map(|next| (next.height, next.force));
+        let ends = ends.chain(core::iter::once((indentation, curve.force(indentation))));
+        let energy =
+            vertices.iter().zip(ends).fold(0.0, |sum, (vertex, end)| sum + vertex.energy(curve, displacement, end));
         // relaxed springs have rounding errors of either sign
         largest(0.0, energy)
     }

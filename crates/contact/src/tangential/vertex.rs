@@ -1,6 +1,6 @@
 //! A vertex of the polyline of stuck offsets.
 
-use super::vector::add;
+use super::vector::{add, difference, dot};
 use crate::segment::Segment;
 
 /// A vertex of the polyline with the segment above it, which ends at the next vertex. The last segment ends at the
@@ -30,5 +30,16 @@ impl<const D: usize> Vertex<D> {
     /// Offset on the segment, or on its extension, at `height` \[m\].
     pub fn offset_at(&self, height: f64) -> [f64; D] {
         add(self.offset, height - self.height, self.slope)
+    }
+
+    /// Tangential energy of the segment up to the height \[m\] and normal force \[N\] of its `end` on `curve`, for a contact at this
+    /// `displacement` \[m\], times `kappa/mu` \[J\]. The sum over all segments is what the springs store.
+    pub(super) fn energy(&self, curve: &Segment, displacement: [f64; D], end: (f64, f64)) -> f64 {
+        // r {[w F] + r [int F dh]}, in a form without cancellation on a short segment
+        let (height, force) = end;
+        let tension = difference(displacement, self.offset);
+        let shortfall = (height - self.height) * (force - curve.mean_force(self.height, height));
+        let pull = dot(self.slope, tension) * (force - self.force);
+        pull - dot(self.slope, self.slope) * shortfall
     }
 }
