@@ -66,7 +66,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             let from = cut.point(from, length_of(old.force(way.from)));
             let to = cut.point((way.to, apex.displacement), 0.0);
             cut.between(slope(&from, &to), &from, &to);
-            return self.take(cut, new);
+            return self.take(&mut cut, new);
         }
         let edge = self.map(&mut cut, old, new, (way.from, before));
         let rise = way.to - edge;
@@ -77,7 +77,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             cut.sticks = true;
             cut.left.extend(Vertex::new(new, edge, before, slope));
         }
-        self.take(cut, new);
+        self.take(&mut cut, new);
     }
 
     /// Adds the segments up to `top` to `cut`, with their heights on the `new` path. Returns the height of the old edge.

@@ -127,7 +127,7 @@ impl<const D: usize, const N: usize> Draft<D, N> {
     }
 
     /// The list of these segments; excess segments are merged.
-    pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>) -> List<D, N> {
+    pub(super) fn list(&mut self, curve: &Segment, cone: &Apex<D>) -> List<D, N> {
         let room = self.vertices.as_flattened_mut();
         while self.count > N
             && let Some(([rest @ .., last], _)) = room.split_at_mut_checked(self.count)
