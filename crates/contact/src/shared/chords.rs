@@ -47,7 +47,8 @@ use libm::{cbrt, fabs, sqrt};
 /// Number of evaluations that a contact on a chord counts for, by what it costs: with one tangential direction and with two.
 const CHORDS: [u32; 2] = [4, 40];
 
-/// The [error](Chords::error) of one chord that is accepted, relative to the largest rate that the energy allows. It is smallest for contacts that never yield, in one tangential direction: their springs are exact.
+/// The [error](Chords::error) of one chord that is accepted, relative to the largest rate that the energy allows. It is smallest for
+/// contacts that never yield, in one tangential direction: their springs are exact.
 const ELASTIC: f64 = 5e-8;
 
 /// The same for contacts that may yield.
