@@ -246,9 +246,9 @@ fn off<const D: usize>(row: &Row, parts: u32) -> (f64, f64) {
 
 #[test]
 fn contacts_with_friction_end_a_step_as_in_the_table() {
-    let mut all = Vec::new();
+    let (mut all, mut elastic) = (Vec::new(), Vec::new());
     // the bounds that are promised
-    for (name, most) in [("friction", 1e-5), ("dents", 3e-4), ("plane", 1e-3)] {
+    for (name, most) in [("friction", 5e-6), ("dents", 3e-4), ("plane", 1e-3)] {
         for row in table(name) {
             for parts in [1, 17] {
                 let (error, balance) = match name {
@@ -256,8 +256,15 @@ fn contacts_with_friction_end_a_step_as_in_the_table() {
                     _ => off::<1>(&row, parts),
                 };
                 all.push((error / most, balance));
+                if name == "friction" {
+                    elastic.push(error);
+                }
             }
         }
     }
     assert!(all.iter().all(|&(error, balance)| error < 1.0 && balance < 1e-10));
+    elastic.sort_by(f64::total_cmp);
+    let [median, most] = [50, 90].map(|part| elastic[elastic.len() * part / 100]);
+    println!("contacts that don't yield: median {median:.1e}, 90 % below {most:.1e}");
+    assert!(median < 2e-7 && most < 1e-6, "{median:.1e}, {most:.1e}");
 }

@@ -1,7 +1,7 @@
 //! The motion of contacts with friction, in straight parts.
 //!
-//! The springs of friction follow a straight way exactly, but not a curved one. A block of contacts with friction therefore
-//! moves along chords. Over a chord of the time `h` every force counts with its mean `F` along the way,
+//! The springs of friction follow a straight way exactly, and a slightly bent one nearly so. A block of contacts with friction
+//! therefore moves along chords. Over a chord of the time `h` every force counts with its mean `F` along the way,
 //!
 //! ```text
 //! rate(h) = rate + h (a - W F),    way = h rate + h^2/2 (a - W F),    F = mean force on this way
@@ -9,14 +9,22 @@
 //!
 //! so that the bodies do exactly the work that the contacts take up. The way of the bodies is curved by their acceleration. To
 //! the next order this changes the mean force by `-h^2/12 K (a - W F)`, and by that the way by `h^3/12 W K rate`, with the
-//! stiffness `K` of each row. With the same `K` in both, the balance of work stays exact, whatever `K` is. The mean forces are
-//! found by iteration. The length of a chord follows from the acceleration.
+//! stiffness `K` of each row. With the same `K` in both, the balance of work stays exact, whatever `K` is. A tangential force also
+//! grows with the indentation beside, and changes the way in the same manner; what both do together on the bent way is added to the work of
+//! friction. The mean forces are found by iteration, with the response of each turn to itself taken off: each turn reduces the
+//! error by the fourth power of `h omega/2` where the stiffness is known.
+//!
+//! The springs keep what they passed on the bent way: two straight lines in place of a parabola (`tangential`).
+//!
+//! # Length
+//! The error of a chord is estimated by that part of the correction that is not sure: the change of the stiffness over the chord. Only where
+//! springs cease to slip does a stiffness jump. A chord ends there.
 //!
 //! # Accuracy
-//! Of fourth order in the length of a chord, but where springs begin to slip or to stick, and for what a list of segments
-//! remembers of a curved way. The rates after an impact are off by some 1e-6 of the largest rate that the energy allows for
-//! contacts that don't yield, and by what the springs of growing dents and of two directions are off. Work and momentum
-//! are exact to rounding, whatever the chords; Coulomb's bound to the accuracy of the iteration.
+//! Of fourth order in the length of a chord, but where springs begin to slip or to stick, where dents grow and in two directions.
+//! The rates after an impact of contacts that don't yield, in one direction, are off by 1e-7 of the largest rate that the
+//! energy allows, in the median. Work and momentum are exact to rounding, whatever the chords; Coulomb's bound to the accuracy of the
+//! iteration.
 //!
 //! Reference: the mean force on a straight way is the average vector field, and its correction that of fourth order, of
 //! G. R. W. Quispel, D. I. McLaren, *J. Phys. A* 41 (2008) 045206.
@@ -26,7 +34,7 @@ use super::inverse_masses::InverseMasses;
 use super::rest::STILL;
 use super::scales::{Scales, energy_of_load, stiffness_at};
 use super::work::{Instant, Row, Work};
-use super::{Refused, SharedContact, place_of};
+use super::{Refused, SharedContact};
 use crate::loading::Loading;
 use crate::loading::hertz::EXPONENT as HERTZ;
 use crate::losses::{Damping, Form};
@@ -39,8 +47,8 @@ use libm::{cbrt, fabs, sqrt};
 /// Number of evaluations that a contact on a chord counts for, by what it costs: with one tangential direction and with two.
 const CHORDS: [u32; 2] = [4, 40];
 
-/// Change of a rate by the bend of one chord that is accepted, relative to the largest rate that the energy allows, if it were not
-/// corrected. It is smallest for contacts that never yield, in one tangential direction: their springs are exact.
+/// The [error](Chords::error) of one chord that is accepted, relative to the largest rate that the energy allows. It is smallest for
+/// contacts that never yield, in one tangential direction: their springs are exact.
 const ELASTIC: f64 = 5e-8;
 
 /// The same for contacts that may yield.
@@ -54,6 +62,12 @@ const FIRST: f64 = 0.05;
 
 /// The longest chord while a contact is pressed, in the same units.
 const LONGEST: f64 = 0.4;
+
+/// A slip that ends nearer to an end of a chord, as a part of it, does not cut the chord.
+const NEAR_END: f64 = 0.01;
+
+/// How often a chord is cut where a slip ends.
+const ENDS: u32 = 3;
 
 /// Largest growth of a chord.
 const GROWTH: f64 = 2.0;
@@ -161,23 +175,37 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 next = FIRST * self.scales.time;
             }
             let mut time = smallest(smallest(next, LONGEST * self.scales.time), self.left);
+            let (mut planned, mut tries) = (0.0, 0);
             let factor = loop {
-                let error = self.attempt(time)?;
-                // the error is of third order
-                let factor = 0.9 * quotient(1.0, cbrt(error), error > 1e-6, 100.0);
+                let (error, end) = self.attempt(time)?;
+                tries += 1;
+                // the error is of third order where it is large, else of fourth
+                let order = if error > 1.0 { cbrt(error) } else { sqrt(sqrt(error)) };
+                let factor = 0.9 * quotient(1.0, order, error > 1e-6, 100.0);
                 // written positively to reject NaN
                 if error <= 1.0 {
                     break factor;
                 }
-                time *= if factor > 0.2 { smallest(factor, 0.9) } else { 0.2 };
+                // as far as the end of a slip, and from there on as before
+                let ends = end > NEAR_END && end < 1.0 - NEAR_END && tries <= ENDS;
+                if ends {
+                    planned = largest(time, planned);
+                }
+                time *= if ends {
+                    end
+                } else if factor > 0.2 {
+                    smallest(factor, 0.9)
+                } else {
+                    0.2
+                };
                 if time < f64::MIN_POSITIVE {
                     return Err(Refused::TooLong { left: self.left });
                 }
             };
             let is_last = time >= self.left;
-            self.accept(time);
+            self.accept(time)?;
             self.left = if is_last { 0.0 } else { self.left - time };
-            let longer = time * smallest(factor, GROWTH);
+            let longer = largest(time * smallest(factor, GROWTH), planned);
             next = if is_last { largest(longer, next) } else { longer };
         }
         for (_, member) in self.members_mut() {
@@ -233,25 +261,25 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
     /// Subtracts the response of the bodies to the numbers `of` all rows, such as their forces, from others.
     fn respond(&mut self, of: impl Fn(&Row) -> f64, from: impl Fn(&mut Row) -> &mut f64) {
         let count = self.work.len();
-        for (index, entries) in self.masses.rows(0).enumerate() {
-            if self.work.get(place_of(index, count).0).is_none_or(|member| member.block != self.block) {
+        for (at, entries) in places_from((0, 0), count).zip(self.masses.rows(0)) {
+            if self.work.get(at.0).is_none_or(|member| member.block != self.block) {
                 continue;
             }
-            let force = row_of(self.work, index).map_or(0.0, |row| of(row));
+            let force = row_at(self.work, at).map_or(0.0, |row| of(row));
             let mut own = 0.0;
-            for (other, &entry) in (index..).zip(entries).filter(|(_, entry)| **entry != 0.0) {
-                let Some(row) = row_of(self.work, other) else { continue };
+            for (other, &entry) in places_from(at, count).zip(entries).filter(|(_, entry)| **entry != 0.0) {
+                let Some(row) = row_at(self.work, other) else { continue };
                 own += entry * of(row);
-                if other != index {
+                if other != at {
                     *from(row) -= entry * force;
                 }
             }
-            row_of(self.work, index).into_iter().for_each(|row| *from(row) -= own);
+            row_at(self.work, at).into_iter().for_each(|row| *from(row) -= own);
         }
     }
 
     /// Tries a chord of this `time` \[s\]: finds its mean forces. Returns the error over that which is accepted.
-    fn attempt(&mut self, time: f64) -> Result<f64, Refused> {
+    fn attempt(&mut self, time: f64) -> Result<(f64, f64), Refused> {
         let Chords { model, scales, .. } = *self;
         let [one, two] = CHORDS;
         for (place, member) in self.members_mut() {
@@ -260,7 +288,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             for (row, stiffness) in member.rows.iter_mut().zip(member.contact.stiffnesses(model.borrow())) {
                 row.force = row.expected(time);
                 (row.stiffness_before, row.stiffness, row.beside) = (stiffness, stiffness, 0.0);
-                row.is_limited = false;
+                (row.stiffness_after, row.work_beside, row.is_limited) = ([0.0; 2], 0.0, false);
             }
         }
         let (bent, mut spent) = (time * time / 12.0, 0);
@@ -268,13 +296,20 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             self.accelerate();
             for (_, member) in self.members_mut() {
                 member.set_ways(time);
+                let [Row { way: normal, .. }, ..] = member.rows;
                 for row in member.rows_mut() {
-                    let [own, _] = row.stiffness;
-                    (row.bend, row.curved) = (bent * own * row.way, row.acceleration);
+                    let [own, beside] = row.stiffness;
+                    row.bend_beside = bent * beside * normal;
+                    (row.bend, row.curved) = (bent * own * row.way + row.bend_beside, row.acceleration);
                 }
             }
             self.respond(|row| -row.bend, |row| &mut row.way);
             for (place, member) in self.members_mut() {
+                member.flies = member.stays_apart(member.contact.plastic(), member.contact.path().lower);
+                if member.flies {
+                    member.rows_mut().iter_mut().for_each(Row::loosen);
+                    continue;
+                }
                 member.moved = member.contact;
                 let refused = |deep| Refused::TooDeep(place, deep);
                 // springs that changed their limits in every turn would not come to an end
@@ -284,13 +319,14 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             }
             self.respond(|row| row.found, |row| &mut row.curved);
             let mut change = 0.0;
-            for (place, member) in self.members_mut() {
+            for (place, member) in self.members_mut().filter(|(_, member)| !member.flies) {
                 let ([normal, ..], tangent) = (member.rows, member.stiffest_tangent(time));
                 let after = member.moved.stiffnesses(model(place).borrow());
                 for (index, (row, after)) in member.rows_mut().iter_mut().zip(after).enumerate() {
                     let most = if index == 0 { row.stiffest(time) } else { tangent };
                     let ([own, beside], [start, start_beside]) = (row.stiffness, row.stiffness_before);
                     let [end, end_beside] = after;
+                    row.stiffness_after = after;
                     let force = row.found - bent * own * row.curved;
                     // a contact that parts presses by rounding at most
                     let force = if index == 0 { largest(force, 0.0) } else { force };
@@ -299,6 +335,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                     row.is_limited |= index > 0 && fabs(force) > row.most;
                     // for the next turn
                     (row.found, row.beside) = (force, bent * beside * normal.curved);
+                    row.work_beside = row.bend_beside * row.curved;
                     // a contact that slides at last, or would exceed its limit, is taken as sliding
                     let mean = if end > 0.0 && !row.is_limited { 0.5 * (start + end) } else { 0.0 };
                     row.stiffness = [smallest(mean, most), 0.5 * (start_beside + end_beside)];
@@ -309,33 +346,83 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 self.count(spent)?;
                 return Ok(self.error(time));
             }
-            for (_, member) in self.members_mut() {
-                member.rows_mut().iter_mut().for_each(|row| row.force = row.found);
-            }
+            self.improve(time);
         }
         self.count(spent)?;
         // a chord this long is not found by iteration
-        Ok(f64::INFINITY)
+        Ok((f64::INFINITY, 1.0))
     }
 
-    /// The error of a chord, from what its forces would differ on the curve, over that which is accepted.
-    fn error(&self, time: f64) -> f64 {
-        let accepted = self.tolerance * self.scales.root_energy;
-        let mut error = 0.0;
-        for (_, member) in self.members() {
-            for (row, ratio) in member.rows().iter().zip(ratios(member)) {
-                let [start, end] = [member.contact, member.moved].map(|contact| contact.plastic().stiffness());
-                let force = ratio * largest(start, end) * fabs(row.net) * time * time / 12.0;
-                error = largest(force * sqrt(row.inverse_mass) * time, error);
+    /// Takes the forces that were found for the next turn, less their response to themselves.
+    fn improve(&mut self, time: f64) {
+        for (_, member) in self.members_mut() {
+            member.rows_mut().iter_mut().for_each(|row| row.net = 0.0);
+        }
+        self.respond(|row| row.found - row.force, |row| &mut row.net);
+        let sixth = time * time / 6.0;
+        for (_, member) in self.members_mut() {
+            let flies = member.flies;
+            let [Row { net: normal, .. }, ..] = member.rows;
+            for row in member.rows_mut() {
+                let [own, beside] = row.stiffness;
+                let response = if flies { 0.0 } else { sixth * (own * row.net + beside * normal) };
+                row.force = row.found + response;
             }
         }
-        quotient(error, accepted, accepted > 0.0, 0.0)
+    }
+
+    /// The error of a chord over that which is accepted, and the part of it at which a slip ends that makes it too large.
+    ///
+    /// What the bend of the chord changes is corrected; what is left is that change times the part by which a stiffness is not known: by which it
+    /// changes over the chord, and all of it where contacts may yield or springs do not move in closed form.
+    fn error(&self, time: f64) -> (f64, f64) {
+        let accepted = self.tolerance * self.scales.root_energy;
+        let (mut error, mut end) = (0.0, 1.0);
+        for (place, member) in self.members().filter(|(_, member)| !member.flies) {
+            let [normal, ..] = &member.rows;
+            let [before, after] = [&member.contact, &member.moved];
+            let grows = after.plastic().max_indentation() > before.plastic().max_indentation();
+            let model = (self.model)(place);
+            let [scale, scale_after] = [before, after].map(|contact| contact.slip_scale(model.borrow()));
+            let scale = scale.filter(|_| !grows && self.tolerance == ELASTIC && scale_after.is_some());
+            // forces with a loss are means of products
+            let lossy = smallest(fabs(normal.share - 1.0), 1.0);
+            let stiffest = largest(before.plastic().stiffness(), after.plastic().stiffness());
+            for (axis, (row, ratio)) in member.rows().iter().zip(ratios(member)).enumerate() {
+                let ([start, start_beside], [stop, stop_beside]) = (row.stiffness_before, row.stiffness_after);
+                let missed = sqrt(row.inverse_mass) * time * time * time / 12.0;
+                let whole = ratio * stiffest * fabs(row.net);
+                let Some(scale) = scale else {
+                    error = largest(missed * whole, error);
+                    continue;
+                };
+                let changes = fabs(stop - start) * fabs(row.net) + fabs(stop_beside - start_beside) * fabs(normal.net);
+                let mut force = changes + lossy * whole;
+                let turn = smallest(turn_of(normal, row, scale, time), turn_of(normal, row, -scale, time));
+                if axis > 0 && turn < 1.0 {
+                    // springs that slipped stick from here on
+                    let slips = largest(fabs(start_beside), fabs(stop_beside));
+                    force += 4.0 * turn * (1.0 - turn) * slips * (scale * fabs(row.net) + fabs(normal.net));
+                    if missed * force > accepted {
+                        end = smallest(turn, end);
+                    }
+                }
+                error = largest(missed * force, error);
+            }
+        }
+        (quotient(error, accepted, accepted > 0.0, 0.0), end)
     }
 
     /// Moves the block along the chord that was tried last.
-    fn accept(&mut self, time: f64) {
-        for (_, member) in self.members_mut() {
-            member.contact = member.moved;
+    fn accept(&mut self, time: f64) -> Result<(), Refused> {
+        let model = self.model;
+        for (place, member) in self.members_mut() {
+            if member.flies {
+                let refused = |deep| Refused::TooDeep(place, deep);
+                member.contact.go_straight(model(place).borrow(), &mut member.rows, time).map_err(refused)?;
+            } else {
+                member.contact = member.moved;
+            }
             member.deepest = largest(member.deepest, member.contact.plastic().max_indentation());
             for row in member.rows_mut() {
                 row.moment += time * (row.impulse + 0.5 * time * row.force) - row.bend;
@@ -344,6 +431,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 row.last = [row.start, row.force, time];
             }
         }
+        Ok(())
     }
 
     /// Whether the block is at rest until the end of the step, as that of contacts without friction: every row is slow, and the
@@ -394,7 +482,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 row.way = h * (row.rate + 0.5 * h * row.net) - row.solution.product;
             }
             if !is_pressed {
-                member.rows_mut().iter_mut().for_each(|row| row.beside = 0.0);
+                member.rows_mut().iter_mut().for_each(Row::loosen);
                 // within the range of the law, as it stays apart
                 let _ = member.contact.go_straight(model(place).borrow(), &mut member.rows, h);
             }
@@ -433,7 +521,8 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
         for (place, member) in self.members_mut() {
             let refused = |deep| Refused::TooDeep(place, deep);
             member.rows_mut().iter_mut().for_each(|row| {
-                (row.net, row.force, row.beside) = (row.acceleration, 0.0, 0.0);
+                row.loosen();
+                (row.net, row.force) = (row.acceleration, 0.0);
             });
             member.set_ways(time);
             // the way to the surface ends there
@@ -468,10 +557,22 @@ impl<M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> System for Chords<
     }
 }
 
-/// The row of the matrix with this `index`: all normals, then all tangents in the first direction, and so on.
-fn row_of<C>(work: &mut [Work<C>], index: usize) -> Option<&mut Row> {
-    let (contact, axis) = place_of(index, work.len());
+/// Contact and axis of each row of the matrix from this one on: all normals, then all tangents in the first direction, and so on.
+fn places_from(first: (usize, usize), count: usize) -> impl Iterator<Item = (usize, usize)> {
+    core::iter::successors(Some(first), move |&(contact, axis)| {
+        Some(if contact + 1 < count { (contact + 1, axis) } else { (0, axis + 1) })
+    })
+}
+
+fn row_at<C>(work: &mut [Work<C>], (contact, axis): (usize, usize)) -> Option<&mut Row> {
     work.get_mut(contact)?.rows_mut().get_mut(axis)
+}
+
+/// The part of a chord of this `time` \[s\] at which the sum of the rates of the normal and, times `scale`, of the tangent changes
+/// its sign: where springs at the edge cease to slip. 1 or more if it does not.
+fn turn_of(normal: &Row, tangent: &Row, scale: f64, time: f64) -> f64 {
+    let (start, change) = (normal.rate + scale * tangent.rate, time * (normal.net + scale * tangent.net));
+    quotient(-start, change, start * (start + change) < 0.0, 1.0)
 }
 
 /// Stiffness of the rows of a contact over that of the normal.

@@ -33,7 +33,7 @@
 //! contacts amplify rounding as the motion itself does. The work of a contact with a loss is right to 1e-6 of itself where it is far
 //! below the energy of the motion.
 //!
-//! With friction, rates are off by some 1e-6, on growing dents 1e-4, in two directions 2e-4 of that scale after an event
+//! With friction, rates are off by some 1e-7, on growing dents 1e-4, in two directions 2e-4 of that scale after an event
 //! (`chords`); the balance of work is exact, and Coulomb's bound holds to 1e-9.
 //!
 //! # Evaluations
@@ -135,6 +135,12 @@ pub trait SharedContact<M>: PlasticContact<M> {
     /// Ratio of the tangential to the normal stiffness, of a contact with friction.
     fn stiffness_ratio(_model: &M) -> f64 {
         1.0
+    }
+
+    /// The scale of the tangential lengths of a contact with friction in one direction, whose springs move in closed form: they slip or
+    /// stick as the sign of the sum of the rate of indentation and the scaled tangential one says, in either direction.
+    fn slip_scale(&self, _model: &M) -> Option<f64> {
+        None
     }
 
     /// Sets the forces of a contact with friction at the start of a chord.

@@ -5,6 +5,7 @@ use super::dop853::{Numbers, Slopes};
 use super::gradients::Unknown;
 use super::loss::Loss;
 use super::scales::Scales;
+use crate::history::History;
 use crate::losses::Form;
 use crate::numbers::{largest, quotient, root, smallest};
 use libm::{fabs, sqrt};
@@ -42,6 +43,8 @@ pub struct Work<C> {
     pub(super) deepest: f64,
     /// A contact with friction at the end of the chord that is tried.
     pub(super) moved: C,
+    /// Whether it is apart all along this chord.
+    pub(super) flies: bool,
     /// The directions of a contact with friction, of which it uses so many: first the normal, then the tangents.
     pub(super) rows: [Row; 3],
     pub(super) used: usize,
@@ -69,7 +72,7 @@ pub struct Row {
     /// Mean force of the chord that the way follows from \[N\].
     pub(super) force: f64,
     /// Mean acceleration with these forces \[m/s^2\].
-    pub(super) net: f64,
+    pub(crate) net: f64,
     /// Way of the chord \[m\].
     pub(crate) way: f64,
     /// Mean force on this way \[N\].
@@ -83,12 +86,17 @@ pub struct Row {
     pub(super) is_limited: bool,
     /// The stiffness at the start of the chord, and how the force grows with the indentation beside \[N/m\].
     pub(super) stiffness_before: [f64; 2],
+    /// The same at its end.
+    pub(super) stiffness_after: [f64; 2],
     /// The same as means over the chord.
     pub(super) stiffness: [f64; 2],
     /// The part of the force on a curved way that grows with the indentation \[N\].
     pub(crate) beside: f64,
     /// The moment of the impulse by which the way is not straight \[N.s^2\].
     pub(super) bend: f64,
+    /// The part of it by a force that grows with the indentation, and its work on the bent way \[J\].
+    pub(super) bend_beside: f64,
+    pub(crate) work_beside: f64,
     /// Mean acceleration with the mean forces on the way \[m/s^2\].
     pub(super) curved: f64,
     /// Of a block that comes to rest.
@@ -104,6 +112,12 @@ impl Row {
     /// Mean force of the chord \[N\].
     pub fn force(&self) -> f64 {
         self.force
+    }
+
+    /// Sets what no force needs.
+    pub(super) fn loosen(&mut self) {
+        let (stiffness, found, most, beside, work_beside) = ([0.0; 2], 0.0, 0.0, 0.0, 0.0);
+        *self = Row { stiffness, found, most, beside, work_beside, ..*self };
     }
 
     /// The mean force of the next chord, of this `time` \[s\], if the force goes on along a parabola \[N\].
@@ -196,6 +210,7 @@ impl<C: Copy> Work<C> {
         Work {
             contact,
             moved: contact,
+            flies: false,
             block: 0,
             reach: 0,
             active: false,
@@ -231,6 +246,12 @@ impl<C> Work<C> {
     /// Sets the ways of a chord of this `time` \[s\].
     pub(super) fn set_ways(&mut self, time: f64) {
         self.rows_mut().iter_mut().for_each(|row| row.way = time * (row.rate + 0.5 * time * row.net));
+    }
+
+    /// Whether a contact with friction of this history is and stays apart on the way of the chord.
+    pub(super) fn stays_apart(&self, history: &History, surface: f64) -> bool {
+        let [Row { way, .. }, ..] = self.rows;
+        history.force() == 0.0 && history.indentation() < surface && history.indentation() + way < surface
     }
 
     /// The largest tangential stiffness \[N/m\] for the bend of a chord of this `time` \[s\] that keeps Coulomb's bound: the positive

@@ -55,8 +55,8 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
     ///
     /// Springs keep their places and offsets. Their limits change evenly over the way to those of the new path.
     pub fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<D>) {
-        let cut = self.grown(old, new, way);
-        self.take(cut, new);
+        let mut cut = self.grown(old, new, way);
+        self.take(&mut cut, new);
     }
 
     /// Tangential force after such a way that is yet to come, divided by the coefficient of friction \[N\].

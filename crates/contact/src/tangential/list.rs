@@ -140,7 +140,7 @@ impl<const D: usize, const N: usize> Draft<D, N> {
     }
 
     /// The list of these segments; excess segments are merged.
-    pub(super) fn into_list(mut self, curve: &Segment, cone: &Apex<D>, merging: Merging) -> List<D, N> {
+    pub(super) fn list(&mut self, curve: &Segment, cone: &Apex<D>, merging: Merging) -> List<D, N> {
         let room = self.vertices.as_flattened_mut();
         if self.count > N
             && let Some([.., below, last]) = room.get_mut(..self.count)

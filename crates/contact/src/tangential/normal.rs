@@ -271,16 +271,23 @@ impl Straight {
         Straight { damping: Damping { swiftest, ..*loss }, way, increment, time }
     }
 
-    /// The mean force \[N\] for the mean `elastic` force \[N\], and indentation \[m\] and stiffness \[N/m\] at both ends.
-    pub fn force(&self, elastic: f64, ends: [(f64, f64); 2]) -> f64 {
+    /// The mean force \[N\] for the mean `elastic` force \[N\], and the contact at both `ends`, if the rate changes evenly by `change`
+    /// \[m/s\]. The mean of a product of two numbers that change evenly differs from that of their means by a twelfth of the product
+    /// of their changes.
+    pub fn force(&self, elastic: f64, ends: [&History; 2], change: f64) -> f64 {
         let rate = self.increment / self.time;
         match self.damping.form {
             Form::Viscous(growth) => {
                 // the square of the stiffness of Hertz's contact is linear
-                let [start, end] = ends.map(|(d, stiffness)| growth.times(self.damping.factor, d, || stiffness));
-                largest(elastic + 0.5 * (start + end) * rate, 0.0)
+                let [start, end] =
+                    ends.map(|it| growth.times(self.damping.factor, it.indentation(), || it.stiffness()));
+                largest(elastic + 0.5 * (start + end) * rate + (end - start) * change / 12.0, 0.0)
             }
-            Form::Proportional => elastic * self.damping.gain(rate),
+            Form::Proportional => {
+                let [start, end] = ends.map(History::force);
+                let [slow, swift] = [-0.5, 0.5].map(|part| self.damping.gain(rate + part * change));
+                largest(elastic * self.damping.gain(rate) + (end - start) * (swift - slow) / 12.0, 0.0)
+            }
             Form::Mobility => elastic,
         }
     }

@@ -121,23 +121,24 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     ) -> Result<[f64; D], TooDeep> {
         let from = contact.indentation();
         contact.advance(&model.normal, increment)?;
-        Ok(self.follow(model, (from, contact.indentation()), slip, rates, asked))
+        Ok(self.follow(model, (from, contact.indentation()), (slip, [0.0; D]), rates, asked))
     }
 
     /// Moves the springs as [`SpringsOf::advance_along`] does, of a contact that has completed its way between these indentations \[m\].
+    /// Where half of it is done, the slip is beside the straight line by `bend` \[m\].
     #[inline]
     pub(super) fn follow<L: Loading, U: Unloading, X>(
         &mut self,
         model: &RoughModel<L, U, X>,
         (from, to): (f64, f64),
-        slip: [f64; D],
+        (slip, bend): ([f64; D], [f64; D]),
         rates: (f64, [f64; D]),
         asked: Mean,
     ) -> [f64; D] {
         let scale = model.friction.scale();
         let scaled = |lengths| times(scale, lengths);
         let way = Motion { from, to, shift: scaled(slip), normal: rates.0, tangential: scaled(rates.1) };
-        let pull = self.go_along(model, &way, asked);
+        let pull = self.go_along(model, (&way, scaled(bend)), asked);
         // a fresh surface forgets the dent once the bodies separate beyond the original surface
         if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
             self.curve = model.curve_below(0.0);
@@ -155,11 +156,11 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     fn go_along<L: Loading, U: Unloading, X>(
         &mut self,
         model: &RoughModel<L, U, X>,
-        way: &Motion<D>,
+        (way, bend): (&Motion<D>, [f64; D]),
         asked: Mean,
     ) -> [f64; D] {
         if way.to <= self.curve.upper {
-            return self.move_on_curve(way, asked);
+            return self.move_on_curve(way, bend, asked);
         }
         let (mut here, mut sum) = (way.from, [0.0; D]);
         let rise = way.rise();
@@ -181,7 +182,11 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
             }
             let part = (end - here) / rise;
             let piece = Motion { from: here, to: end, shift: times(part, way.shift), ..*way };
-            let mean = if grows { self.grow(model, &piece, asked) } else { self.move_on_curve(&piece, asked) };
+            let mean = if grows {
+                self.grow(model, &piece, asked)
+            } else {
+                self.move_on_curve(&piece, times(part * part, bend), asked)
+            };
             sum = add(sum, part, mean);
             here = end;
         }
@@ -199,12 +204,12 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
 
     /// Moves the springs on a `way` along the current curve. Returns their mean force \[N\].
     #[inline]
-    fn move_on_curve(&mut self, way: &Motion<D>, asked: Mean) -> [f64; D] {
+    fn move_on_curve(&mut self, way: &Motion<D>, bend: [f64; D], asked: Mean) -> [f64; D] {
         let curve = self.curve;
         let exact = asked == Mean::Exact || asked == Mean::OfEnds && self.stuck.slips_from_edge();
         let mean = if exact { self.stuck.mean_pull(&curve, way) } else { [0.0; D] };
         let before = self.stuck;
-        self.stuck.advance(&curve, way);
+        self.stuck.advance_bent(&curve, way, bend);
         if asked == Mean::OfEnds && !exact {
             return middle(before.pull(&curve, way.from), self.stuck.pull(&curve, way.to));
         }
@@ -236,6 +241,11 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     /// The unloading path of the present dent; before yield, Hertz's curve.
     pub(super) fn curve(&self) -> Segment {
         self.curve
+    }
+
+    /// Whether springs slip only from the edge inwards, in closed form.
+    pub(super) fn slips_from_edge(&self) -> bool {
+        self.stuck.slips_from_edge()
     }
 
     /// Whether a step with held rates to this `indentation` \[m\] has an exact result.

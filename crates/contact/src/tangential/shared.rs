@@ -2,7 +2,7 @@
 
 use super::contact::share_of;
 use super::normal::Straight;
-use super::vector::{add, within};
+use super::vector::{add, times, within};
 use super::{Friction, Mean, Normal, Rough, RoughModel};
 use crate::Model;
 use crate::behaviour::Contact;
@@ -10,11 +10,12 @@ use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
 use crate::motion::PlasticContact;
-use crate::numbers::largest;
+use crate::numbers::{largest, quotient};
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::shared::{Row, SharedContact};
 use crate::unloading::Unloading;
+use libm::fabs;
 
 impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
     PlasticContact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
@@ -60,6 +61,10 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         model.friction.stiffness_ratio
     }
 
+    fn slip_scale(&self, model: &RoughModel<L, U, N::Loss>) -> Option<f64> {
+        self.springs.slips_from_edge().then(|| self.friction(model).scale())
+    }
+
     fn set_forces(&self, model: &RoughModel<L, U, N::Loss>, rows: &mut [Row; 3]) {
         let [normal, ..] = *rows;
         let tangential = self.springs.forces(&self.friction(model), self.normal().indentation());
@@ -86,10 +91,13 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         time: f64,
     ) -> Result<(), TooDeep> {
         let [normal, tangents @ ..] = rows;
-        let mut slip = [0.0; D];
-        slip.iter_mut().zip(&*tangents).for_each(|(slip, row)| *slip = row.way);
+        let (mut slip, mut changes) = ([0.0; D], [0.0; D]);
+        for ((slip, change), row) in slip.iter_mut().zip(&mut changes).zip(&*tangents) {
+            (*slip, *change) = (row.way, time * row.net);
+        }
         let share = if normal.knows_share { Some(normal.share) } else { None };
-        let (mean, mut tangential) = self.go_with_loss(model, (normal.way, slip), (normal.force(), time), share)?;
+        let (mean, mut tangential) =
+            self.go_with_loss(model, (normal.way, slip), (time * normal.net, changes), (normal.force(), time), share)?;
         normal.share = self.share;
         normal.found = mean;
         tangential.iter_mut().zip(&*tangents).for_each(|(mean, row)| *mean -= row.beside);
@@ -97,7 +105,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         let most = largest(model.friction.coefficient * normal.force(), 0.0);
         for ((row, mean), slip) in tangents.iter_mut().zip(within(tangential, most)).zip(slip) {
             (row.found, row.most) = (mean, most);
-            self.work = self.work.plus(mean * slip);
+            self.work = self.work.plus(mean * slip + row.work_beside);
         }
         Ok(())
     }
@@ -114,7 +122,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
 impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
     /// Moves the contact on a short straight way: the bodies close by the first length and slip by the others \[m\], in a
     /// `time` \[s\] and under a mean normal `force` \[N\] that matters to a target that gives way. Returns the mean normal
-    /// force and the mean tangential forces \[N\].
+    /// force and the mean tangential forces \[N\]. The rates change evenly by `changes` \[m/s\].
     ///
     /// The limits of the springs add up to the normal force with its loss. With a fitted loss the tangential motion is damped as
     /// much as the normal one, within Coulomb's bound.
@@ -122,6 +130,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         &mut self,
         model: &RoughModel<L, U, N::Loss>,
         (way, slip): (f64, [f64; D]),
+        (change, changes): (f64, [f64; D]),
         (force, time): (f64, f64),
         share: Option<f64>,
     ) -> Result<(f64, [f64; D]), TooDeep> {
@@ -131,19 +140,23 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         let elastic = Contact::mean_force(&before, &model.normal, increment / time, time)?;
         let from = before.indentation();
         self.normal.plastic_mut().advance(&model.normal, increment)?;
-        let (mut normal, mut damping) = (elastic, 0.0);
+        let (mut normal, mut damping, mut rise) = (elastic, 0.0, 0.0);
         if let Some(straight) = &straight {
-            normal = straight.force(elastic, [&before, self.normal()].map(|it| (it.indentation(), it.stiffness())));
+            normal = straight.force(elastic, [&before, self.normal()], change);
             let (swiftest, heat) = straight.lost(normal, elastic);
             self.normal.lose(&model.normal, &model.loss, swiftest, heat)?;
-            damping = model.friction.stiffness_ratio * straight.tangential(elastic);
+            [damping, rise] = [elastic, (self.normal().force() - before.force()) / 12.0]
+                .map(|force| model.friction.stiffness_ratio * straight.tangential(force));
             self.share_limits(from, share.unwrap_or_else(|| share_of(normal, elastic)));
         }
         let springs_model = RoughModel { friction: self.friction(model), ..*model };
         let to = self.normal().indentation();
-        let mut mean = self.springs.follow(&springs_model, (from, to), slip, (increment, slip), Mean::OfEnds);
+        // at half of the time, both ways are behind by an eighth of what the rates change; half of the indentation is done later
+        let steepness = slip.map(|slip| quotient(slip, increment, increment > 1e-100 * fabs(slip), 0.0));
+        let bend = times(-0.125 * time, add(changes, -change, steepness));
+        let mut mean = self.springs.follow(&springs_model, (from, to), (slip, bend), (increment, slip), Mean::OfEnds);
         if straight.is_some() {
-            mean = add(mean, damping, slip.map(|slip| slip / time));
+            mean = add(add(mean, damping, slip.map(|slip| slip / time)), rise, changes);
         }
         // the mean of both ends may be beyond the bound
         Ok((normal, within(mean, model.friction.coefficient * normal)))

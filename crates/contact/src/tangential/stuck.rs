@@ -2,11 +2,14 @@
 
 use super::cut::Cut;
 use super::list::{Apex, List};
-use super::vector::{add, difference, length};
+use super::vector::{add, difference, length, times};
 use super::{Motion, SAME, Sliding, TINY, Vertex};
 use crate::numbers::{largest, next_above, quotient, smallest};
 use crate::path::Sum;
 use crate::segment::Segment;
+
+/// The height of a triangle over that of a parabola of the same area.
+const FOUR_THIRDS: f64 = 4.0 / 3.0;
 
 /// Lowest height of springs that slip if none do \[m\].
 const NONE: f64 = f64::MAX;
@@ -53,6 +56,12 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
 
     /// Moves the contact on its way along `curve`.
     pub fn advance(&mut self, curve: &Segment, way: &Motion<D>) {
+        self.advance_bent(curve, way, [0.0; D]);
+    }
+
+    /// The same on a way that is slightly bent: where half of the indentation is done, the displacement is beside the straight line by
+    /// `bend` \[m\].
+    pub(super) fn advance_bent(&mut self, curve: &Segment, way: &Motion<D>, bend: [f64; D]) {
         if way.to <= curve.lower {
             *self = Stuck::APART;
             return;
@@ -66,7 +75,12 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
         }
         // a contact that starts with an indentation already has springs
         let is_fresh = is_new && way.from <= curve.lower;
-        let way = if is_fresh { way.above(curve.lower) } else { *way };
+        let (way, bend) = if is_fresh {
+            let part = way.part_above(curve.lower);
+            (way.above(curve.lower), times(part * part, bend))
+        } else {
+            (*way, bend)
+        };
         let before = self.displaced();
         self.displace(way.shift);
         if !way.sticks() {
@@ -76,14 +90,23 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             };
         }
         self.slips_from = NONE;
+        let (slope, half) = (way.slope(), 0.5 * way.rise());
+        // two straight lines with the same area beside the line as a parabola
+        let turn = bend.map(|bend| quotient(FOUR_THIRDS * bend, half, half > 0.0, 0.0));
+        let [lower, upper] = [1.0, -1.0].map(|sign| add(slope, sign, turn));
+        let [lower, upper] = if length(lower) <= 1.0 && length(upper) <= 1.0 { [lower, upper] } else { [slope; 2] };
         if is_fresh {
-            self.list.set_slope(way.slope());
-        } else if way.to > way.from && self.turns(way.slope()) {
+            self.list.set_slope(lower);
+        } else if way.to > way.from && self.turns(lower) {
             if self.segments() >= N && way.rise() <= TINY * way.to {
                 let displacement = self.displaced();
                 return self.list.stretch(&Apex { indentation: way.to, displacement });
             }
-            self.list.push(curve, Vertex::new(curve, way.from, before, way.slope()));
+            self.list.push(curve, Vertex::new(curve, way.from, before, lower));
+        }
+        if way.to > way.from && self.turns(upper) {
+            let middle = add(before, half, lower);
+            self.list.push(curve, Vertex::new(curve, way.from + half, middle, upper));
         }
     }
 
@@ -122,7 +145,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
                 cut.touching(way.from);
             }
         }
-        self.take(cut, curve);
+        self.take(&mut cut, curve);
     }
 
     /// Multiplies the limits of all springs at `indentation` \[m\] by a positive `factor`, with all lengths scaled to the new
@@ -146,7 +169,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             let (from, to) = (at((vertex.height, vertex.offset)), at(end));
             cut.between(vertex.slope, &from, &to);
         }
-        self.take(cut, curve);
+        self.take(&mut cut, curve);
     }
 
     /// The segments with the height and offset of their ends \[m\]; the last one ends at `top`.
@@ -157,7 +180,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
     }
 
     /// Takes over the segments of `cut` on `curve`.
-    pub(super) fn take(&mut self, cut: Cut<D, N>, curve: &Segment) {
+    pub(super) fn take(&mut self, cut: &mut Cut<D, N>, curve: &Segment) {
         let lowest = cut.left.lowest();
         self.slips_from = match cut.slips_from {
             // springs above it stick
@@ -166,7 +189,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             None => NONE,
         };
         let indentation = cut.apex.indentation;
-        self.list = cut.left.into_list(curve, &cut.apex, cut.merging);
+        self.list = cut.left.list(curve, &cut.apex, cut.merging);
         if self.sliding() == Sliding::Sliding {
             // from here on only the tension of the springs matters
             self.list.rebase(indentation);
