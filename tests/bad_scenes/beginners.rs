@@ -633,12 +633,18 @@ fn missing_features_are_called_not_supported() {
         ("diameter = 0.01", "give the radius"),
         ("thickness = 0.01", "a ball has a plate that gives way of target.plate_thickness"),
         ("drop_height = 0.3", "[impact] has a drop_height"),
+        ("gravity = 9.81", "inputs = [\"external_acceleration\"] in [coupling]"),
     ] {
         let said = said(&with_impact().replacen("[target]", &format!("[target]\n{key}"), 1)).replace("\n  ", " ");
         assert!(said.contains(hint), "nothing of {hint} in {said}");
     }
-    let said = said(&with_impact().replacen("speed =", "velocity =", 1));
-    assert!(said.contains("it is called speed, in [impact]"), "{said}");
+    for (from, to, hint) in [
+        ("speed =", "velocity =", "it is called speed, in [impact]"),
+        ("[impact]", "[impact]\nsurface = \"fresh\"", "[target] has a surface"),
+    ] {
+        let said = said(&with_impact().replacen(from, to, 1));
+        assert!(said.contains(hint), "nothing of {hint} in {said}");
+    }
 }
 
 /// A ball of known density needs no mass; an explicit number overrides that of the material.

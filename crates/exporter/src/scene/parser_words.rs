@@ -22,7 +22,7 @@ const UNSUPPORTED: [(&[&str], &str); 7] = [
 ];
 
 /// Keys that belong to another table.
-const ELSEWHERE: [(&str, &str); 42] = [
+const ELSEWHERE: [(&str, &str); 46] = [
     ("mass", "[impact] has a mass, the bodies have none"),
     ("speed", "[impact] has a speed"),
     ("hb", HARDNESS),
@@ -61,6 +61,10 @@ const ELSEWHERE: [(&str, &str); 42] = [
     ("rho", "it is called density"),
     ("strain_rate", "give rate = { model = \"johnson-cook\", c = ..., reference_rate = ... } of the body"),
     ("diameter", "give the radius"),
+    ("surface", "[target] has a surface"),
+    ("external_acceleration", GRAVITY),
+    ("gravity", GRAVITY),
+    ("g", GRAVITY),
     ("elasticity", "give youngs_modulus"),
     ("poisson_ratio", "it is called poissons_ratio"),
     ("friction", FRICTION),
@@ -78,6 +82,9 @@ fn hardness() -> String {
 
 /// Where a proof stress is given.
 const PROOF_STRESS: &str = "it is called yield_strength, or with the tensile strength tensile_test = { proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }";
+
+/// How an FMU gets gravity.
+const GRAVITY: &str = "it is an input of the FMU with inputs = [\"external_acceleration\"] in [coupling]";
 
 /// Where friction is given.
 const FRICTION: &str = "a table [friction] with a `coefficient` gives it for all contacts";
