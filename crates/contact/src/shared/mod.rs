@@ -33,7 +33,7 @@
 //! contacts amplify rounding as the motion itself does. The work of a contact with a loss is right to 1e-6 of itself where it is far
 //! below the energy of the motion.
 //!
-//! With friction, rates are off by some 1e-7, on growing dents 1e-4, in two directions 2e-4 of that scale after an event
+//! With friction, rates are off by some 1e-7, with a loss 1e-5, on growing dents 1e-4, in two directions 2e-4 of that scale after an event
 //! (`chords`); the balance of work is exact, and Coulomb's bound holds to 1e-9.
 //!
 //! # Evaluations

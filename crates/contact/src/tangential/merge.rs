@@ -17,6 +17,12 @@ const STRAIGHT: f64 = 1e-8;
 /// How often a height that keeps the energy is tried.
 const MOST_TRIES: u32 = 6;
 
+/// A vertex whose [`area`] is below this part of the force hardly matters.
+const FLAT: f64 = 3e-11;
+
+/// Part of the change of energy between two tried heights that counts as none.
+const ENOUGH: f64 = 1e-6;
+
 /// Where merged segments meet.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Merging {
@@ -27,12 +33,6 @@ pub(super) enum Merging {
     /// So that they keep the energy, if they can.
     OfEnergy,
 }
-
-/// A vertex whose [`area`] is below this part of the force hardly matters.
-const FLAT: f64 = 3e-11;
-
-/// Part of the change of energy between two tried heights that counts as none.
-const ENOUGH: f64 = 1e-6;
 
 /// Change of the tangential force if the vertex between two segments is dropped, divided by the coefficient of
 /// friction \[N\]. The segments run from `first` to `second` and on to `end`.
@@ -188,7 +188,7 @@ impl<const D: usize> Three<'_, D> {
 
 /// Removes one segment of a full `list` whose last segment ends at `end`. Returns the number of remaining segments.
 ///
-/// Three neighbours become two that meet halfway between the inner vertices. Their slopes follow from two conditions
+/// Three neighbours become two that meet where [`Merging`] says. Their slopes follow from two conditions
 /// in each direction: the ends and the tangential force stay the same. Along a line, no slope may be steeper than that of
 /// slipping springs; after a cut of all segments the new vertex has to be inside the `cone` instead. In two directions, where
 /// the straight lines between slipping springs are inside their limit, the new vertex is slightly beyond it; the next slip brings
