@@ -11,10 +11,6 @@ use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Model, Numbered, Pair, TwoBodies};
 
-// number of predictions that this thread has made
-#[cfg(test)]
-thread_local!(pub static PREDICTIONS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) });
-
 /// A kinetic energy that is too small for its full precision.
 #[derive(Debug, thiserror::Error)]
 #[error(
@@ -72,8 +68,6 @@ impl RateLaw {
 impl AnyModel {
     /// The prediction of an impact; `None` where the law cannot be evaluated.
     pub fn predict(&self, impact: &Impact) -> Option<Prediction> {
-        #[cfg(test)]
-        PREDICTIONS.set(PREDICTIONS.get() + 1);
         match self {
             AnyModel::Elastoplastic(model) => impact::predict(model, impact),
             AnyModel::Lossy(model, _) => losses::impact::predict(model, impact),

@@ -1,7 +1,7 @@
 //! The tables in `modelDescription/`, as data: variables, units, materials, laws.
 
 mod law;
-mod names;
+pub mod names;
 
 pub use law::{Law, LawParameter};
 
@@ -340,13 +340,4 @@ pub fn damped_law(name: &str) -> &'static Law {
 /// The variable `name`.
 pub fn variable(name: &str) -> &'static Variable {
     VARIABLES.iter().find(|variable| variable.name == name).expect(PART_OF_THE_PROGRAM)
-}
-
-#[cfg(test)]
-mod tests {
-    /// The C functions expect the input and the force at the first two positions.
-    #[test]
-    fn the_input_comes_first_and_the_force_second() {
-        assert_eq!([0, 1].map(|place| super::VARIABLES[place].name.as_str()), ["indentation_rate", "force"]);
-    }
 }

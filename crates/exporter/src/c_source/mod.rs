@@ -4,7 +4,7 @@
 //! ([`with_scene`]), and what is the same in all units: the functions of FMI (`fmi2.c`), and what WebAssembly's instructions are in C
 //! (`brinell_runtime.h`). Nothing of the physics is written twice.
 
-mod module;
+pub mod module;
 
 pub use module::{ModuleError, WASM2C, c_text};
 
@@ -12,13 +12,13 @@ use brinell_fmu::scene::library::block::Block;
 use std::fmt::Write;
 
 /// The first line of the text of a library: the other files don't fit a text of another version.
-const FORMAT: &str = "/* brinell C source 1 */";
+pub const FORMAT: &str = "/* brinell C source 1 */";
 
 /// The functions of FMI: the only file to compile.
-const FUNCTIONS: (&str, &str) = ("fmi2.c", include_str!("fmi2.c"));
+pub const FUNCTIONS: (&str, &str) = ("fmi2.c", include_str!("fmi2.c"));
 
 /// What the instructions of WebAssembly are in C.
-const RUNTIME: (&str, &str) = ("brinell_runtime.h", include_str!("brinell_runtime.h"));
+pub const RUNTIME: (&str, &str) = ("brinell_runtime.h", include_str!("brinell_runtime.h"));
 
 /// The name of the file of the library and its scene.
 const UNIT: &str = "brinell_unit.h";
@@ -54,28 +54,4 @@ pub fn with_scene(library: &[u8], block: &Block, name: &str, variables: usize) -
     }
     text.push_str("};\n#endif\n");
     Some([text.as_bytes(), library].concat())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{FORMAT, FUNCTIONS, RUNTIME, with_scene};
-    use crate::platform::Platform;
-    use brinell_fmu::scene::library::block::Block;
-
-    #[test]
-    fn a_text_of_another_version_takes_no_scene() {
-        let block = Block::unfilled(1);
-        assert_eq!(with_scene(b"/* brinell C source 0 */\n", &block, "ball", 10), None);
-        let text = String::from_utf8(with_scene(FORMAT.as_bytes(), &block, "ball", 10).unwrap()).unwrap();
-        assert!(text.contains("#define FMI2_FUNCTION_PREFIX ball_\n") && text.ends_with(FORMAT), "{text}");
-    }
-
-    #[test]
-    fn the_files_are_plain_text_with_short_lines() {
-        for (name, text) in [FUNCTIONS, RUNTIME] {
-            assert!(text.is_ascii(), "{name}");
-            assert!(text.lines().all(|line| line.len() <= 120), "{name}");
-        }
-        assert!(Platform::C_CODE.is_source());
-    }
 }

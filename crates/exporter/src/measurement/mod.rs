@@ -296,7 +296,7 @@ impl Measurement {
     ///
     /// # Errors
     /// The first one that is none.
-    fn readings(&self) -> Result<Vec<String>, Wrong> {
+    pub fn readings(&self) -> Result<Vec<String>, Wrong> {
         let columns = self.of("hardness");
         let scale = columns[0].unit.as_deref();
         if let Some(other) = columns.iter().find(|other| other.unit.as_deref() != scale) {
@@ -385,6 +385,3 @@ impl Measurement {
         }))
     }
 }
-
-#[cfg(test)]
-mod tests;

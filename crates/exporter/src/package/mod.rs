@@ -1,6 +1,6 @@
 //! The files of an FMU, and their archive.
 
-mod archive;
+pub mod archive;
 mod hash;
 pub mod resource;
 mod universal;

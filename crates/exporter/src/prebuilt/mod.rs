@@ -4,10 +4,8 @@
 //! libraries are compiled once, one for each kind; an export copies the one of its scene and writes the data to the copy.
 
 pub mod archive;
-mod fill;
+pub mod fill;
 mod kinds;
-#[cfg(test)]
-mod macho_tests;
 
 pub use fill::FillError;
 pub use kinds::{LIBRARIES, Library};

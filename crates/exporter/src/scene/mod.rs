@@ -8,19 +8,15 @@ mod cylinders;
 mod file;
 mod fmu;
 mod friction;
-#[cfg(test)]
-mod hostile_tests;
 mod inverse_masses;
 mod laws;
 mod losses;
-mod names;
+pub mod names;
 mod parser_words;
 pub mod plausible;
 mod quantities;
 mod shared_bodies;
-#[cfg(test)]
-mod shared_bodies_tests;
-mod strength;
+pub mod strength;
 
 use crate::mistake::Spanned;
 use crate::mistake::{Mistake, SceneError};

@@ -44,7 +44,7 @@ pub fn is_no_name() -> serde_json::Value {
 /// their own code; many of them are written in C++.
 ///
 /// Reference: ISO C23, section 6.4.1, with those of C99; ISO C++20, sections 5.11 and 5.5 (operators that are words).
-const KEYWORDS: &str = "
+pub const KEYWORDS: &str = "
     auto break case char const continue default do double else enum extern float for goto if inline int long register restrict
     return short signed sizeof static struct switch typedef union unsigned void volatile while
     _Alignas _Alignof _Atomic _BitInt _Bool _Complex _Decimal128 _Decimal32 _Decimal64 _Generic _Imaginary _Noreturn
@@ -73,25 +73,4 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
         shortened(text)
     );
     Err(Mistake(name.span(), message))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{KEYWORDS, check_identifier, check_name};
-    use crate::mistake::Spanned;
-
-    #[test]
-    fn a_keyword_is_no_name_of_an_fmu_and_what_resembles_one_is() {
-        assert_eq!(KEYWORDS.split_whitespace().count(), 109);
-        for keyword in KEYWORDS.split_whitespace() {
-            let named = |name: &str| Spanned::new(0..1, name.to_string());
-            let refused = check_name(&named(keyword)).map_err(|mistake| mistake.1);
-            assert!(refused.is_err_and(|said| said.contains("a keyword of C or C++")), "{keyword}");
-            for near in [format!("{keyword}_1"), keyword.to_ascii_uppercase()] {
-                assert!(check_name(&named(&near)).is_ok_and(|name| name == near), "{near}");
-            }
-            // of a contact, which is no name of a file or function
-            assert!(check_identifier(&named(keyword)).is_ok());
-        }
-    }
 }

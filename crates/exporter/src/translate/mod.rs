@@ -15,12 +15,10 @@
 pub mod fit;
 pub mod law;
 pub mod motion;
-mod numbers;
+pub mod numbers;
 mod plastic;
-mod runge_kutta;
+pub mod runge_kutta;
 mod sentences;
-#[cfg(test)]
-mod tests;
 pub mod text;
 pub mod tools;
 
@@ -372,7 +370,7 @@ const DIGITS: usize = 7;
 const HARD: f64 = 1e9;
 
 /// A number in a block: never an integer, which Drake and C++ take for another type.
-fn printed(value: f64) -> String {
+pub fn printed(value: f64) -> String {
     let text = if value.is_finite() { significant(value, DIGITS) } else { "none".into() };
     if text.contains(['.', 'e', 'n']) { text } else { text + ".0" }
 }

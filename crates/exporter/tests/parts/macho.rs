@@ -1,7 +1,7 @@
 //! Filling in libraries for macOS: minimal files built by hand.
 
-use super::fill::{FillError, fill};
-use crate::signature::{SignatureError, check};
+use brinell_exporter::prebuilt::fill::{FillError, fill};
+use brinell_exporter::signature::{SignatureError, check};
 use brinell_fmu::scene::library::block::{Block, Data, KINDS};
 use sha2::{Digest, Sha256};
 

@@ -1,11 +1,11 @@
 //! Claims about all tools and their laws.
 
-use super::law::Law;
-use super::motion::{Outcome, Promise, Stepping, exact, in_steps};
-use super::tools::{TOOLS, named};
-use super::{Request, TranslateError, Translation, numbers, speeds, text, translate};
-use crate::layout::WIDTH;
-use crate::scene::Scene;
+use brinell_exporter::layout::WIDTH;
+use brinell_exporter::scene::Scene;
+use brinell_exporter::translate::law::Law;
+use brinell_exporter::translate::motion::{Outcome, Promise, Stepping, exact, in_steps};
+use brinell_exporter::translate::tools::{TOOLS, named};
+use brinell_exporter::translate::{Request, TranslateError, Translation, numbers, speeds, text, translate};
 use std::path::Path;
 
 fn scene(more: &str) -> Scene {
@@ -237,7 +237,7 @@ fn a_hollow_target_is_a_flat_for_tools_which_have_no_hollows() {
 #[test]
 fn every_number_that_is_printed_into_a_block_is_a_float() {
     for value in [0.0, 1.0, -3.0, 2e6, 1e15, 1e30, 0.44, 1.0 / 3.0, 5e-324, f64::MAX] {
-        let text = super::printed(value);
+        let text = brinell_exporter::translate::printed(value);
         assert!(text.contains(['.', 'e']), "{text}");
         assert!((text.parse::<f64>().unwrap() - value).abs() <= 1e-6 * value.abs(), "{text}");
     }

@@ -1,7 +1,7 @@
 //! The matrix of inverse effective masses from the text of a scene, against formulas of usual arrangements, and against
 //! `J M^-1 J^T` with full matrices for any arrangement.
 
-use super::{InverseMasses, Scene, place};
+use brinell_exporter::scene::{InverseMasses, Scene, place};
 use fastrand::Rng;
 use std::fmt::Write;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Tables in all dialects, and what is said of those that are none.
 
-use super::{Choices, Measurement, read};
+use brinell_exporter::measurement::{Choices, Measurement, read};
 
 fn of(text: &[u8]) -> Result<Measurement, String> {
     read(text, &Choices::default()).map_err(|wrong| wrong.to_string())

@@ -1,12 +1,12 @@
 //! Hostile scenes: read without a panic, or refused with a place in the file and a message of ordinary length. What is accepted
 //! can be planned and written.
 
-use super::{InverseMasses, Scene};
-use crate::mistake::SceneError;
-use crate::package::GUID_TO_COME;
-use crate::plan::Plan;
-use crate::table::VARIABLES;
-use crate::{documentation, library, model_description};
+use brinell_exporter::mistake::SceneError;
+use brinell_exporter::package::GUID_TO_COME;
+use brinell_exporter::plan::Plan;
+use brinell_exporter::scene::{InverseMasses, Scene};
+use brinell_exporter::table::VARIABLES;
+use brinell_exporter::{documentation, library, model_description};
 use brinell_testing::mutations::{assert_message, cases, text};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
