@@ -276,7 +276,7 @@ pub fn installed(name: &str) -> Option<PathBuf> {
 }
 
 /// The same for the program at `program`.
-fn installed_with(program: &Path, name: &str) -> Option<PathBuf> {
+pub fn installed_with(program: &Path, name: &str) -> Option<PathBuf> {
     let above = program.ancestors().skip(1).take(LEVELS);
     let below: PathBuf = INSTALLED.into_iter().chain([name]).collect();
     above.map(|folder| folder.join(&below)).find(|path| path.exists())
@@ -325,23 +325,4 @@ pub fn ending(output: Option<&Path>, allowed: &[&'static str]) -> Result<&'stati
         let or = if others.is_empty() { "" } else { " or " };
         format!("{}: the name must end in {others}{or}.{last}", shown(path))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::installed_with;
-    use std::fs;
-
-    #[test]
-    fn what_is_installed_is_beside_the_program_or_beside_one_of_two_folders_above() {
-        let root = tempfile::tempdir().unwrap();
-        let there = root.path().join("share/brinell/prebuilt");
-        fs::create_dir_all(&there).unwrap();
-        for program in ["brinell", "bin/brinell", "Python311/Scripts/brinell.exe"] {
-            let found = installed_with(&root.path().join(program), "prebuilt");
-            assert_eq!(found.as_ref(), Some(&there), "{program}");
-        }
-        let other = installed_with(&root.path().join("usr/lib/other/brinell"), "prebuilt");
-        assert_eq!(other, None, "nothing of another installation");
-    }
 }

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use textwrap::{Options, WordSeparator, WordSplitter};
 
 /// A word of a message without its middle if it is longer than any path: such as a number of a million digits.
-fn held(word: &str) -> Cow<'_, str> {
+pub fn held(word: &str) -> Cow<'_, str> {
     const LONGEST_PATH: usize = 4096;
     if word.len() <= LONGEST_PATH { word.into() } else { without_middle(word).into() }
 }
@@ -28,7 +28,7 @@ pub fn warn(message: &str) {
 
 /// `message` in lines of at most [`WIDTH`] characters, unless a word is longer. Continuation lines are indented by two more columns.
 /// Quoted lines of a file with their numbers are not wrapped.
-fn wrapped(message: &str) -> String {
+pub fn wrapped(message: &str) -> String {
     let line = |line: &str| {
         let text = line.trim_start();
         let is_shown = text.trim_start_matches(|digit: char| digit.is_ascii_digit() || digit == ' ').starts_with('|');
@@ -50,34 +50,5 @@ impl WrongCall {
     /// For `map_err`.
     pub fn of(error: impl Display) -> WrongCall {
         WrongCall(error.to_string())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{WIDTH, held, wrapped};
-
-    #[test]
-    fn a_message_is_wrapped_where_it_is_words() {
-        let words = "word ".repeat(30) + "end";
-        let shown = format!("12 | {}", "x ".repeat(60));
-        let path = "y".repeat(120);
-        let text = wrapped(&format!("brinell: {words}\n{shown}\n   | ^\n  {path} {words}\n"));
-        let wide: Vec<_> = text.lines().filter(|line| line.len() > WIDTH).collect();
-        assert_eq!(wide, [shown.as_str(), &format!("  {path}")]);
-        assert!(
-            text.starts_with("brinell: word") && text.contains("\n  word") && text.contains("\n    word"),
-            "{text}"
-        );
-        assert_eq!(text.matches("word").count(), 60);
-        assert!(text.ends_with("end\n"));
-    }
-
-    #[test]
-    fn a_word_that_is_longer_than_any_path_is_cut() {
-        let number = "1".repeat(3_000_000);
-        assert_eq!(held(&number).len(), 305);
-        let path = "y/".repeat(2000);
-        assert_eq!(held(&path), path);
     }
 }

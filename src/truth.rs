@@ -70,7 +70,7 @@ pub struct Rebound {
 }
 
 /// The impacts whose unloading was computed.
-fn impacts() -> Vec<Impact> {
+pub fn impacts() -> Vec<Impact> {
     let curve = loading();
     UNLOADING.iter().map(|(x, rows)| computed(&curve, *x, rows)).collect()
 }
@@ -135,19 +135,4 @@ fn rebound(x: f64) -> Option<Rebound> {
     let between = |one: f64, other: f64| one * libm::pow(other / one, part);
     let recovery = between(from - one.dent, to - other.dent);
     Some(Rebound { restitution: between(one.restitution, other.restitution), dent: x - recovery })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::impacts;
-
-    #[test]
-    fn the_restitutions_are_those_of_the_table() {
-        let known = impacts().into_iter().filter_map(|impact| impact.rebound).map(|rebound| rebound.restitution);
-        let known: Vec<f64> = known.collect();
-        // from data/truth/README.md
-        let printed = [0.921, 0.777, 0.645, 0.536, 0.450];
-        assert_eq!(known.len(), printed.len(), "{known:?}");
-        assert!(known.iter().zip(printed).all(|(one, other)| (one - other).abs() < 6e-4), "{known:?}");
-    }
 }

@@ -4,8 +4,6 @@
 
 mod bounded;
 mod description;
-#[cfg(test)]
-mod hostile_tests;
 mod unit;
 
 use crate::files::{self, FMU};

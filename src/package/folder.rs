@@ -119,7 +119,7 @@ fn sum_of(bytes: &[u8]) -> String {
 }
 
 /// `BRINELL_CACHE`, or the folder of this name in the user's cache on the operating system `os`.
-fn cache_folder(variable: impl Fn(&str) -> Option<OsString>, os: &str) -> Result<PathBuf, FolderError> {
+pub fn cache_folder(variable: impl Fn(&str) -> Option<OsString>, os: &str) -> Result<PathBuf, FolderError> {
     let path = |name: &str| variable(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     if let Some(chosen) = path("BRINELL_CACHE") {
         // the compiler runs in another folder than the program
@@ -155,37 +155,4 @@ fn not_ours(folder: &Path) -> io::Result<Option<&'static str>> {
 #[cfg(not(unix))]
 fn not_ours(_folder: &Path) -> io::Result<Option<&'static str>> {
     Ok(None)
-}
-
-#[cfg(all(test, unix))]
-mod tests {
-    use super::cache_folder;
-    use std::path::PathBuf;
-
-    /// The folder with these variables set.
-    fn chosen(os: &str, variables: &[(&str, &str)]) -> Option<PathBuf> {
-        let value = |name: &str| variables.iter().find(|(known, _)| *known == name).map(|(_, value)| value.into());
-        cache_folder(value, os).ok()
-    }
-
-    #[test]
-    fn an_empty_or_relative_xdg_cache_home_counts_as_unset() {
-        let folder = |variables: &[(&str, &str)]| chosen("linux", variables);
-        assert_eq!(folder(&[("HOME", "/home/a"), ("XDG_CACHE_HOME", "/c")]), Some("/c/brinell".into()));
-        for none in ["", ".", "cache", "../cache"] {
-            let set = [("HOME", "/home/a"), ("XDG_CACHE_HOME", none)];
-            assert_eq!(folder(&set), Some("/home/a/.cache/brinell".into()), "{none:?}");
-        }
-        assert_eq!(folder(&[("HOME", "/home/a")]), Some("/home/a/.cache/brinell".into()));
-        assert_eq!(folder(&[("HOME", "")]), None, "never the folder of temporary files");
-        assert_eq!(folder(&[]), None);
-        assert_eq!(folder(&[("BRINELL_CACHE", "/own"), ("XDG_CACHE_HOME", "/c")]), Some("/own".into()));
-    }
-
-    #[test]
-    fn each_system_has_its_own_cache() {
-        assert_eq!(chosen("macos", &[("HOME", "/Users/a")]), Some("/Users/a/Library/Caches/brinell".into()));
-        assert_eq!(chosen("windows", &[("LOCALAPPDATA", "/local"), ("HOME", "/h")]), Some("/local/brinell".into()));
-        assert_eq!(chosen("windows", &[("HOME", "/h")]), None);
-    }
 }

@@ -3,11 +3,11 @@
 pub mod c_source;
 mod compiler;
 mod diagnostics;
-mod error;
-mod folder;
+pub mod error;
+pub mod folder;
 mod library;
 mod link;
-mod parts;
+pub mod parts;
 mod rustc;
 
 pub use error::ExportError;

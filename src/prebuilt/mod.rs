@@ -1,6 +1,6 @@
 //! The folder of prebuilt libraries, and the FMUs that are made from it.
 
-mod folder;
+pub mod folder;
 mod store;
 
 pub use folder::{PrebuiltFolder, find};

@@ -1,7 +1,7 @@
 //! `brinell report`: the step and the coupling for a scene, measured by stepping its FMU through the C interface. All
 //! findings are one [`Report`], which is written as JSON and fills one template, `report.html`.
 
-mod card;
+pub mod card;
 mod choice;
 mod extremes;
 mod laws;
@@ -164,7 +164,7 @@ struct Summary {
 
 /// A picture of the page; each section has some.
 #[derive(Serialize)]
-struct Figure {
+pub struct Figure {
     /// Name of its file.
     name: &'static str,
     caption: String,

@@ -8,6 +8,7 @@ mod build_failures;
 mod commands;
 mod isolation;
 mod own_data;
+mod parts;
 mod plates;
 mod report;
 mod report_page;

@@ -1,8 +1,7 @@
 //! Hostile archives and model descriptions: read without a panic, or refused with a message of ordinary length. Nothing is ever
 //! written outside the folder, nor more than the bound.
 
-use super::BoundedArchive;
-use super::Description;
+use brinell::parts::{BoundedArchive, Description};
 use brinell_testing::mutations::{assert_message, bytes, cases, text};
 use std::fs;
 use std::io::{Cursor, Write};
