@@ -1,14 +1,15 @@
 //! Every law in an exported FMU.
 //!
-//! A usual run takes one law of each kind; `BRINELL_LAWS=all cargo test --release --test exported every_law` takes all.
+//! A usual run takes one law of each kind; `BRINELL_LONG=1 cargo test --release --test exported every_law` takes all.
 
 use crate::command::{empty_folder, run};
 use crate::loaded::{OK, Unit};
 use crate::physics::Random;
 use crate::prebuilt;
 use crate::unit::write_scene;
+use brinell_testing::long;
 use std::f64::consts::PI;
-use std::{env, fs};
+use std::fs;
 
 /// The laws of a usual run: elastic, in segments, fitted in segments, without segments, an integral for its work; each
 /// rate-dependent law with one of its dampings.
@@ -25,14 +26,9 @@ const USUAL: [&str; 10] = [
     "adams-impact",
 ];
 
-/// Whether this run takes all laws.
-pub fn takes_all() -> bool {
-    env::var("BRINELL_LAWS").is_ok_and(|value| value == "all")
-}
-
 /// Those of `laws` that this run takes.
 fn taken(laws: &[serde_json::Value]) -> impl Iterator<Item = &serde_json::Value> {
-    let all = takes_all();
+    let all = long::is_asked();
     let taken: Vec<_> = laws.iter().filter(|law| all || USUAL.contains(&law["name"].as_str().unwrap())).collect();
     assert!(taken.len() == if all { laws.len() } else { USUAL.len() / 2 }, "{} laws", taken.len());
     taken.into_iter()

@@ -2,8 +2,8 @@
 
 use crate::archive;
 use crate::command::{empty_folder, run};
-use crate::every_law::takes_all;
 use crate::prebuilt;
+use brinell_testing::long;
 use std::fs;
 use std::path::Path;
 
@@ -21,7 +21,7 @@ fn a_guarded_fmu_states_where_the_guard_acts_and_agrees_with_the_prediction() {
     let folder = empty_folder();
     // two with a range from first yield on, one whose range begins later; then the rest
     let laws = ["stronge", "ghaednia", "brake-2012-line", "kogut-etsion", "brake-2012-tangent", "brake-2015"];
-    for loading in laws.into_iter().take(if takes_all() { laws.len() } else { 3 }) {
+    for loading in laws.into_iter().take(if long::is_asked() { laws.len() } else { 3 }) {
         write(folder.path(), loading, "passivity_guard = true");
         let exported =
             prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();

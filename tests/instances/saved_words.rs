@@ -12,6 +12,7 @@ use brinell_contact::losses::{Form, Loss};
 use brinell_contact::{Contact, Surface};
 use brinell_fmu::instance::{Instance, Phase};
 use brinell_fmu::scene::{Absent, Coupled, Coupling, Presence, Present, Real, Scene, Store};
+use brinell_testing::long;
 
 /// Sets all rates of a contact.
 fn set<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64, [one, two]: [f64; 2]) {
@@ -311,8 +312,14 @@ fn idle_of(loss: impl Loss) -> Option<usize> {
     (loss.form() != Form::Proportional).then_some(14)
 }
 
+/// Two of the pairings in a usual run.
+fn pairings() -> impl Iterator<Item = (String, Choice)> {
+    let usual = ["brinell with brinell", "luding with luding"];
+    some_pairings().into_iter().filter(move |(name, _)| long::is_asked() || usual.contains(&name.as_str()))
+}
+
 fn every_elastoplastic_kind(claim: &impl Claim) {
-    for (name, choice) in some_pairings() {
+    for (name, choice) in pairings() {
         choose(choice);
         claim.of::<Chosen<Elastoplastic, 1, Absent>>(&name, &[]);
         claim.of::<Chosen<Held<Elastoplastic>, 1, Absent>>(&format!("{name}, held"), &[]);
@@ -333,7 +340,7 @@ fn every_elastoplastic_kind(claim: &impl Claim) {
 }
 
 fn every_rough_kind(claim: &impl Claim) {
-    for (name, choice) in some_pairings() {
+    for (name, choice) in pairings() {
         choose(choice);
         let (one, two) = (format!("{name}, friction"), format!("{name}, friction in two directions"));
         claim.of::<Chosen<Rough, 1, Present>>(&format!("{one} with momentum"), &[]);
@@ -346,7 +353,7 @@ fn every_rough_kind(claim: &impl Claim) {
 }
 
 fn every_lossy_kind(claim: &impl Claim) {
-    for (name, choice) in some_pairings() {
+    for (name, choice) in pairings() {
         for loss in LOSSES.into_iter().take(3) {
             choose(Choice { loss, ..choice });
             let name = format!("{name}, {loss:?}");

@@ -21,6 +21,7 @@ pub mod judge;
 pub mod kinds;
 pub mod laws;
 pub mod loaded;
+pub mod long;
 pub mod masters;
 pub mod mutations;
 pub mod physics;
