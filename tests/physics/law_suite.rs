@@ -5,7 +5,7 @@
 
 use crate::physics::{
     AnyModel, all_models, corners, go, has_jumps, is_passive, is_scale_free, loading_force, logarithmic, mild, model,
-    pair_of, pressed, radius_falls_by, unit, unloading_force, unloading_stiffness,
+    pair_of, pressed, radius_falls_by, some_models, unit, unloading_force, unloading_stiffness,
 };
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::regime::LARGEST_INDENTATION;
@@ -364,7 +364,7 @@ fn the_normalised_curve_is_the_same_for_every_pair() {
 
 #[test]
 fn no_indentation_gives_a_negative_force_or_no_number() {
-    for (name, model) in all_models(mild()) {
+    for (name, model) in some_models(mild()) {
         for largest in logarithmic(1e-300, 1e99, 400) {
             for part in [1.0, 1.0 - EPSILON, 0.9999, 0.9, 0.5, 0.1, 1e-6, 0.0, -1.0] {
                 let mut history: History = pressed(&model, largest);

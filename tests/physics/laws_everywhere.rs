@@ -1,7 +1,9 @@
 //! Every pairing of laws for any bodies that an FMU accepts: continuity, balance of energy, and the same bits from a library
 //! compiled at any level of optimisation.
 
-use crate::physics::{AnyModel, Random, all_models, corners, has_jumps, loading_force, random_bodies, unit};
+use crate::physics::{
+    AnyModel, Random, all_models, corners, has_jumps, loading_force, random_bodies, some_models, unit,
+};
 use brinell_contact::{History, Loading};
 use brinell_testing::places::temporary;
 use std::env;
@@ -64,7 +66,7 @@ fn energies_balance_and_the_force_never_pulls_for_any_bodies() {
     let (mut random, mut made, mut refused) = (Random(17), 0, 0);
     for _ in 0..BODIES {
         let pair = random_bodies(&mut random);
-        for (name, model) in all_models(pair) {
+        for (name, model) in some_models(pair) {
             let mut history = History::start(&model, 0.0).expect("at the surface");
             let mut sum = 0.0;
             for _ in 0..8 {

