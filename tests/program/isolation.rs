@@ -47,7 +47,7 @@ fn the_same_scene_gives_the_same_bytes() {
 
 #[test]
 fn the_folder_of_temporary_files_does_not_affect_the_fmu() {
-    let (other, own) = (empty_folder(), empty_folder());
+    let (other, own) = (empty_folder(), with_parts());
     let elsewhere = exported(|command| command.env("TMPDIR", other.path()).env("BRINELL_CACHE", own.path()));
     assert_same(&exported(|command| command), &elsewhere);
     assert!(contents(other.path()).is_empty(), "temporary files were left");
@@ -112,8 +112,8 @@ fn hostile_configuration(linker: &Path) -> String {
     )
 }
 
-/// A home directory with a folder of temporary files, a cache and a working folder deep inside, and hostile files above them
-/// all. If they ran, they would create `ran`.
+/// A home directory with a folder of temporary files, a place for a cache and a working folder deep inside, and hostile files above
+/// them all. If they ran, they would create `ran`.
 struct Home {
     folder: TempDir,
     ran: PathBuf,
@@ -146,7 +146,7 @@ impl Home {
         command.arg("export").arg(scene("steel_ball"));
         command.env_remove("BRINELL_CACHE").env_remove("CARGO").env_remove("RUSTUP_TOOLCHAIN");
         command.env("HOME", home).env("CARGO_HOME", home.join(".cargo")).env("TMPDIR", home.join("deep/temporary"));
-        command.env("XDG_CACHE_HOME", home.join("deep/cache")).env("RUSTUP_HOME", rustup.unwrap_or_default());
+        command.env("XDG_CACHE_HOME", home.join("deep/cache/new")).env("RUSTUP_HOME", rustup.unwrap_or_default());
         output(&mut command).with_status(0);
         fs::read(home.join("deep/work/steel_ball.fmu")).expect("NAME.fmu in the current folder")
     }
@@ -154,10 +154,12 @@ impl Home {
 
 /// On a shared machine, everybody can write to the folder of temporary files: a foreign linker once ran as the exporting user.
 #[test]
-fn no_file_above_the_build_changes_the_fmu_or_is_run() {
+fn no_file_above_the_build_changes_the_fmu_or_is_run_and_only_the_owner_can_access_the_build_folder() {
     let hostile = Home::hostile();
     assert_same(&exported(|command| command), &hostile.exported());
     assert!(!hostile.ran.exists(), "a program that a configuration names was run");
+    let mode = |path| fs::metadata(hostile.folder.path().join(path)).unwrap().permissions().mode() & 0o777;
+    assert_eq!(["deep/cache/new", "deep/cache/new/brinell"].map(mode), [0o700; 2]);
 }
 
 /// Both compile files that the other one may already have in the cache.
@@ -187,11 +189,14 @@ fn damaged_files_in_the_cache_are_made_anew() {
         bytes[middle] ^= 1;
         bytes
     };
-    for damage in [empty as fn(Vec<u8>) -> Vec<u8>, half, changed] {
-        for prefix in ["library-", "lib"] {
-            for name in contents(own.path()).iter().filter(|name| name.starts_with(prefix)) {
+    let damages = [empty as fn(Vec<u8>) -> Vec<u8>, half, changed];
+    // the library in each way, then each of its three parts in one
+    for (prefix, turns) in [("library-", 3), ("lib", 1)] {
+        for turn in 0..turns {
+            let names = contents(own.path());
+            for (place, name) in names.iter().filter(|name| name.starts_with(prefix)).enumerate() {
                 let path = own.path().join(name);
-                let damaged = damage(fs::read(&path).unwrap());
+                let damaged = damages[(turn + place) % 3](fs::read(&path).unwrap());
                 fs::remove_file(&path).unwrap();
                 fs::write(&path, damaged).unwrap();
             }
@@ -311,14 +316,6 @@ fn what_a_killed_command_left_is_swept_by_the_next() {
     }
     assert_eq!(contents(&out), [".brinell-000000000000.tmp", "ball.fmu"], "another program writes the first");
     assert_eq!(contents(&temporary), [""; 0]);
-}
-
-#[test]
-fn only_the_owner_can_access_the_build_folder() {
-    let home = empty_folder();
-    exported(|command| command.env_remove("BRINELL_CACHE").env("XDG_CACHE_HOME", home.path().join("new/cache")));
-    let mode = |path: &str| fs::metadata(home.path().join(path)).unwrap().permissions().mode() & 0o777;
-    assert_eq!([mode("new"), mode("new/cache"), mode("new/cache/brinell")], [0o700; 3]);
 }
 
 /// The message of the rejected export of the default scene with this cache.

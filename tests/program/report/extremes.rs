@@ -72,6 +72,7 @@ fn energy_created_by_a_law_is_reported_and_is_no_failure_of_its_fmu() {
 
 /// A soft plate takes so much that bodies creep apart; steps that follow them would never end.
 #[test]
+#[ignore = "a minute, for the report has no bound but its end"]
 fn impacts_that_a_plate_swallows_are_not_judged_and_the_report_ends() {
     let folder = empty_folder();
     let scene = "name = \"plate\"\nimpactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\", plate_thickness = 5e-3 }\n\
