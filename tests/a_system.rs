@@ -1,5 +1,5 @@
 //! The first test program, because cargo runs them in alphabetical order: this machine has what the tests need, and the list of
-//! what is skipped begins anew. docs/guide/tests.md lists the packages for each system.
+//! what is skipped begins anew. docs/project/tests.md lists the packages for each system.
 
 use brinell_testing::python::INSTALLED;
 use brinell_testing::skips;

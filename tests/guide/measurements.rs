@@ -1,13 +1,13 @@
 //! The laws beside measurements: the tables of the page, and independent numbers.
 
-use crate::comparisons::{larger, numbers, percent, yielding};
+use crate::comparisons::{numbers, yielding};
 use crate::devices::{self, Device, SCENE, SLOW, Stress, THIRD, Way, measured, rebounds};
 use crate::read;
 use crate::record::{Fit, least, rms};
 use crate::tables::{heading, row, shows};
 use brinell_contact::impact::Impact;
 use brinell_contact::rate::Rate;
-use brinell_exporter::measured::{self as exporter, STEEL_RATE};
+use brinell_exporter::measured::STEEL_RATE;
 use brinell_exporter::predict::oblique::{self, Outcome, Setting};
 use brinell_exporter::scene::Scene;
 use brinell_exporter::{laws, predict};
@@ -44,10 +44,10 @@ fn dents() -> Vec<Dent> {
     names.zip(numbers(file, "")).map(dent).collect()
 }
 
-/// Relative errors of depths and of diameters by a law with the strength by this way.
-fn errors_of_dents(law: &str, way: &Way) -> [Vec<f64>; 2] {
+/// Relative errors of depths and of diameters by a law with the strength that a scene makes of the hardness.
+fn errors_of_dents(law: &str) -> [Vec<f64>; 2] {
     let errors = dents().into_iter().map(|dent| {
-        let said = dent.by.on(law, way.strength(dent.vickers, &dent.by).strength);
+        let said = dent.by.on(law, SCENE.strength(dent.vickers, &dent.by).strength);
         (said.residual_indentation / dent.depth - 1.0, 2.0 * said.max_contact_radius / dent.diameter - 1.0)
     });
     let (depths, diameters) = errors.unzip();
@@ -56,27 +56,12 @@ fn errors_of_dents(law: &str, way: &Way) -> [Vec<f64>; 2] {
 
 /// Every law on every set with which laws differ.
 fn errors_of_all() -> String {
-    let mut table = heading(&[
-        "law",
-        "rebounds: HV/3",
-        "from HV, slow",
-        "from HV, at its rate",
-        "depth of dents: HV/3",
-        "at its rate",
-        "diameter: HV/3",
-        "at its rate",
-        "record: rms",
-        "its S",
-        "its compliance",
-    ]);
+    let mut table =
+        heading(&["law", "rebounds", "depth of dents", "diameter of dents", "record: rms", "its S", "its compliance"]);
     for law in yielding() {
-        let rebounds = [THIRD, SLOW, SCENE].map(|way| range(&devices::errors(law, &way)));
-        let [depth, diameter] = errors_of_dents(law, &THIRD).map(|errors| range(&errors));
-        let [depth_at_rate, diameter_at_rate] = errors_of_dents(law, &SCENE).map(|errors| range(&errors));
+        let [depth, diameter] = errors_of_dents(law).map(|errors| range(&errors));
         let fit = Fit::by(law);
-        let mut cells = vec![format!("`{law}`")];
-        cells.extend(rebounds);
-        cells.extend([depth, depth_at_rate, diameter, diameter_at_rate]);
+        let mut cells = vec![format!("`{law}`"), range(&devices::errors(law, &SCENE)), depth, diameter];
         cells.push(format!("{:.2} um", 1e6 * fit.rms));
         // the end of the search
         let is_found = fit.strength < 4.3e9;
@@ -144,30 +129,6 @@ fn strengths() -> String {
     table
 }
 
-/// The printed dents beside those of the law `brinell`.
-fn table_of_dents() -> String {
-    let mut table = heading(&[
-        "device, hardness",
-        "depth: printed",
-        "HV/3",
-        "at its rate",
-        "diameter: printed",
-        "HV/3",
-        "at its rate",
-    ]);
-    for dent in dents() {
-        let said = [THIRD, SCENE].map(|way| dent.by.on("brinell", way.strength(dent.vickers, &dent.by).strength));
-        let micrometres = |length: f64| format!("{:.1} um", 1e6 * length);
-        let wide = |length: f64| format!("{:.0} um", 1e6 * length);
-        let name = format!("{}, {} HV", dent.device, dent.vickers);
-        let [depth, depth_at_rate] = said.each_ref().map(|said| micrometres(said.residual_indentation));
-        let [diameter, diameter_at_rate] = said.each_ref().map(|said| wide(2.0 * said.max_contact_radius));
-        let (printed, printed_wide) = (micrometres(dent.depth), wide(dent.diameter));
-        table += &row(&[&name, &printed, &depth, &depth_at_rate, &printed_wide, &diameter, &diameter_at_rate]);
-    }
-    table
-}
-
 /// A scene that this text is.
 fn parsed(text: &str) -> Scene {
     Scene::parse(text.into(), Path::new("scene.toml")).unwrap_or_else(|mistake| panic!("{mistake}"))
@@ -231,39 +192,11 @@ fn elastic() -> String {
     table
 }
 
-/// Flow stresses \[Pa\] at a strain of 3 % by Brinell hardness, Vickers hardness and tensile strength.
-fn by_each(row: &[f64]) -> [f64; 3] {
-    let of = |text: String| exporter::of_hardness(&text, &devices::steel()).expect("a hardness of steel");
-    let tension = exporter::of_tensile_strength(1e6 * row[2], &devices::steel()).expect("a tensile strength");
-    [of(format!("{} HBW 10/3000", row[0])), of(format!("{} HV10", row[1])), tension].map(|found| found.at(0.03))
-}
-
-fn conversions() -> Vec<Vec<f64>> {
-    let rows = numbers("data/experiment/hardness_conversion.csv", "");
-    rows.into_iter().filter(|row| row.len() == 3 && row.iter().all(|cell| cell.is_finite())).collect()
-}
-
-fn table_of_conversions() -> String {
-    let mut table = heading(&["HBW", "HV", "Rm", "S(3 %) by HBW", "by HV", "by Rm", "largest from the mean"]);
-    for row_ in conversions() {
-        let found = by_each(&row_);
-        let mean = found.iter().sum::<f64>() / 3.0;
-        let worst = found.iter().map(|stress| stress / mean - 1.0).fold(0.0, larger);
-        let stress = |stress: f64| format!("{:.0} MPa", 1e-6 * stress);
-        let [one, two, three] = found.map(stress);
-        let [hbw, hv] = [row_[0], row_[1]].map(|number| number.to_string());
-        table += &row(&[&hbw, &hv, &stress(1e6 * row_[2]), &one, &two, &three, &percent(worst, 1)]);
-    }
-    table
-}
-
 #[test]
 fn the_tables_of_measurements_are_those_that_are_computed() {
     shows("measurements.md", "errors", &errors_of_all());
     shows("measurements.md", "strengths", &strengths());
-    shows("measurements.md", "dents", &table_of_dents());
     shows("measurements.md", "elastic impacts", &elastic());
-    shows("measurements.md", "conversions", &table_of_conversions());
 }
 
 /// Computed by finite elements of small strain and formulas alone: `data/experiment/rebounds_by_formulas.py`. Large strain matters at

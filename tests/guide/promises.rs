@@ -12,7 +12,7 @@ fn named(page: &str) -> Vec<(&str, &str)> {
 
 #[test]
 fn every_test_on_the_page_of_promises_exists() {
-    let page = fs::read_to_string(root().join("docs/guide/promises.md")).expect("the page is there");
+    let page = fs::read_to_string(root().join("docs/project/promises.md")).expect("the page is there");
     let rows = page.lines().filter(|line| line.starts_with("| ")).count() - 1;
     let tests = named(&page);
     assert_eq!(tests.len(), rows, "each promise has a test");

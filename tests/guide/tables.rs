@@ -52,38 +52,13 @@ fn variables(causality: &str) -> String {
     let mut table =
         heading(if is_output { &["name", "unit", "meaning"] } else { &["name", "unit", "allowed", "meaning"] });
     for variable in entries("variables.toml", "variable") {
-        if text(&variable, "causality") != causality {
+        // those of the second direction are like those of the first
+        if text(&variable, "causality") != causality || text(&variable, "name").ends_with("[2]") {
             continue;
         }
         let (name, unit) = (format!("`{}`", text(&variable, "name")), text(&variable, "unit"));
         let (allowed, meaning) = (allowed(&variable), text(&variable, "description"));
         table += &if is_output { row(&[&name, unit, meaning]) } else { row(&[&name, unit, &allowed, meaning]) };
-    }
-    table
-}
-
-/// The descriptions that are different in FMUs of other kinds.
-fn kinds() -> String {
-    let mut table = heading(&["name", "in an FMU", "meaning"]);
-    for variable in entries("variables.toml", "variable") {
-        let name = format!("`{}`", text(&variable, "name"));
-        for instead in variable.get("instead").and_then(Value::as_array).into_iter().flatten() {
-            let instead = instead.as_table().expect("a description of another kind is a table");
-            let kind = match text(instead, "of") {
-                "rate-dependent" => "with a rate-dependent law",
-                "held-inputs" => "with `input_derivatives = false`",
-                "parallel" => "that knows the mass, for parallel importers",
-                "acceleration-input" => "that knows the mass, with `external_acceleration`",
-                "mass-known" => "that knows the mass",
-                "dents-above-surface" => "whose laws can leave a dent above the surface",
-                "makes-energy" => "whose laws make energy",
-                "loses-less" => "whose laws lose less in a deeper dent",
-                "finds-strength" => "that knows the mass, with `rate`",
-                "shared-friction" => "that moves bodies with friction",
-                other => panic!("what is the kind {other}?"),
-            };
-            table += &row(&[&name, kind, text(instead, "description")]);
-        }
     }
     table
 }
@@ -99,28 +74,14 @@ fn regimes() -> String {
     heading(&["value", "name", "meaning"]) + &items.map(line).collect::<String>()
 }
 
+/// The names of the built-in materials.
 fn materials() -> String {
-    let mut table = heading(&["material", "other names", "E [Pa]", "nu", "strength", "density [kg/m^3]", "source"]);
-    for material in entries("materials.toml", "material") {
-        let number = |key: &str| number(&material, key).map(short);
-        let [modulus, ratio, density] =
-            ["youngs_modulus", "poissons_ratio", "density"].map(|key| number(key).expect("a material is complete"));
-        let tension = material.get("tension").map(|law| {
-            let of = |key: &str| short(law[key].as_float().expect("a number"));
-            format!("{} eps^{} Pa", of("coefficient"), of("exponent"))
-        });
-        let hardness = material.get("hardness").and_then(|text| text.as_str()).map(String::from);
-        let strength = number("yield_strength").map(|strength| format!("{strength} Pa")).or(tension).or(hardness);
-        let aliases = material.get("aliases").and_then(|list| list.as_array()).into_iter().flatten();
-        let aliases = aliases.filter_map(|alias| alias.as_str()).collect::<Vec<_>>().join(", ");
-        let source = text(&material, "source");
-        let strength = strength.unwrap_or_else(|| "none: elastic".into());
-        table += &row(&[text(&material, "name"), &aliases, &modulus, &ratio, &strength, &density, source]);
-    }
-    table
+    let names: Vec<_> =
+        entries("materials.toml", "material").iter().map(|it| format!("`{}`", text(it, "name"))).collect();
+    format!("{}.\n", names.join(", "))
 }
 
-/// Each law of `kind`, with the texts and constants of `brinell laws`.
+/// Each law of `kind`, with the texts of `brinell laws`.
 fn laws(kind: &str) -> String {
     let list = command::run(root(), ["laws", "--json"]).with_status(0).json();
     let (mut page, mut shown) = (String::new(), Vec::new());
@@ -142,22 +103,8 @@ fn laws(kind: &str) -> String {
                 page += &format!("{label}: {}.\n\n", text(key).trim_end_matches('.'));
             }
         }
-        page += &constants(&law["parameters"]);
     }
     page
-}
-
-/// The table of the constants of a law; empty if it has none.
-fn constants(constants: &Json) -> String {
-    let mut table = String::new();
-    for constant in constants.as_array().expect("a list of constants") {
-        let text = |key: &str| constant[key].as_str().expect("a text of the constant");
-        let number = |key: &str| short(constant[key].as_f64().expect("a number of the constant"));
-        let (name, allowed) =
-            (format!("`{}`", text("name")), format!("{} to {}", number("minimum"), number("maximum")));
-        table += &row(&[&name, &number("value"), text("unit"), &allowed, text("description")]);
-    }
-    if table.is_empty() { table } else { heading(&["constant", "value", "unit", "allowed", "meaning"]) + &table + "\n" }
 }
 
 /// The tools of `brinell translate`.
@@ -189,7 +136,6 @@ pub fn shows(page: &str, name: &str, table: &str) {
 fn tables_are_those_of_the_model_description() {
     shows("variables.md", "inputs", &variables("input"));
     shows("variables.md", "outputs", &variables("output"));
-    shows("variables.md", "other kinds", &kinds());
     shows("variables.md", "regimes", &regimes());
     shows("variables.md", "parameters", &variables("parameter"));
     shows("scenes.md", "materials", &materials());

@@ -121,7 +121,7 @@ pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
     let said = one(&choices[0], &scene.impact_of(0))?;
     let title = |name| &table::loading_law(name).title;
     let text = format!(
-        "{} ({}); without [law] it is {} ({}): {}, dent {}, restitution {}",
+        "This scene has the law {} ({}). Without [law] it has {} ({}), which predicts {}, a dent of {} and a restitution of {}.",
         scene.loading.0,
         title(scene.loading.0),
         pairing::DEFAULT_LOADING,
@@ -130,7 +130,7 @@ pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
         quantity(said.residual_indentation, "m"),
         significant(said.restitution, 4)
     );
-    Ok(layout::paragraph("  law: ", &text))
+    Ok(layout::paragraph("  ", &text))
 }
 
 /// The limits of validity that this impact at `speed` \[m/s\] exceeds on the first contact of `scene`, which has the bodies
