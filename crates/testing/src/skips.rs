@@ -4,6 +4,7 @@ use crate::places::{temporary, test_name};
 use std::fs;
 use std::io::{Write as _, stderr};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// The folder with a file for each program of tests that skips something.
 fn folder() -> PathBuf {
@@ -22,9 +23,19 @@ pub fn skipped(what: &str, why: &str) {
     file.and_then(|mut file| file.write_all(line.as_bytes())).expect("the target folder can be written to");
 }
 
-/// Forgets what earlier runs have skipped.
+/// An empty file as old as the run.
+const BEGUN: &str = "begun";
+
+/// Forgets what earlier runs have skipped, and begins to count the time.
 pub fn begin() {
     let _ = fs::remove_dir_all(folder());
+    fs::create_dir_all(folder()).expect("the target folder can be written to");
+    fs::write(folder().join(BEGUN), "").expect("the target folder can be written to");
+}
+
+/// Time since the run has begun; `None` if it was for one program.
+pub fn elapsed() -> Option<Duration> {
+    fs::metadata(folder().join(BEGUN)).ok()?.modified().ok()?.elapsed().ok()
 }
 
 /// All lines so far, each once.
