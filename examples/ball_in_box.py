@@ -56,7 +56,7 @@ if __name__ == "__main__":
         "A steel ball in a box: steel left, floor and ceiling, aluminium right",
         [
             (1e3 * fine[1], 1e3 * fine[2], "path", "-"),
-            (1e3 * rows[1], 1e3 * rows[2], "steps of a millisecond", "."),
+            (*1e3 * rows[1:3, :30], "the first 30 steps of a millisecond", "."),
         ],
         x="x [mm]",
         y="y [mm]",

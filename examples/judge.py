@@ -10,6 +10,7 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("svg")
+from brinell.pictures import save
 from matplotlib import animation as movie
 from matplotlib import pyplot
 
@@ -196,18 +197,18 @@ def picture(title, lines, x="time [s]", y="height [mm]"):
     there is one."""
     if len(sys.argv) < 2:
         return
-    matplotlib.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9})
+    matplotlib.rcParams.update({"font.size": 9, "xtick.bottom": False, "ytick.left": False})
     figure, axes = pyplot.subplots(figsize=(7.2, 3.6), layout="constrained")
     for abscissa, ordinate, label, style in lines:
-        # no more points than are visible
-        every = max(1, len(abscissa) // 700)
+        # no more points than can be told apart
+        every = max(1, len(abscissa) // (700 if "-" in style else 25))
         axes.plot(
             abscissa[::every], ordinate[::every], style, label=label, linewidth=1.1, markersize=3
         )
     axes.set(title=title, xlabel=x, ylabel=y)
     axes.legend(frameon=False)
     axes.grid(alpha=0.3)
-    figure.savefig(sys.argv[1], metadata={"Date": None})
+    save(figure, sys.argv[1])
 
 
 def row(path, start, gap, mass, pull, h):

@@ -77,7 +77,7 @@ if __name__ == "__main__":
         "Ball on a ramp that vibrates along its normal",
         [
             (time, speed - surface, "with the unit", "-"),
-            (other[0][::1000], (other[1] - other[2])[::1000], "rigid bodies", "."),
+            (other[0], other[1] - other[2], "rigid bodies", "--"),
         ],
         y="slip speed [m/s]",
     )

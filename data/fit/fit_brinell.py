@@ -2,7 +2,7 @@
 
     python -m venv venv && venv/bin/pip install -r requirements.txt && venv/bin/python fit_brinell.py
 
-Writes brinell_law.json, residuals.svg and residuals.png next to this file; prints the residuals, the cross-validation,
+Writes brinell_law.json and residuals.png next to this file; prints the residuals, the cross-validation,
 the checks (an assertion fails if one does) and test numbers.
 
 Everything is normalised: x = d/d_y, f = F/F_y, area = a^2/(R d_y), radius = a/a_y, r = (d_m - d_f)/d_y,
@@ -250,7 +250,7 @@ def check(law):
 def plot(law, x, f, a, deep, truth):
     import matplotlib
     matplotlib.use("Agg")
-    matplotlib.rcParams.update({"svg.hashsalt": "brinell", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
+    matplotlib.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
     import matplotlib.pyplot as plt
     figure, axes = plt.subplots(2, 2, figsize=(11, 7.2), layout="constrained")
     loading, radius, path, closure = axes.flat
@@ -282,7 +282,6 @@ def plot(law, x, f, a, deep, truth):
     for axis in axes.flat:
         axis.legend(fontsize=8, ncols=2, loc="lower left" if axis is not path else "lower center")
     figure.suptitle("Law `brinell` against the finite-element truth (small strain)")
-    figure.savefig(HERE / "residuals.svg", metadata={"Date": None})
     figure.savefig(HERE / "residuals.png", dpi=110)
 
 

@@ -2,8 +2,8 @@
 
     python -m venv venv && venv/bin/pip install -r requirements.txt && venv/bin/python fit_materials.py
 
-Writes materials_law.json and materials_residuals.svg next to this file. Prints the residuals, those of a
-cross-validation that leaves out one curve at a time, and the checks, which are assertions. `fit_brinell.py` fits the law
+Writes materials_law.json next to this file. Prints the residuals, those of a cross-validation that leaves out one
+curve at a time, and the checks, which are assertions. `fit_brinell.py` fits the law
 itself.
 
 Everything is normalised by the yield point of the material: k = d/d_Y, phi = F/F_Y, alpha = a^2/(R d_Y). The yield
@@ -273,26 +273,6 @@ def check(constants):
     return margins
 
 
-def plot(curves, constants):
-    import matplotlib
-    matplotlib.use("Agg")
-    matplotlib.rcParams.update({"svg.hashsalt": "brinell", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
-    import matplotlib.pyplot as plt
-    figure, axes = plt.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
-    for curve in curves:
-        force, _, back = curve.errors(constants)
-        axes[0].plot(curve.x, 100 * force, lw=1, label=curve.name)
-        points = [(x_m, 100 * np.abs(path).max()) for x_m, path, _, _ in back]
-        axes[1].plot(*zip(*points), "o-", lw=1, ms=4, label=curve.name)
-    axes[0].axhspan(-0.7, 0.7, color="tab:green", alpha=0.1)
-    axes[0].set(xscale="log", title="Loading force: law / truth - 1 (required: ±0.7 %)", xlabel="x = d / d_y", ylabel="error [%]")
-    axes[1].set(xscale="log", ylim=(0, 1.5), title="Unloading: largest error (required: 1.4 %)", xlabel="x_m = d_m / d_y",
-                ylabel="error [% of F_m]")
-    for axis in axes:
-        axis.legend(fontsize=8, ncols=2)
-    figure.savefig(HERE / "materials_residuals.svg", metadata={"Date": None})
-
-
 def main():
     global LAW
     curves = [Curve(name) for name in (*HARDENING, *RATIOS)]
@@ -304,7 +284,6 @@ def main():
     (HERE / "materials_law.json").write_text(json.dumps(written, indent=2) + "\n")
     report(curves, constants)
     margins = check(constants)
-    plot(curves, constants)
     print("test numbers: nu | eta | k | phi | work | alpha | dent | g")
     for ratio, eta in ((0.3, 0.05), (0.2, 0.0), (0.45, 0.0), (0.4, 0.1)):
         law = Material(ratio, eta, constants)

@@ -4,12 +4,16 @@ import re
 import sys
 import tomllib
 from xml.dom import minidom
+from xml.etree import ElementTree
 
 import brinell
+import matplotlib
 import numpy as np
 import pytest
 from brinell import ProgramError, ProgramWarning
+from brinell.pictures import compact, save
 from brinell.prediction import quantity
+from matplotlib.figure import Figure
 from units import SCENES, bounce
 
 SCENE = SCENES / "mass_known.toml"
@@ -210,7 +214,55 @@ def test_an_oblique_sweep_has_the_rebound_of_each_angle():
 
 
 def texts(path):
-    return re.findall(r"<!-- (.*?) -->", path.read_text(encoding="utf-8"))
+    return re.findall(r"<text.*?>(.*?)</text>", path.read_text(encoding="utf-8"))
+
+
+def seen(svg):
+    """Kind, text, style and numbers of everything in a picture."""
+    root = ElementTree.fromstring(svg)
+    rules = dict(re.findall(r"\.(\S+?)\{(.*?)\}", svg))
+    found = []
+
+    def look(element, group):
+        style = element.get("style", rules.get(element.get("class"), group))
+        kind = element.tag.rpartition("}")[2]
+        if kind in ("path", "text", "use", "image"):
+            place = re.sub(r"rotate\(-?0 .*?\)", "", element.get("transform", ""))
+            places = " ".join(element.get(name, "") for name in ("d", "x", "y")) + place
+            numbers = [float(number) for number in re.findall(r"-?[\d.]+", places)]
+            looks = kind, (element.text or "").strip(), style
+            # one path may have several straight lines
+            straight = len(numbers) % 4 == 0 and kind == "path" and "fill: none" in style
+            length = 4 if straight else max(1, len(numbers))
+            parts = range(0, len(numbers), length)
+            found.extend((*looks, numbers[at : at + length]) for at in parts)
+        for child in element:
+            if kind != "metadata":
+                look(child, style)
+
+    look(root, "")
+    return sorted(found, key=lambda one: (*one[:3], *map(round, one[3])))
+
+
+def test_a_picture_of_a_third_of_the_size_shows_what_matplotlib_draws(tmp_path):
+    axes = Figure(layout="constrained").subplots()
+    axes.plot(np.linspace(0.0, 1.0, 30), np.linspace(-3.0, 2.0, 30) ** 3, "s--", label="é < ü")
+    axes.fill_between([0.0, 0.5], -1.0, [2.0, 3.0], alpha=0.3)
+    axes.set(ylabel="turned", xscale="symlog")
+    axes.legend()
+    axes.grid()
+    axes.figure.savefig(tmp_path / "large.svg")
+    save(axes.figure, tmp_path / "small.svg")
+    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "brinell"}):
+        axes.figure.savefig(tmp_path / "drawn.svg")
+    drawn = (tmp_path / "drawn.svg").read_text(encoding="utf-8")
+    for (*expected, places), (*found, rounded) in zip(
+        seen(drawn), seen(compact(drawn)), strict=True
+    ):
+        assert found == expected
+        assert rounded == pytest.approx(places, abs=0.005001)
+    large, small = (len((tmp_path / f"{name}.svg").read_bytes()) for name in ("large", "small"))
+    assert small < large / 3
 
 
 def test_a_map_over_two_quantities_and_curves_of_several_laws_are_drawn(tmp_path):

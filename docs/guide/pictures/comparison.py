@@ -1,6 +1,16 @@
 """Measures what ../comparison.md says: a ball of 10 mm on mild steel in engines with their own numbers and with those of Brinell.
 An engine that isn't installed is replaced by its published recursion, which the page says.
 
+Where the numbers of the engines are from: the packages themselves at the versions that the page names (newton's step is that of its
+examples, PhysX's material and step are SAPIEN's); BodyCreationSettings.h of Jolt 5.5; the manual of ODE
+(https://ode.org/wiki/index.php/Manual); SDFormat (http://sdformat.org/spec?elem=surface) for Gazebo; ChContactMaterial.cpp and
+ChContactMaterialSMC.cpp of Chrono (https://github.com/projectchrono/chrono) in 2026; NewtonIntegrator of Yade
+(https://yade-dem.org/doc/yade.wrapper.html); the README of MathWorks' library of contact forces
+(https://github.com/mathworks/Simscape-Multibody-Contact-Forces-Library), which says "start with"; the help of Adams View, "Contact
+Parameters for Parts with Small Mass", made for steel parts of a kilogram, with the depth that the help of CONTACT calls reasonable; the
+class TwoDContact in the help of MotionView 2021
+(https://2021.help.altair.com/2021/hwdesktop/hwx/topics/reference/mv/contact_python_class_twodcontact_r.htm).
+
     pip install matplotlib scipy ./python -r tests/requirements-engines-large.txt
     python docs/guide/pictures/comparison.py           # writes the tables, and comparison.svg beside this file
     python docs/guide/pictures/comparison.py --check   # compares the tables instead
@@ -398,9 +408,11 @@ def picture(own, given):
     import matplotlib
 
     matplotlib.use("svg")
+    from brinell.pictures import save
     from matplotlib import pyplot
+    from style import STYLE
 
-    matplotlib.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
+    matplotlib.rcParams.update(STYLE)
     figure, (first, second, third) = pyplot.subplots(3, figsize=(5.2, 9.8), layout="constrained")
     fine = np.geomspace(0.1, 5, 41)
     curve = [law(float(speed)).restitution for speed in fine]
@@ -410,7 +422,7 @@ def picture(own, given):
             if case.title in styles:
                 label, colour = styles[case.title]
                 heights = [case.rebounds[speed] for speed in SPEEDS]
-                axes.plot(SPEEDS, heights, "o-", color=colour, markersize=3, linewidth=1, label=label)
+                axes.plot(SPEEDS, heights, color=colour, linewidth=1, label=label)
         axes.set(xscale="log", xlabel="speed [m/s]", ylabel="restitution", ylim=(-0.03, 1.08))
         axes.set_xticks([0.1, 0.3, 1, 3], ["0.1", "0.3", "1", "3"])
         axes.minorticks_off()
@@ -425,7 +437,7 @@ def picture(own, given):
     third.set_title("measured: carbide on steel at 2.05 m/s", fontsize=10)
     for axes in (first, second, third):
         axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.19), ncols=3, frameon=False)
-    figure.savefig(FOLDER / "comparison.svg", metadata={"Date": None})
+    save(figure, FOLDER / "comparison.svg")
 
 
 OWN_STYLES = {

@@ -1,6 +1,6 @@
 """Draws line.svg beside this file: the law of line contacts beside the finite elements of data/truth/line.
 
-    pip install matplotlib numpy
+    pip install matplotlib ./python
     python docs/guide/pictures/line.py path/to/brinell
 """
 
@@ -14,7 +14,9 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("svg")
+from brinell.pictures import save
 from matplotlib import pyplot
+from style import STYLE
 
 FOLDER = Path(__file__).parent
 TRUTH = FOLDER.parents[2] / "data/truth/line"
@@ -65,17 +67,18 @@ def curve(program, largest):
 
 def main(program):
     """Draws the picture."""
+    matplotlib.rcParams.update(STYLE)
     loading = table(TRUTH / "loading.csv")
     force, width = column(loading, "F_over"), column(loading, "a_over")
     depth = column(loading, "depth") + CONSTANT * force / 4
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
-    shown = force <= 32
+    shown = np.flatnonzero(force <= 32)[::6]
     left.plot(depth[shown], force[shown], ".", color=GREY, markersize=3, label="finite elements")
     for peak in (5, 12, 30):
         rows = [row for row in table(TRUTH / f"unloading_from_{peak}.csv") if row["branch"] == "unload"]
         back = column(rows, "F_over")
         top = np.interp(back[0], force, depth)
-        left.plot(top - column(rows, "depth_recovered"), back, ".", color=GREY, markersize=3)
+        left.plot((top - column(rows, "depth_recovered"))[::6], back[::6], ".", color=GREY, markersize=3)
         there, back = curve(program, top)
         label = "law `line`" if peak == 5 else None
         left.plot(there[0], there[1], color=BLUE, linewidth=1, label=label)
@@ -90,8 +93,7 @@ def main(program):
         right.plot(depth[seen], error[seen], color=color, linewidth=1, label=f"{name} at the same depth")
     right.set(xlabel="depth / depth at first yield", ylabel="law over finite elements [%]", xscale="log", ylim=(-1.5, 1.5))
     right.legend(frameon=False)
-    matplotlib.rcParams["svg.hashsalt"] = "line"
-    figure.savefig(FOLDER / "line.svg", metadata={"Date": None})
+    save(figure, FOLDER / "line.svg")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,9 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("svg")
+from brinell.pictures import save
 from matplotlib import pyplot
+from style import STYLE
 
 FOLDER = Path(__file__).parent
 EXPERIMENT = FOLDER.parents[2] / "data/experiment"
@@ -171,7 +173,7 @@ def metallic_glass(axes, scenes):
 
 
 def main():
-    pyplot.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.titlesize": 9, "axes.grid": True, "grid.alpha": 0.3})
+    pyplot.rcParams.update(STYLE)
     figure, axes = pyplot.subplots(2, 3, figsize=(11.5, 6.6), layout="constrained")
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         # the ends of some curves are beyond every law
@@ -182,7 +184,7 @@ def main():
         record(axes[0, 2], scenes)
         dents(axes[1, 0], axes[1, 1], scenes)
         metallic_glass(axes[1, 2], scenes)
-    figure.savefig(FOLDER / "measurements.svg", metadata={"Date": None})
+    save(figure, FOLDER / "measurements.svg")
 
 
 main()

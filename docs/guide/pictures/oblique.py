@@ -1,6 +1,6 @@
 """Draws oblique.svg beside this file: measured oblique rebounds, those of finite elements, and computed ones.
 
-    pip install matplotlib
+    pip install matplotlib ./python
     python docs/guide/pictures/oblique.py
 """
 
@@ -13,7 +13,9 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("svg")
+from brinell.pictures import save
 from matplotlib import pyplot
+from style import STYLE
 
 FOLDER = Path(__file__).parent
 PROJECT = FOLDER.parents[2]
@@ -83,11 +85,10 @@ def draw(axis, curve, points, titles, words):
     axis.plot(*curve, color=BLUE, label="computed")
     axis.plot(*points, "o", markersize=3.5, color=RED, fillstyle="none", label="measured")
     axis.set(xlabel=titles[0], ylabel=titles[1], title="rms " + words.format(rms(curve, points)))
-    axis.grid(alpha=0.3)
 
 
 def main():
-    pyplot.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.titlesize": 9})
+    pyplot.rcParams.update(STYLE)
     curves, equal_bodies = computed()
     figure, axes = pyplot.subplots(1, 4, figsize=(12, 3.1), layout="constrained")
     for axis, (quantity, label, words) in zip(axes, QUANTITIES):
@@ -105,7 +106,7 @@ def main():
     axes[3].plot(*points, "x", markersize=3.5, color=GREEN, label=f"finite elements, rms {rms(curve, points):.2f}")
     axes[3].legend(frameon=False, fontsize=7)
     axes[0].legend(frameon=False)
-    figure.savefig(FOLDER / "oblique.svg", metadata={"Date": None})
+    save(figure, FOLDER / "oblique.svg")
 
 
 main()

@@ -13,8 +13,10 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("svg")
+from brinell.pictures import save
 from matplotlib import pyplot
 from matplotlib.patches import Circle, Polygon
+from style import STYLE
 
 FOLDER = Path(__file__).parent
 BLUE, RED, GREY = "#0072b2", "#d55e00", "#777777"
@@ -107,20 +109,16 @@ def draw_laws(folder):
         style = {"linewidth": 2.5} if law == "brinell/brinell" else {"linewidth": 1.0, "linestyle": "-" if index < 10 else "--"}
         axes.plot(x, f / x**1.5, label=law.split("/")[0], **style)
     truth = np.loadtxt(FOLDER.parents[2] / "data/truth/loading.csv", delimiter=",", skiprows=1, usecols=(0, 2))
-    places = np.searchsorted(truth[:, 0], np.geomspace(0.3, 999.0, 40))
+    places = np.searchsorted(truth[:, 0], np.geomspace(0.3, 999.0, 25))
     x, f = truth[np.unique(places)].T
     axes.plot(x, f / x**1.5, "k.", label="finite elements")
     axes.set(xlabel="indentation / yield indentation", ylabel="force / Hertz's force", xscale="log", ylim=0)
     axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
-    figure.savefig(FOLDER.parents[1] / "laws.svg", metadata={"Date": None})
-
-
-def save(figure, name):
-    figure.savefig(FOLDER / name, metadata={"Date": None})
+    save(figure, FOLDER.parents[1] / "laws.svg")
 
 
 def main():
-    matplotlib.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
+    matplotlib.rcParams.update(STYLE)
     with tempfile.TemporaryDirectory() as folder:
         (indentation, force), dent = cycle(unit(folder, "plain"))
         time, height = fall(unit(folder, "known", "coupling = { effective_mass = 4e-3 }"))
@@ -134,7 +132,7 @@ def main():
     middle.set(xlabel="indentation [µm]", ylabel="force [N]", title="loading, unloading, reloading", xlim=0, ylim=0)
     right.plot(time, height, color=BLUE)
     right.set(xlabel="time [ms]", ylabel="height [mm]", title="impacts of 30 µs in steps of 1 ms", xlim=(0, 500), ylim=0)
-    save(figure, "overview.svg")
+    save(figure, FOLDER / "overview.svg")
 
     with tempfile.TemporaryDirectory() as folder, brinell.Contact(
         unit(folder, "plain"), force="end", target_yield_strength=400e6
@@ -146,7 +144,7 @@ def main():
     figure, axes = pyplot.subplots(figsize=(5.2, 3.2), layout="constrained")
     axes.plot(*np.array(rows).T, color=BLUE)
     axes.set(xlabel="indentation [um]", ylabel="force [N]")
-    save(figure, "force.svg")
+    save(figure, FOLDER / "force.svg")
 
     with tempfile.TemporaryDirectory() as folder:
         draw_laws(folder)

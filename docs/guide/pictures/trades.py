@@ -12,7 +12,9 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("svg")
+from brinell.pictures import save
 from matplotlib import pyplot
+from style import STYLE
 
 FOLDER = Path(__file__).parent / "trades"
 SCENES = FOLDER.parents[3] / "scenes/trades"
@@ -74,13 +76,13 @@ def draw(scene, path):
     second.set_xticks([0.1 * speed, speed, 3 * speed], [f"{value:.3g}" for value in (0.1 * speed, speed, 3 * speed)])
     second.minorticks_off()
     second.legend(fontsize=7.5, loc="lower left")
-    figure.savefig(path, metadata={"Date": None})
+    save(figure, path)
     pyplot.close(figure)
 
 
 def main():
     FOLDER.mkdir(exist_ok=True)
-    matplotlib.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
+    matplotlib.rcParams.update(STYLE)
     for scene in sorted(SCENES.glob("*.toml")):
         draw(scene, FOLDER / f"{scene.stem}.svg")
 
