@@ -268,6 +268,70 @@ fn friction_with_a_loss_keeps_balance_and_bound_and_hardly_cares_how_time_is_cut
     }
 }
 
+/// Balls of 1 g to 1 kg on each other and on the ground, dropped from up to 10 um with a slip at the ground, and their number.
+fn random_stack(random: &mut Random) -> Group<LosingModel, LosingOneWay> {
+    let count = 2 + (3.0 * random.next()) as usize;
+    let masses: Vec<f64> = (0..count).map(|_| 10_f64.powf(-3.0 * random.next())).collect();
+    let mut entries = Vec::new();
+    for row in 0..2 * count {
+        for column in row..2 * count {
+            let (one, other) = (row % count, column % count);
+            let below = if one > 0 { 1.0 / masses[one - 1] } else { 0.0 };
+            entries.push(match (row / count == column / count, other.abs_diff(one)) {
+                (true, 0) => (1.0 / masses[one] + below) * if row < count { 1.0 } else { 3.5 },
+                (true, 1) => -1.0 / masses[one],
+                _ => 0.0,
+            });
+        }
+    }
+    let law = if random.next() < 0.5 { ("hertz", "contact-radius") } else { ("brinell", "brinell") };
+    let models = (0..count).map(|_| LosingModel {
+        loss: AnyLoss::Fitted(Fitted { restitution: 0.3 + 0.7 * random.next() }),
+        ..losing(law, 0.05 + 0.75 * random.next())
+    });
+    let models: Vec<LosingModel> = models.collect();
+    let drop = if random.next() < 0.3 { 0.0 } else { 1e-5 * random.next() };
+    let (mut accelerations, mut rates) = (vec![0.0; 2 * count], vec![0.0; 2 * count]);
+    (accelerations[0], accelerations[count]) = (G, random.next());
+    rates[count] = 0.02 * random.next();
+    Group::new(models, &vec![drop; count], entries, accelerations, rates)
+}
+
+#[test]
+fn no_stack_is_refused_a_step_of_a_millisecond_or_gains_energy() {
+    let mut random = Random(31);
+    let mut differences = Vec::new();
+    for index in 0..24 {
+        let mut group = random_stack(&mut random);
+        let count = group.models.len();
+        let most = (0..2 * count).map(|row| group.masses().of(row, row)).fold(0.0, f64::max);
+        let lost = |group: &Group<LosingModel, LosingOneWay>| -> f64 {
+            let of = |(contact, model): (&LosingOneWay, &LosingModel)| {
+                contact.dissipated_energy(model) + contact.friction_work(model)
+            };
+            group.contacts.iter().zip(&group.models).map(of).sum()
+        };
+        for step in 0..12 {
+            let (mut cut, before) = (group.clone(), lost(&group));
+            group.try_step(1e-3).unwrap_or_else(|refused| panic!("stack {index}, step {step}: {refused:?}"));
+            // the weight of the lightest body on a micrometre is little
+            let energy = group.energy() + 1e-6 * G / most;
+            assert!(group.imbalance < 1e-10 * energy, "{index}: {:e} of {energy:e} J", group.imbalance);
+            let gained = before - lost(&group);
+            assert!(gained < 1e-6 * energy, "stack {index}, step {step}: gained {gained:e} of {energy:e} J");
+            if step % 4 == 0 {
+                (0..3).for_each(|_| cut.step(1e-3 / 3.0));
+                differences.push(group.difference(&cut, (2.0 * energy * most).sqrt(), 1e-5));
+            }
+        }
+    }
+    differences.sort_by(f64::total_cmp);
+    let at = |part: usize| differences[differences.len() * part / 100];
+    let (median, most) = (at(50), at(95));
+    println!("{} differences: median {median:.1e}, 95 % below {most:.1e}", differences.len());
+    assert!(median < 1e-6 && most < 1e-4, "{median:.1e}, {most:.1e}");
+}
+
 #[test]
 fn contacts_that_are_not_coupled_move_as_if_each_were_alone() {
     let model = rough(("brinell", "brinell"), 0.3);

@@ -11,8 +11,10 @@
 //! the next order this changes the mean force by `-h^2/12 K (a - W F)`, and by that the way by `h^3/12 W K rate`, with the
 //! stiffness `K` of each row. With the same `K` in both, the balance of work stays exact, whatever `K` is. A tangential force also
 //! grows with the indentation beside, and changes the way in the same manner; what both do together on the bent way is added to the work of
-//! friction. The mean forces are found by iteration, with the response of each turn to itself taken off: each turn reduces the
-//! error by the fourth power of `h omega/2` where the stiffness is known.
+//! friction.
+//!
+//! The mean forces are found by Newton's method, with the response of all rows to each other: a loss may stop a light body between two
+//! contacts in a thousandth of a chord.
 //!
 //! The springs keep what they passed on the bent way: two straight lines in place of a parabola (`tangential`).
 //!
@@ -29,7 +31,7 @@
 //! Reference: the mean force on a straight way is the average vector field, and its correction that of fourth order, of
 //! G. R. W. Quispel, D. I. McLaren, *J. Phys. A* 41 (2008) 045206.
 
-use super::gradients::{self, System, Unknown};
+use super::gradients::{self, SOLVED, System, Unknown};
 use super::inverse_masses::InverseMasses;
 use super::rest::STILL;
 use super::scales::{Scales, energy_of_load, stiffness_at};
@@ -72,11 +74,17 @@ const ENDS: u32 = 3;
 /// Largest growth of a chord.
 const GROWTH: f64 = 2.0;
 
-/// Largest number of iterations for the mean forces; each reduces the error by `(h omega/2)^2`.
+/// Largest number of iterations for the mean forces.
 const ITERATIONS: u32 = 16;
 
 /// Iterations after which the limits of springs no longer change.
 const TURNS: u32 = 2;
+
+/// The response of a force to itself that is none.
+const LOOSE: f64 = 1e-12;
+
+/// The part of its right side to which the system of an iteration is solved.
+const NEWTON: f64 = 1e-4;
 
 /// A change of a rate in an iteration that is rounding, relative to the largest rate.
 const CLOSE: f64 = 1e-13;
@@ -355,20 +363,34 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
         Ok((f64::INFINITY, 1.0))
     }
 
-    /// Takes the forces that were found for the next turn, less their response to themselves.
+    /// Takes the forces that were found for the next turn, less their response to themselves: a step of Newton's method.
+    ///
+    /// The forces are off by `x`, which moves the ways by `-h^2/2 W x`; by that the next ones differ by `-D h^2/2 W x`, with the `slope` `D` of
+    /// each row. What is to be added to the forces of this turn is therefore `res - z` with the difference `res` of those found and
+    /// taken, and `(2/h^2 D^-1 + W) z = W res`.
     fn improve(&mut self, time: f64) {
+        let half = 0.5 * time * time;
         for (_, member) in self.members_mut() {
-            member.rows_mut().iter_mut().for_each(|row| row.net = 0.0);
+            for row in member.rows_mut() {
+                (row.net, row.found) = (0.0, quotient(row.found - row.force, 1.0 + row.gives, row.gives >= 0.0, 0.0));
+            }
         }
-        self.respond(|row| row.found - row.force, |row| &mut row.net);
-        let sixth = time * time / 6.0;
+        self.respond(|row| -row.found, |row| &mut row.net);
         for (_, member) in self.members_mut() {
             let flies = member.flies;
-            let [Row { net: normal, .. }, ..] = member.rows;
             for row in member.rows_mut() {
-                let [own, beside] = row.stiffness;
-                let response = if flies { 0.0 } else { sixth * (own * row.net + beside * normal) };
-                row.force = row.found + response;
+                let stiff = half * row.slope;
+                let is_sought = !flies && stiff * row.inverse_mass > LOOSE;
+                let own = quotient(1.0 + row.gives, stiff, is_sought, 0.0);
+                row.solution = Unknown { own, ..Unknown::new(own + row.inverse_mass, row.net, is_sought) };
+            }
+        }
+        gradients::solve(self, NEWTON);
+        for (_, member) in self.members_mut() {
+            let [Row { net, solution, .. }, ..] = member.rows;
+            let normal = half * (net - solution.product);
+            for row in member.rows_mut() {
+                row.force += row.found - row.solution.number - row.slope_beside * normal;
             }
         }
     }
@@ -505,14 +527,10 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
         for (_, member) in self.members_mut() {
             let is_pressed = member.contact.plastic().force() > 0.0;
             for row in member.rows_mut() {
-                (row.start, row.found) = (row.force, row.net);
                 row.solution = Unknown::new(row.inverse_mass, side(row), is_pressed);
             }
         }
-        gradients::solve(self);
-        for (_, member) in self.members_mut() {
-            member.rows_mut().iter_mut().for_each(|row| (row.force, row.net) = (row.start, row.found));
-        }
+        gradients::solve(self, SOLVED);
     }
 
     /// Lets a block without any force fly, until the first contact touches or to the end of the step.
@@ -551,12 +569,10 @@ impl<M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> System for Chords<
     }
 
     fn multiply(&mut self) {
-        let every = |block: &mut Self, each: &dyn Fn(&mut Row)| {
-            block.members_mut().for_each(|(_, member)| member.rows_mut().iter_mut().for_each(each));
-        };
-        every(self, &|row| (row.force, row.net) = (row.solution.direction, 0.0));
-        self.respond(|row| row.force, |row| &mut row.net);
-        every(self, &|row| (row.solution.image, row.solution.reply) = (-row.net, -row.net));
+        self.visit(|unknown| unknown.image = 0.0);
+        // the response with its sign
+        self.respond(|row| -row.solution.direction, |row| &mut row.solution.image);
+        self.visit(|unknown| unknown.reply = unknown.own * unknown.direction + unknown.image);
     }
 }
 

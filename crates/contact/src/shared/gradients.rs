@@ -4,7 +4,7 @@ use crate::numbers::quotient;
 use libm::fabs;
 
 /// The part of the right side that a solution may leave.
-const SOLVED: f64 = 1e-13;
+pub(super) const SOLVED: f64 = 1e-13;
 
 /// The curvature in a direction, relative to that without couplings, below which the matrix is singular there.
 const SINGULAR: f64 = 1e-10;
@@ -21,8 +21,10 @@ pub(super) struct Unknown {
     pub direction: f64,
     /// The response of the bodies to the direction: `W` times it.
     pub image: f64,
-    /// The matrix `A` times the direction.
+    /// The matrix `A` times the direction: the image, and the direction times what is added to the diagonal.
     pub reply: f64,
+    /// What the diagonal has beyond the response of the bodies; zero unless set.
+    pub own: f64,
     /// The diagonal of the matrix.
     pub diagonal: f64,
     /// Whether the number is sought.
@@ -53,14 +55,14 @@ pub(super) trait System {
     fn multiply(&mut self);
 }
 
-/// Solves a system whose unknowns are [new](Unknown::new).
-pub(super) fn solve(system: &mut impl System) {
+/// Solves a system whose unknowns are [new](Unknown::new), up to this `part` of the right side.
+pub(super) fn solve(system: &mut impl System, part: f64) {
     let (mut count, mut left) = (0_u32, 0.0);
     system.visit(|unknown| {
         count = count.saturating_add(1);
         left += unknown.residual * unknown.step();
     });
-    let enough = SOLVED * SOLVED * left;
+    let enough = part * part * left;
     // rounding may make it need more steps than there are unknowns
     for _ in 0..count.saturating_mul(4) {
         if left <= enough {

@@ -7,7 +7,7 @@
 use super::SharedContact;
 use super::block::{Block, present_stiffness};
 use super::branch::Kind;
-use super::gradients::{self, System, Unknown};
+use super::gradients::{self, SOLVED, System, Unknown};
 use super::step::accelerate;
 use super::work::{Instant, Work};
 use crate::numbers::{largest, quotient};
@@ -137,7 +137,7 @@ impl<C: SharedContact<M>, M, B: Borrow<M>, F: Fn(usize) -> B> Block<'_, C, M, B,
             let is_sought = member.branch.kind != Kind::Apart;
             member.solution = Unknown::new(member.inverse_mass * factor, side(member), is_sought);
         }
-        gradients::solve(&mut Balance { block: self, by_stiffness });
+        gradients::solve(&mut Balance { block: self, by_stiffness }, SOLVED);
     }
 }
 

@@ -77,6 +77,11 @@ pub struct Row {
     pub(crate) way: f64,
     /// Mean force on this way \[N\].
     pub(crate) found: f64,
+    /// How the force that is found grows with the way, and with that of the normal \[N/m\].
+    pub(crate) slope: f64,
+    pub(crate) slope_beside: f64,
+    /// Of a target that gives way: how its force falls with the one that it gives way to.
+    pub(crate) gives: f64,
     /// Of the normal: the force with its loss as a part of the elastic one, and whether it is known.
     pub(crate) share: f64,
     pub(crate) knows_share: bool,
@@ -117,7 +122,8 @@ impl Row {
     /// Sets what no force needs.
     pub(super) fn loosen(&mut self) {
         let (stiffness, found, most, beside, work_beside) = ([0.0; 2], 0.0, 0.0, 0.0, 0.0);
-        *self = Row { stiffness, found, most, beside, work_beside, ..*self };
+        let (slope, slope_beside, gives) = (0.0, 0.0, 0.0);
+        *self = Row { stiffness, found, most, beside, work_beside, slope, slope_beside, gives, ..*self };
     }
 
     /// The mean force of the next chord, of this `time` \[s\], if the force goes on along a parabola \[N\].

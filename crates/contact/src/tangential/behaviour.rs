@@ -93,7 +93,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
                 }
                 Some(_) => {
                     let (force, time) = (moved.normal.force(course.rate), end - start);
-                    moved.go_with_loss(model, (increment, slip), (0.0, [0.0; D]), (force, time), None)?.1
+                    moved.go_with_loss(model, (increment, slip), (0.0, [0.0; D]), (force, time), None)?.tangential
                 }
             };
             impulse = add(impulse, end - start, mean);

@@ -292,6 +292,28 @@ impl Straight {
         }
     }
 
+    /// The rate at which a target gives way per force \[m/(N.s)\].
+    pub fn giving(&self) -> f64 {
+        self.damping.retreat(1.0)
+    }
+
+    /// How the mean `force` \[N\] grows with the way of the bodies, if its `elastic` part \[N\] grows by `slope` \[N/m\].
+    pub fn slope(&self, slope: f64, elastic: f64, ends: [&History; 2], force: f64) -> f64 {
+        let Straight { damping, increment, time, .. } = *self;
+        let rate = increment / time;
+        match damping.form {
+            _ if force <= 0.0 => 0.0,
+            Form::Viscous(growth) => {
+                let [start, end] = ends.map(|it| growth.times(damping.factor, it.indentation(), || it.stiffness()));
+                slope + 0.5 * (start + end) / time
+            }
+            // the fastest motion determines its own scale
+            Form::Proportional if fabs(rate) >= damping.swiftest => slope * damping.gain(rate),
+            Form::Proportional => slope * damping.gain(rate) + self.tangential(elastic) / time,
+            Form::Mobility => slope,
+        }
+    }
+
     /// The largest speed since the contact began \[m/s\], and the heat \[J\] for the mean force and its `elastic` part \[N\].
     pub fn lost(&self, force: f64, elastic: f64) -> (f64, f64) {
         (self.damping.swiftest, force * self.way - elastic * self.increment)

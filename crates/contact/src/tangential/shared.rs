@@ -2,7 +2,7 @@
 
 use super::contact::share_of;
 use super::normal::Straight;
-use super::vector::{add, times, within};
+use super::vector::{add, direction, length, times, within};
 use super::{Friction, Mean, Normal, Rough, RoughModel};
 use crate::Model;
 use crate::behaviour::Contact;
@@ -96,15 +96,19 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
             (*slip, *change) = (row.way, time * row.net);
         }
         let share = if normal.knows_share { Some(normal.share) } else { None };
-        let (mean, mut tangential) =
+        let Gone { normal: mean, mut tangential, slopes: [slope, along], gives } =
             self.go_with_loss(model, (normal.way, slip), (time * normal.net, changes), (normal.force(), time), share)?;
         normal.share = self.share;
-        normal.found = mean;
+        (normal.found, normal.slope, normal.gives) = (mean, slope, gives);
         tangential.iter_mut().zip(&*tangents).for_each(|(mean, row)| *mean -= row.beside);
         // with the normal force on the curved way
         let most = largest(model.friction.coefficient * normal.force(), 0.0);
-        for ((row, mean), slip) in tangents.iter_mut().zip(within(tangential, most)).zip(slip) {
+        let is_bound = length(tangential) >= (1.0 - BOUND) * most;
+        let edge = direction(tangential);
+        for (((row, mean), slip), edge) in tangents.iter_mut().zip(within(tangential, most)).zip(slip).zip(edge) {
             (row.found, row.most) = (mean, most);
+            (row.slope, row.slope_beside) =
+                if is_bound { (0.0, model.friction.coefficient * slope * edge) } else { (along, 0.0) };
             self.work = self.work.plus(mean * slip + row.work_beside);
         }
         Ok(())
@@ -117,6 +121,24 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
             *mean = row.impulse() / step;
         }
     }
+}
+
+/// A sum of tangential forces that is at Coulomb's bound, as a part of it.
+const BOUND: f64 = 1e-9;
+
+/// An increment that is no rounding, as a part of the indentation.
+const FAR: f64 = 1e-6;
+
+/// What a short straight way has found.
+pub(super) struct Gone<const D: usize> {
+    /// Mean normal force \[N\].
+    normal: f64,
+    /// Mean tangential forces \[N\].
+    pub tangential: [f64; D],
+    /// How both grow with their ways \[N/m\].
+    slopes: [f64; 2],
+    /// How the normal force of a target that gives way falls with the one that it gives way to.
+    gives: f64,
 }
 
 impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
@@ -133,7 +155,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         (change, changes): (f64, [f64; D]),
         (force, time): (f64, f64),
         share: Option<f64>,
-    ) -> Result<(f64, [f64; D]), TooDeep> {
+    ) -> Result<Gone<D>, TooDeep> {
         let before = *self.normal();
         let straight = self.normal.loss().map(|loss| Straight::new(&loss, way, force, time, before.force() == 0.0));
         let increment = straight.as_ref().map_or(way, |straight| straight.increment);
@@ -141,14 +163,22 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         let from = before.indentation();
         self.normal.plastic_mut().advance(&model.normal, increment)?;
         let (mut normal, mut damping, mut rise) = (elastic, 0.0, 0.0);
+        let after = *self.normal();
+        let stiffness = 0.5 * (before.stiffness() + after.stiffness());
+        let is_far = fabs(increment) > FAR * fabs(after.indentation());
+        let mut slope = quotient(after.force() - elastic, increment, is_far, 0.5 * stiffness);
+        let mut gives = 0.0;
         if let Some(straight) = &straight {
             normal = straight.force(elastic, [&before, self.normal()], change);
+            gives = time * slope * straight.giving();
+            slope = straight.slope(slope, elastic, [&before, self.normal()], normal);
             let (swiftest, heat) = straight.lost(normal, elastic);
             self.normal.lose(&model.normal, &model.loss, swiftest, heat)?;
             [damping, rise] = [elastic, (self.normal().force() - before.force()) / 12.0]
                 .map(|force| model.friction.stiffness_ratio * straight.tangential(force));
             self.share_limits(from, share.unwrap_or_else(|| share_of(normal, elastic)));
         }
+        let stick = self.springs.stiffnesses(from).0;
         let springs_model = RoughModel { friction: self.friction(model), ..*model };
         let to = self.normal().indentation();
         // at half of the time, both ways are behind by an eighth of what the rates change; half of the indentation is done later
@@ -158,7 +188,9 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
         if straight.is_some() {
             mean = add(add(mean, damping, slip.map(|slip| slip / time)), rise, changes);
         }
+        let along = 0.5 * model.friction.stiffness_ratio * stick + damping / time;
         // the mean of both ends may be beyond the bound
-        Ok((normal, within(mean, model.friction.coefficient * normal)))
+        let tangential = within(mean, model.friction.coefficient * normal);
+        Ok(Gone { normal, tangential, slopes: [slope, along], gives })
     }
 }
