@@ -11,7 +11,6 @@ mod own_data;
 mod plates;
 mod report;
 mod report_page;
-mod report_peers;
 mod rods;
 mod sentences;
 mod strangers;
