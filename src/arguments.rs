@@ -63,7 +63,7 @@ pub enum Command {
     Hardness(hardness::Arguments),
     /// Draw or tabulate one cycle of loading, unloading and reloading
     Curve(curve::Arguments),
-    /// Measure the FMU of a scene: errors, run times, stability, laws; on one page
+    /// Measure the FMU of a scene: errors, run times, stability; on one page
     Report(report::Arguments),
     /// List the laws with their error against finite elements, or show one law
     Laws(law_list::Arguments),

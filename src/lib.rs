@@ -69,7 +69,6 @@ pub mod parts {
     pub use crate::prebuilt::folder::PrebuiltFolder;
     pub use crate::report::card::{facts, readings};
     pub use crate::temporary::{ABANDONED, DRAFT, LOCKED, PrivateFolder, draft_in};
-    pub use crate::truth::impacts;
 }
 
 /// Runs the command line of this process.

@@ -44,7 +44,7 @@ pub fn of(lines: &[Line], limits: &[Limit]) -> Vec<Choice> {
             largest_stable_step: limit.map_or("none".into(), Limit::words),
         }
     };
-    let mut choices: Vec<Choice> = lines.iter().filter(|line| !line.is_peer).map(row).collect();
+    let mut choices: Vec<Choice> = lines.iter().map(row).collect();
     for master in [Master::Serial, Master::Parallel] {
         let time = |choice: &Choice| choice.one_percent.as_ref().map_or(f64::INFINITY, |point| point.run_time);
         let candidates = choices.iter_mut().filter(|choice| choice.algorithm == master && choice.one_percent.is_some());

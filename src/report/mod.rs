@@ -4,9 +4,6 @@
 pub mod card;
 mod choice;
 mod extremes;
-mod laws;
-mod oblique;
-mod peer;
 mod precision;
 mod stability;
 mod units;
@@ -30,10 +27,8 @@ use brinell_exporter::predict::{beyond, spread};
 use brinell_exporter::scene::Scene;
 use brinell_exporter::validity;
 use card::Fact;
-use laws::Laws;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, context};
-use peer::Peer;
 use serde::Serialize;
 use serde_json::json;
 use stability::Stability;
@@ -49,8 +44,6 @@ pub enum ReportError {
     Export(#[from] ExportError),
     #[error("the unit of the report: {0}")]
     Import(#[from] ImportError),
-    #[error("the other unit {}: {reason}", shown(path))]
-    Peer { path: PathBuf, reason: String },
     #[error("{0}")]
     File(#[from] FileError),
 }
@@ -64,24 +57,21 @@ pub struct Arguments {
     /// The folder for the page and its data [default: NAME_report in the current folder]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Another FMU with the same variables, for the same pictures; can be repeated
-    #[arg(long, value_name = "FMU")]
-    pub peer: Vec<PathBuf>,
     /// Use fewer steps and shorter runs
     #[arg(long)]
     pub quick: bool,
 }
 
-/// The command: measures the FMU of the scene and the other ones, and writes the page. Returns whether all cases passed.
+/// The command: measures the FMU of the scene, and writes the page. Returns whether all cases passed.
 ///
 /// # Errors
 /// [`ReportError`], or an error of the scene or of the arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, Box<dyn Error>> {
-    let Arguments { scene, output, peer, quick } = arguments;
+    let Arguments { scene, output, quick } = arguments;
     let scene = scene_file::read_aloud(scene)?;
     let folder = output.clone().unwrap_or_else(|| format!("{}_report", scene.name).into());
     files::check_folder(&folder)?;
-    let (report, figures) = Report::of(&scene, peer, *quick)?;
+    let (report, figures) = Report::of(&scene, *quick)?;
     let page = report.write_into(&folder, &figures)?;
     if as_json {
         print!("{}", json_line(&report));
@@ -107,18 +97,10 @@ struct Report {
     #[serde(flatten)]
     stability: Stability,
     extremes: Vec<extremes::Case>,
-    #[serde(flatten)]
-    laws: Laws,
-    /// The names of the other FMUs.
-    peers: Vec<String>,
-    #[serde(flatten)]
-    oblique: Option<oblique::Oblique>,
 }
 
 /// The impact of the runs, and how it is run.
 struct Runs<'a> {
-    /// Name of the scene.
-    name: &'a str,
     impact: Impact,
     prediction: Prediction,
     /// The largest stiffness of the impact: that of the unloading at the largest indentation [N/m].
@@ -183,20 +165,18 @@ impl Figure {
 type Figures = BTreeMap<&'static str, Vec<Figure>>;
 
 impl Report {
-    /// Measures the first contact of `scene`, and the other FMUs at `peers`.
+    /// Measures the first contact of `scene`.
     ///
     /// # Errors
     /// [`ReportError`] if an FMU can't be built or loaded, or rejects an ordinary impact.
-    fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<(Report, Figures), ReportError> {
-        let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
+    fn of(scene: &Scene, quick: bool) -> Result<(Report, Figures), ReportError> {
         let alone = units::first_contact(scene, Needs::Force);
         let (model, impact, prediction) = (alone.any_model(), alone.impact, alone.predictions[0]);
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
         let progress = &Progress::new();
         let follows_rate = scene.is_rate_dependent();
         let stiffness = model.stiffness(prediction.max_indentation);
-        let name = &scene.name;
-        let runs = Runs { name, impact, prediction, stiffness, most, phases, follows_rate, progress };
+        let runs = Runs { impact, prediction, stiffness, most, phases, follows_rate, progress };
         let units = units::build(scene, progress)?;
         let mut contacts = BTreeMap::new();
         for (needs, (unit, archive)) in &units {
@@ -205,28 +185,20 @@ impl Report {
         let (mut lines, mut stability) = (Vec::new(), Stability::default());
         for way in &WAYS {
             if let Some(contact) = contacts.get_mut(&way.needs) {
-                lines.push(precision::measure(&runs, contact, way, None)?);
+                lines.push(precision::measure(&runs, contact, way)?);
                 stability.measure(&runs, contact, way)?;
             }
         }
-        for peer in &peers {
-            lines.extend(peer.measure(&alone, &runs)?);
-        }
         let plain = contacts.get_mut(&Needs::Force).expect("every report has the FMU with its force alone");
         let extremes = extremes::measure(plain, &alone, quick, progress);
-        // the FMU with friction has no other mass or law
-        let oblique = oblique::measure(scene, contacts.get_mut(&Needs::Friction), most, progress)?;
-        progress.say("laws side by side");
-        let laws = Laws::of(&alone);
         let figures = BTreeMap::from([
             ("card", card::figures(&alone)),
             ("precision", precision::figures(&lines)),
             ("stability", vec![stability.figure()]),
-            ("oblique", oblique.iter().map(oblique::Oblique::figure).collect()),
         ]);
         let ways = choice::of(&lines, &stability.limits);
         let ratio = prediction.max_contact_radius / model.pair().radius;
-        let mut law = laws.verdict();
+        let mut law = Vec::new();
         if matches!(model, AnyModel::Elastoplastic(_)) {
             let relation = if ratio > LARGEST_RADIUS_RATIO { "above" } else { "within" };
             law.push(format!(
@@ -240,7 +212,6 @@ impl Report {
         let warnings = beyond(&alone, &model.pair(), impact.speed, &prediction, &[]).into_iter().map(validity::words);
         let mut coupling = choice::sentences(&ways);
         coupling.extend(stability.sentence());
-        coupling.extend(oblique.as_ref().and_then(|oblique| oblique.advice.clone()));
         coupling.extend((scene.contact_count() > 1).then(|| NOT_FOR_SEVERAL.to_string()));
         let impact = json!({
             "largest_force_N": prediction.max_force,
@@ -267,9 +238,6 @@ impl Report {
             stiffness,
             stability,
             extremes,
-            laws,
-            peers: peers.iter().map(|peer| peer.name.clone()).collect(),
-            oblique,
         };
         Ok((report, figures))
     }

@@ -11,8 +11,7 @@ use std::time::Instant;
 /// The range of steps per contact for the fit of the order: large steps and rounding do not affect it.
 const FITTED: std::ops::RangeInclusive<u32> = 16..=512;
 
-/// Largest ratio of the errors with a halved and a full step for an error that follows a power of the step. The error
-/// of another FMU may converge to the difference of its law instead.
+/// Largest ratio of the errors with a halved and a full step for an error that follows a power of the step.
 const LEAST_FALL: f64 = 0.75;
 
 /// Errors below this are rounding.
@@ -22,7 +21,6 @@ const ROUNDING: f64 = 1e-11;
 /// over the phases.
 #[derive(Clone, Serialize)]
 pub struct Point {
-    unit: String,
     way: &'static str,
     #[serde(rename = "steps_per_contact")]
     pub steps: u32,
@@ -32,7 +30,7 @@ pub struct Point {
     pub restitution: f64,
     #[serde(rename = "error_of_largest_force")]
     max_force: f64,
-    /// NaN for an elastic contact, and for an FMU without this output.
+    /// NaN for an elastic contact.
     #[serde(rename = "error_of_dent")]
     dent: f64,
     /// NaN if there is no value.
@@ -47,16 +45,13 @@ pub struct Point {
 
 /// One way to couple an FMU for increasing numbers of steps per contact.
 pub struct Line {
-    unit: String,
     pub way: &'static Way,
-    pub is_peer: bool,
     pub points: Vec<Point>,
 }
 
 /// The order of the error of restitution in the step.
 #[derive(Serialize)]
 pub struct Order {
-    unit: String,
     way: &'static str,
     /// `None` if the error is rounding, or doesn't fall.
     order: Option<f64>,
@@ -67,19 +62,17 @@ pub fn doubled(fewest: u32, most: u32) -> impl Iterator<Item = u32> {
     std::iter::successors(Some(fewest), |steps| Some(2 * steps)).take_while(move |steps| *steps <= most)
 }
 
-/// Runs `way` with 2 steps per contact and more; `peer` is the name of another FMU.
+/// Runs `way` with 2 steps per contact and more.
 ///
 /// # Errors
 /// [`ImportError`] if the FMU rejects a call.
-pub fn measure(runs: &Runs, contact: &mut Contact, way: &'static Way, peer: Option<&str>) -> Result<Line, ImportError> {
+pub fn measure(runs: &Runs, contact: &mut Contact, way: &'static Way) -> Result<Line, ImportError> {
     runs.progress.say(&format!("error against run time: {}", way.name));
-    let unit = peer.unwrap_or(runs.name);
-    let points = doubled(2, runs.most).map(|steps| point(runs, contact, unit, way, steps));
-    let points = points.collect::<Result<_, _>>()?;
-    Ok(Line { unit: unit.into(), way, is_peer: peer.is_some(), points })
+    let points = doubled(2, runs.most).map(|steps| point(runs, contact, way, steps)).collect::<Result<_, _>>()?;
+    Ok(Line { way, points })
 }
 
-fn point(runs: &Runs, contact: &mut Contact, unit: &str, way: &Way, steps: u32) -> Result<Point, ImportError> {
+fn point(runs: &Runs, contact: &mut Contact, way: &Way, steps: u32) -> Result<Point, ImportError> {
     let Runs { impact, prediction, .. } = runs;
     let step = prediction.contact_time() / f64::from(steps);
     // sums of squared errors of restitution, force, dent and contact time
@@ -105,14 +98,14 @@ fn point(runs: &Runs, contact: &mut Contact, unit: &str, way: &Way, steps: u32) 
     }
     let count = f64::from(runs.phases);
     let [restitution, max_force, dent, contact_time] = squares.map(|sum: f64| (sum / count).sqrt());
-    let (unit, way, calls) = (unit.into(), way.name, calls as f64 / count);
-    Ok(Point { unit, way, steps, step, restitution, max_force, dent, contact_time, calls, run_time })
+    let (way, calls) = (way.name, calls as f64 / count);
+    Ok(Point { way, steps, step, restitution, max_force, dent, contact_time, calls, run_time })
 }
 
 impl Line {
     /// The slope of log(error) over log(step), by least squares.
     pub fn order(&self) -> Order {
-        Order { unit: self.unit.clone(), way: self.way.name, order: slope(&self.points) }
+        Order { way: self.way.name, order: slope(&self.points) }
     }
 
     /// The largest step from which on the error of restitution stays below `error`.
@@ -155,9 +148,8 @@ pub fn figures(lines: &[Line]) -> Vec<Figure> {
         // an error of zero is below all decades too
         let drawn = |y: f64| if y == 0.0 { f64::MIN_POSITIVE } else { y };
         let series = lines.iter().map(|line| {
-            let Line { unit, way, is_peer, points } = line;
-            let label = if *is_peer { format!("{unit}: {}", way.name) } else { way.name.into() };
-            Series::line(label, points.iter().map(|point| (x(point), drawn(y(point)))))
+            let Line { way, points } = line;
+            Series::line(way.name, points.iter().map(|point| (x(point), drawn(y(point)))))
         });
         let picture = Picture::new((x_title, y_title), (true, true), series.collect());
         let known = picture.series.iter().flat_map(|series| &series.points).any(|point| point.1 > 0.0);

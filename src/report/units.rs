@@ -19,13 +19,11 @@ const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_e
 /// friction can't know the mass either.
 fn kinds(scene: &Scene) -> Vec<Needs> {
     let (damped, friction) = (scene.is_rate_dependent(), scene.has_friction());
-    let mut all =
-        vec![Needs::Force, Needs::PredictedForce, Needs::MeanForce, Needs::Mass, Needs::LateMass, Needs::Friction];
+    let mut all = vec![Needs::Force, Needs::PredictedForce, Needs::MeanForce, Needs::Mass, Needs::LateMass];
     all.retain(|needs| match needs {
         Needs::Force | Needs::PredictedForce => true,
         Needs::MeanForce => !damped,
         Needs::Mass | Needs::LateMass => !damped && !friction,
-        Needs::Friction => !damped && friction,
     });
     all
 }
@@ -58,18 +56,15 @@ pub fn build(scene: &Scene, progress: &Progress) -> Result<BTreeMap<Needs, (Unit
 /// The first contact of `scene` alone, for a kind of coupling; all its parameters can be set.
 pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
     let mass = needs.knows_mass().then_some(scene.impact_of(0).mass);
-    // the other ways move bodies along the normal only
-    let friction = needs == Needs::Friction;
     let more: &[&str] = match needs {
         Needs::Force => &[],
         Needs::PredictedForce => &["predicted_force"],
         Needs::MeanForce | Needs::Mass => &["mean_force"],
         Needs::LateMass => &["mean_force", "closing_speed"],
-        Needs::Friction => &["tangential_force"],
     };
     let mut parameters: Vec<Parameter> = Vec::new();
-    // in the order of the table, like the parameters of every scene
-    for variable in VARIABLES.iter().filter(|variable| friction || !variable.friction) {
+    // in the order of the table, like the parameters of every scene; the bodies move along the normal only
+    for variable in VARIABLES.iter().filter(|variable| !variable.friction) {
         let is_it = |parameter: &&Parameter| parameter.name == variable.name;
         let found = scene.contacts[0].own.iter().find(is_it).or(scene.parameters.iter().find(is_it));
         parameters.extend(found.map(|found| Parameter::shared(found.name, found.value, true)));
@@ -88,7 +83,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
         inverse_masses: None,
         meeting: None,
-        directions: usize::from(friction),
+        directions: 0,
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],
         input_derivatives: true,

@@ -12,7 +12,6 @@ mod parts;
 mod plates;
 mod report;
 mod report_page;
-mod report_peers;
 mod rods;
 mod sentences;
 mod strangers;

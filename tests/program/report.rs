@@ -2,8 +2,6 @@
 
 mod coupling;
 mod extremes;
-mod laws;
-mod oblique;
 
 use crate::command::{contents, empty_folder, run, scene};
 use serde_json::Value;
@@ -89,8 +87,8 @@ fn the_page_has_every_row_of_the_data() {
     let (folder, data) = &*DEFAULT;
     let page = fs::read_to_string(folder.path().join("report/index.html")).expect("a page");
     let shown = page.matches("<tr>").count() + page.matches("<tr class=\"best\">").count();
-    // six tables have a head, and the scene and the outcome a row for each fact
-    let tables = ["precision", "orders", "limits", "stability", "extremes", "spread"];
+    // five tables have a head, and the scene and the outcome a row for each fact
+    let tables = ["precision", "orders", "limits", "stability", "extremes"];
     let facts = ["bodies", "outcome"].map(|facts| data["summary"][facts].as_array().expect("a list").len());
     let ways = data["use"]["ways"].as_array().expect("a list").len() + 1;
     let expected: usize = tables.map(|table| rows(data, table).len() + 1).into_iter().chain(facts).sum();

@@ -83,8 +83,6 @@ pub enum Needs {
     Mass,
     /// The mass as a parameter, with the force applied one step late.
     LateMass,
-    /// Friction.
-    Friction,
 }
 
 /// Co-simulation algorithms.

@@ -147,6 +147,9 @@ impl Mistake {
     }
 }
 
+/// Positive and finite.
+pub const POSITIVE: RangeInclusive<f64> = f64::MIN_POSITIVE..=f64::MAX;
+
 /// Rejects a value with this name and unit unless it is `allowed`. `owner` precedes the name in the message.
 pub fn check_range(
     (name, unit): (&str, &str),
@@ -154,6 +157,9 @@ pub fn check_range(
     value: &Spanned<f64>,
     allowed: RangeInclusive<f64>,
 ) -> Result<(), Mistake> {
+    if allowed == POSITIVE {
+        return positive(&format!("{owner}{name}"), value).map(drop);
+    }
     if allowed.contains(value.get_ref()) {
         return Ok(());
     }

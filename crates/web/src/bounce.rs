@@ -178,7 +178,7 @@ fn edited(asked: &Asked, scene: &Scene, way: &Way) -> Result<String, Refused> {
         let outputs: &[&str] = match way.needs {
             Needs::PredictedForce => &["predicted_force"],
             Needs::MeanForce | Needs::Mass | Needs::LateMass => &["mean_force"],
-            Needs::Force | Needs::Friction => &[],
+            Needs::Force => &[],
         };
         edits.extend([Edit::of(&["fmu", "outputs"], json!(outputs)), Edit::of(&["fmu", "parameters"], Value::Null)]);
         if way.needs.knows_mass() {

@@ -2,7 +2,6 @@
 
 mod caches;
 mod card;
-mod finite_elements;
 mod hostile_fmus;
 mod installed;
 mod libm;

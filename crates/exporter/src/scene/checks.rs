@@ -4,17 +4,17 @@ use super::Scene;
 use super::beside;
 use super::bodies::{self, Body, Both};
 use super::contacts::{Contacts, Group, Parameter};
-use super::cylinders;
+use super::cylinders::{self, Cylinders};
 use super::file::{BodyTable, ImpactTable, NamesName, SceneFile};
-use super::fmu::{self, check_input_derivatives, check_outputs, check_text, choose_settable};
+use super::fmu::{self, check_outputs, check_text, choose_settable};
 use super::friction;
 use super::laws::{self, SceneLaws};
-use super::losses::{self, Loss};
+use super::losses::Loss;
 use super::names::check_name;
 use super::quantities::check_quantity;
 use super::shared_bodies;
+use crate::mistake::Mistake;
 use crate::mistake::Spanned;
-use crate::mistake::{Mistake, positive};
 use crate::model::{check_energy, speed_of_height};
 use crate::numbers::in_message;
 use crate::predict::check_width;
@@ -30,14 +30,17 @@ use std::ops::Range;
 ///
 /// # Errors
 /// The first mistake.
-pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
+pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     let name = check_name(&file.name)?;
     let description = check_text("description", file.description.as_ref())?;
     let author = check_text("author", file.author.as_ref())?;
+    if let Some(mistake) = file.broken.take() {
+        return Err(mistake);
+    }
     let (step_size, stop_time) = fmu::check_experiment(&file.fmu)?;
     let mut contacts = Contacts::of(&file)?;
     let no_table = BodyTable::default();
-    let cylinders = cylinders::check(&file, &no_table, &contacts)?;
+    let cylinders = Cylinders::of(&file, &no_table, &contacts)?;
     let laws = SceneLaws::of(&file.law, &contacts, cylinders.is_some())?;
     let SceneLaws { damped, loading, unloading, passivity_guard } = laws;
     if laws.takes_both_bodies() {
@@ -47,24 +50,12 @@ pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     if laws.has_no_strength() {
         contacts.forget_strength();
     }
-    let loss = losses::check(&file, &contacts, laws.damped_name())?;
+    let loss = Loss::of(&file)?;
     let damps_by_mass = damped.filter(|(_, law)| law.needs_mass()).map(|(name, _)| name);
-    let (inverse_masses, meeting) = shared_bodies::check(&file, damps_by_mass)?;
-    let (coupling, known_mass) = fmu::check_coupling(file.coupling.as_ref(), damps_by_mass, inverse_masses.is_some())?;
-    let beside = friction::BesideFriction {
-        damped: laws.damped_name(),
-        unloading: unloading.map(|(name, _)| name),
-        passivity_guard,
-        has_loss: loss.is_some(),
-        knows_mass: coupling.is_some() && inverse_masses.is_none(),
-        shares_bodies: inverse_masses.is_some(),
-    };
-    let directions = friction::check(file.friction.as_ref(), &beside)?;
+    let directions = friction::check(file.friction.as_ref(), unloading.map(|(name, _)| name))?;
     let friction = directions > 0;
-    contacts.check_friction()?;
-    let follows_rate = damped.is_some() || loss.is_some();
-    let input_derivatives =
-        check_input_derivatives(file.fmu.input_derivatives.as_ref(), coupling.is_some(), follows_rate)?;
+    let (inverse_masses, meeting) = shared_bodies::check(&file, directions)?;
+    let (coupling, known_mass) = fmu::check_coupling(file.coupling.as_ref(), inverse_masses.is_some())?;
     let shared_mass =
         inverse_masses.as_ref().and_then(|masses| masses.effective_mass(0, contacts.count() * (1 + directions)));
     let impact_mass = known_mass.clone().or(shared_mass.map(|mass| Spanned::new(0..0, mass)));
@@ -73,13 +64,11 @@ pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let span = file.impact.as_ref().and_then(|table| Some(table.get_ref().mass.as_ref()?.span()));
     let mass = known_mass.or(damps_by_mass.map(|_| Spanned::new(span.unwrap_or(0..0), impact.mass)));
-    contacts.check_masses(mass.is_some())?;
     let mass_is_input = coupling.is_some_and(|coupling| coupling.mass_input);
     let numbers = [("restitution", file.law.restitution.clone()), ("effective_mass", mass)];
     let (parameters, groups) = check_parameters(&contacts, loss, numbers, mass_is_input)?;
     let shared = inverse_masses.is_some();
-    let has = fmu::Has { mass: coupling.is_some(), shared_bodies: shared, friction };
-    let mut outputs = check_outputs(&file.fmu.outputs, &has)?;
+    let mut outputs = check_outputs(&file.fmu.outputs)?;
     // without them such an FMU is useless
     let needed = [
         (coupling.is_some(), "mean_force"),
@@ -122,7 +111,7 @@ pub fn check(file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
             && damped.is_none()
             && loss.is_none()
             && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
-        input_derivatives,
+        input_derivatives: file.fmu.input_derivatives != Some(false),
         // a name with an index is a structured one
         structured_names: directions > 1
             || file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
@@ -169,7 +158,7 @@ fn check_parameters(
         parameters.push(Parameter::shared(name, *value.get_ref(), !is_input(name)));
     }
     groups.iter_mut().flat_map(|group| &mut group.own).for_each(|own| own.settable = !is_input(own.name));
-    contacts.divide(&parameters, &mut groups, is_input)?;
+    contacts.divide(&parameters, &mut groups)?;
     // a value that every contact has for itself is not shared
     parameters.retain(|shared| !groups.iter().all(|group| group.own.iter().any(|own| own.name == shared.name)));
     parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
@@ -231,18 +220,8 @@ fn check_impact(
         return Ok(Impact { mass, speed: 1.0 });
     };
     let ImpactTable { mass, speed, drop_height, .. } = table.get_ref();
-    let speed = match (speed, drop_height) {
-        (Some(speed), None) => positive("impact.speed", speed)?,
-        (None, Some(height)) => speed_of_height(positive("impact.drop_height", height)?),
-        (None, None) => {
-            let message = "missing field `speed` in [impact], or `drop_height`";
-            return Err(Mistake(table.span(), message.into()));
-        }
-        (Some(_), Some(height)) => {
-            let message = "impact.speed and impact.drop_height determine each other: give one of them";
-            return Err(Mistake(height.span(), message.into()));
-        }
-    };
+    let height = || drop_height.as_ref().map_or(f64::NAN, |height| *height.get_ref());
+    let speed = speed.as_ref().map_or_else(|| speed_of_height(height()), |speed| *speed.get_ref());
     let Some(given) = mass else {
         let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(Body::Impactor.density()).map(solid)).ok_or_else(|| {
             let message = "missing field `mass` in [impact]: give it, or the density or material of [impactor], which is then \
@@ -251,7 +230,7 @@ fn check_impact(
         })?;
         return Ok(Impact { mass, speed });
     };
-    let mass = positive("impact.mass", given)?;
+    let mass = *given.get_ref();
     if let Some(known) = known.map(Spanned::get_ref).filter(|known| **known != mass) {
         let [mass, known] = [mass, *known].map(in_message);
         let message = format!("impact.mass = {mass} and coupling.effective_mass = {known} must be the same mass");

@@ -13,7 +13,6 @@ use crate::measured::{MeasuredStrength, STEEL_RATE};
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::nearest::{one_of, unknown};
-use crate::numbers::in_message;
 use crate::rods::Rod;
 use crate::table::{self, MATERIALS, VARIABLES};
 use brinell_contact::Surface;
@@ -340,7 +339,6 @@ fn contacts_of(file: &SceneFile, surface: Surface, above: &Above) -> Result<Vec<
             return Err(Mistake(span, message));
         }
         let bodies = Both { impactor, target };
-        Body::ALL.iter().try_for_each(|body| check_own(&text, *body, bodies.of(*body)))?;
         let others = [
             (MASS, effective_mass.as_ref()),
             ("initial_gap", initial_gap.as_ref()),
@@ -364,25 +362,6 @@ fn flows_of(bodies: &Both<&BodyTable>, own: &Numbers, above: &Above) -> Result<F
         let moduli = [body.youngs_modulus(), body.poissons_ratio()].map(|name| own.get(name));
         Ok(strength::flow_of(body, table, &above.elastic(body, table, moduli)?)?.map(Arc::new))
     })
-}
-
-/// The keys of bodies that no contact has for itself.
-pub const OF_ALL_CONTACTS: [&str; 5] = ["rate", "plate_thickness", "shape", "thickness", "base"];
-
-/// Rejects keys in a `body` of the contact `name` that apply to all contacts.
-fn check_own(name: &str, body: Body, table: &BodyTable) -> Result<(), Mistake> {
-    let spans = [
-        table.rate.as_ref().map(Spanned::span),
-        table.plate_thickness.as_ref().map(Spanned::span),
-        table.shape.as_ref().map(Spanned::span),
-        table.thickness.as_ref().map(Spanned::span),
-        table.base.as_ref().map(Spanned::span),
-    ];
-    let Some((key, span)) = OF_ALL_CONTACTS.into_iter().zip(spans).find_map(|(key, span)| Some((key, span?))) else {
-        return Ok(());
-    };
-    let body = body.name();
-    Err(Mistake(span, format!("contact `{name}`: {body}.{key} belongs to [{body}], for all contacts")))
 }
 
 /// The beginnings of the names of variables.
@@ -423,7 +402,7 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// The contacts of the scene `file`, all of them complete.
+    /// The contacts of the scene `file`, which the rules have found complete.
     pub fn of(file: &SceneFile) -> Result<Contacts, Mistake> {
         let none = BodyTable::default();
         let bodies = Both {
@@ -446,16 +425,7 @@ impl Contacts {
         let has_no_rate = share_bodies || cylinders::is_line(file);
         let mut contacts = Contacts { shared, flows, rates: Both::default(), all };
         contacts.rates = Both::try_each(|body| contacts.rate_of(body, bodies.of(body), has_no_rate))?;
-        for index in 0..contacts.all.len() {
-            match contacts.all[index].name {
-                Some(_) => contacts.check_complete(index, &file.own)?,
-                None => check_tables(file, &contacts)?,
-            }
-            contacts.check_impactor(index)?;
-            if !cylinders::is_line(file) {
-                contacts.check_rods(index)?;
-            }
-        }
+        (0..contacts.all.len()).try_for_each(|index| contacts.check_impactor(index))?;
         Ok(contacts)
     }
 
@@ -550,16 +520,6 @@ impl Contacts {
         if own.get(Body::Impactor.yield_strength()).is_some() { own } else { &self.shared }
     }
 
-    /// The first contact whose target is a rod, and its length.
-    pub fn target_rod(&self) -> Option<(usize, &Spanned<f64>)> {
-        (0..self.all.len()).find_map(|index| Some((index, self.number(index, Body::Target.length())?)))
-    }
-
-    /// A contact whose target has no density.
-    pub fn without_density(&self) -> Option<usize> {
-        (0..self.all.len()).find(|index| self.number(*index, Body::Target.density()).is_none())
-    }
-
     /// Rejects a contact without yield strength for a `law` that needs it.
     pub fn check_strength(&self, law: &str) -> Result<(), Mistake> {
         let elastic = |index: &usize| self.yield_strength(*index).is_none();
@@ -606,44 +566,14 @@ impl Contacts {
         (self.flows, self.rates) = (Both::default(), Both::default());
     }
 
-    /// The first contact with its own number `name`.
-    fn first_own(&self, name: &str) -> Option<(usize, &Spanned<f64>)> {
-        self.all.iter().enumerate().find_map(|(index, contact)| Some((index, contact.own.get(name)?)))
-    }
-
-    /// Rejects the mass of a single contact if the FMU does not know the mass.
-    pub fn check_masses(&self, known: bool) -> Result<(), Mistake> {
-        let Some((index, mass)) = self.first_own(MASS).filter(|_| !known) else { return Ok(()) };
-        let message =
-            "effective_mass is that of bodies which the unit moves: it needs [coupling] effective_mass for all";
-        Err(self.wrong(index, mass.span(), message))
-    }
-
-    /// Rejects the friction of a single contact if the scene gives none for all.
-    pub fn check_friction(&self) -> Result<(), Mistake> {
-        let own = self.first_own(FRICTION).filter(|_| self.shared.get(FRICTION).is_none());
-        let Some((index, coefficient)) = own else { return Ok(()) };
-        let message = "friction.coefficient of one contact needs [friction] coefficient for all: every contact has the \
-                       same variables; 0 is a contact without friction";
-        Err(self.wrong(index, coefficient.span(), message))
-    }
-
     /// Gives each contact its own value of the properties that its group names. They may be parameters of the group or of all
-    /// contacts (`shared`). `is_input` returns whether a property is an input and so cannot be a parameter.
-    pub fn divide(
-        &self,
-        shared: &[Parameter],
-        groups: &mut [Group],
-        is_input: impl Fn(&str) -> bool,
-    ) -> Result<(), Mistake> {
+    /// contacts (`shared`).
+    pub fn divide(&self, shared: &[Parameter], groups: &mut [Group]) -> Result<(), Mistake> {
         let mut total = 0;
         for (index, (contact, group)) in self.all.iter().zip(groups).enumerate() {
             for name in &contact.per_contact {
                 let text = name.get_ref().as_str();
                 let wrong = |message: &str| self.wrong(index, name.span(), message);
-                if is_input(text) {
-                    return Err(wrong(&format!("{text} is an input of each contact already")));
-                }
                 let has = |parameter: &&Parameter| parameter.name == text;
                 let Some(mut parameter) = group.own.iter().chain(shared).find(has).cloned() else {
                     let names = group.own.iter().chain(shared).map(|parameter| parameter.name);
@@ -686,46 +616,19 @@ impl Contacts {
         (self.shared.parameters(), self.all.iter().enumerate().map(group).collect())
     }
 
-    /// Rejects an incomplete contact.
-    fn check_complete(&self, index: usize, own: &[OwnMaterial]) -> Result<(), Mistake> {
-        let missing = |name| self.number(index, name).is_none();
-        let span = self.all[index].span.clone();
-        if missing("impactor.radius") {
-            let message = "impactor.radius is missing: neither the contact nor [impactor] gives one";
-            return Err(self.wrong(index, span, message));
-        }
-        if missing("target.youngs_modulus") || missing("target.poissons_ratio") {
-            return Err(self.wrong(index, span, &target_needs(own)));
-        }
-        Ok(())
-    }
-
-    /// Rejects an impactor with one of its two moduli, and a strength or hardening of it without effect. Otherwise, where the scene
-    /// gives its strength, or it is below that of the target, it becomes a parameter. That of a harder material is only known.
+    /// Rejects the hardening of an impactor without a strength. Where the scene gives its strength, or it is below that of the target, it
+    /// becomes a parameter. That of a harder material is only known.
     fn check_impactor(&mut self, index: usize) -> Result<(), Mistake> {
         let number = |name| self.number(index, name);
-        let modulus = number("impactor.youngs_modulus");
-        if let (Some(given), None) | (None, Some(given)) = (modulus, number("impactor.poissons_ratio")) {
-            let message = "an elastic impactor needs both `youngs_modulus` and `poissons_ratio`, or a `material`; a rigid one needs neither";
-            return Err(self.wrong(index, given.span(), message));
-        }
         let Some(strength) = number(Body::Impactor.yield_strength()) else {
             let Some(hardening) = number(Body::Impactor.hardening_modulus()) else { return Ok(()) };
             let message = "the hardening of the impactor needs impactor.yield_strength, or a material";
             return Err(self.wrong(index, hardening.span(), message));
         };
         let given = self.level_of_impactor(index).gives_impactor_strength;
-        if given && modulus.is_none() {
-            let message = format!(
-                "impactor.yield_strength = {}: a rigid impactor cannot yield; give impactor.youngs_modulus and poissons_ratio, or \
-                 a material, or leave the strength out",
-                in_message(*strength.get_ref())
-            );
-            return Err(self.wrong(index, strength.span(), &message));
-        }
         let target = number(Body::Target.yield_strength());
         let is_softer = target.is_some_and(|target| strength.get_ref() < target.get_ref());
-        if modulus.is_some() && (given || is_softer) {
+        if number(Body::Impactor.youngs_modulus()).is_some() && (given || is_softer) {
             self.let_impactor_yield(index);
         }
         Ok(())
@@ -748,54 +651,4 @@ impl Contacts {
             }
         }
     }
-
-    /// Rejects a body with one of the two numbers of a rod, and a rod without a wave.
-    fn check_rods(&self, index: usize) -> Result<(), Mistake> {
-        for body in Body::ALL {
-            let number = |name| self.number(index, name);
-            let (name, given, missing) = match (number(body.length()), number(body.area())) {
-                (None, None) => continue,
-                (Some(length), None) => (body.length(), length, format!("{}: a rod has both", body.area())),
-                (None, Some(area)) => (body.area(), area, format!("{}: a rod has both", body.length())),
-                (Some(length), _) => {
-                    let wave = [
-                        (
-                            body.youngs_modulus(),
-                            "youngs_modulus and poissons_ratio, or a material: a rigid rod has no wave",
-                        ),
-                        (body.density(), "density, or a material: the wave's speed is sqrt(E/rho)"),
-                    ];
-                    let Some((_, missing)) = wave.into_iter().find(|(name, _)| number(name).is_none()) else {
-                        continue;
-                    };
-                    (body.length(), length, format!("{}.{missing}", body.name()))
-                }
-            };
-            let message = format!("{name} = {} needs {missing}", in_message(*given.get_ref()));
-            return Err(self.wrong(index, given.span(), &message));
-        }
-        Ok(())
-    }
-}
-
-/// Rejects a scene without `[[contact]]` whose tables are incomplete.
-fn check_tables(file: &SceneFile, contacts: &Contacts) -> Result<(), Mistake> {
-    let span =
-        |table: Option<Range<usize>>, name| table.ok_or_else(|| Mistake(0..0, format!("missing table `{name}`")));
-    let impactor = span(file.impactor.as_ref().map(Spanned::span), "impactor")?;
-    let target = span(file.target.as_ref().map(Spanned::span), "target")?;
-    let missing = |name| contacts.shared.get(name).is_none();
-    if missing("impactor.radius") {
-        return Err(Mistake(impactor, "missing field `radius` of the impactor".into()));
-    }
-    if missing("target.youngs_modulus") || missing("target.poissons_ratio") {
-        return Err(Mistake(target, target_needs(&file.own)));
-    }
-    Ok(())
-}
-
-fn target_needs(own: &[OwnMaterial]) -> String {
-    let own = own.iter().map(|own| own.material.name.as_str());
-    let names = own.chain(MATERIALS.iter().map(|material| material.name.as_str())).collect::<Vec<_>>().join("`, `");
-    format!("the target needs `youngs_modulus` and `poissons_ratio`, or a `material`: there are `{names}`")
 }

@@ -4,10 +4,8 @@ use super::Scene;
 use super::bodies::{Body, Both};
 use super::contacts::Contacts;
 use super::file::{BaseName, BodyTable, SceneFile, ShapeName};
-use super::quantities::check_quantity;
 use crate::mistake::{Mistake, Spanned};
-use crate::numbers::{in_message, quantity, significant};
-use crate::table;
+use crate::numbers::{quantity, significant};
 use brinell_contact::loading::{AnyLoading, Line, line::ROLLER};
 use brinell_contact::unloading::{self, AnyUnloading};
 use std::f64::consts::PI;
@@ -43,106 +41,6 @@ pub fn is_line(file: &SceneFile) -> bool {
     shape.is_some_and(|shape| *shape.get_ref() == ShapeName::Cylinder)
 }
 
-/// The cylinders of the scene `file`; `None` for balls.
-pub fn check<'a>(
-    file: &'a SceneFile,
-    none: &'a BodyTable,
-    contacts: &Contacts,
-) -> Result<Option<Cylinders<'a>>, Mistake> {
-    let impactor = file.impactor.as_ref().map_or(none, |impactor| &impactor.get_ref().0);
-    let target = file.target.as_ref().map_or(none, Spanned::get_ref);
-    let constant = file.law.size_constant.as_ref();
-    if !is_line(file) {
-        return no_line(file, target, constant).map(|()| None);
-    }
-    let shape = impactor.shape.as_ref().map_or(0..0, Spanned::span);
-    if let Some(ball) = target.shape.as_ref().filter(|shape| *shape.get_ref() == ShapeName::Ball) {
-        let message = "target.shape = \"ball\" under a cylinder: their contact is an ellipse, which no law here has";
-        return Err(Mistake(ball.span(), message.into()));
-    }
-    if let (Some(shape), None) = (&target.shape, &target.radius) {
-        return Err(Mistake(
-            shape.span(),
-            "target.shape = \"cylinder\" needs target.radius; a plane has no shape".into(),
-        ));
-    }
-    let no_rod = "a cylinder is no rod: impactor.length is that of its contact";
-    let unused = [("impactor.area", &impactor.area), ("target.area", &target.area), ("target.length", &target.length)];
-    if let Some((name, given)) = unused.iter().find_map(|(name, given)| Some((name, given.as_ref()?))) {
-        return Err(Mistake(given.span(), format!("{name} = {}: {no_rod}", in_message(*given.get_ref()))));
-    }
-    if let Some(index) = (0..contacts.count()).find(|index| contacts.number(*index, Body::Impactor.length()).is_none())
-    {
-        let message = "the contact of a cylinder needs impactor.length, as in length = \"20 mm\"";
-        return Err(Mistake(shape, contacts.said(index, message)));
-    }
-    if !contacts.any_yields() {
-        let message = "a cylinder needs the yield strength of a body: target.yield_strength, or a material";
-        return Err(Mistake(shape, message.into()));
-    }
-    for body in Body::ALL {
-        let table = if body == Body::Impactor { impactor } else { target };
-        if let Some(rate) = &table.rate {
-            let message = format!(
-                "{}.rate with a cylinder: how fast the strain of a line contact grows has not been compared with anything",
-                body.name()
-            );
-            return Err(Mistake(rate.span(), message));
-        }
-    }
-    if let Some(friction) = &file.friction {
-        let why = table::unloading_law(LINE).no_friction.as_deref().unwrap_or_default();
-        return Err(Mistake(friction.span(), format!("[friction] doesn't go with a cylinder: {why}")));
-    }
-    if let Some(thickness) = &target.plate_thickness {
-        let message = "target.plate_thickness is that of a sheet that gives way to a ball; the plate under a cylinder has a `thickness`";
-        return Err(Mistake(thickness.span(), message.into()));
-    }
-    if let Some(loss) = file.law.elastic_restitution.as_ref().filter(|loss| loss.get_ref().is_str()) {
-        let message = "law.elastic_restitution = \"waves\" are those of a small round contact; a line has a number from 0.001 to 1";
-        return Err(Mistake(loss.span(), message.into()));
-    }
-    target.thickness.iter().try_for_each(|thickness| check_quantity("target.thickness", "", thickness))?;
-    constant.iter().try_for_each(|constant| check_quantity("law.size_constant", "", constant))?;
-    match (&target.thickness, &target.base, constant) {
-        (Some(given), _, Some(_)) => {
-            let message = "target.thickness has no effect beside law.size_constant: C says how soft the bodies are";
-            Err(Mistake(given.span(), message.into()))
-        }
-        (None, Some(base), _) => Err(Mistake(
-            base.span(),
-            "target.base is what a plate of some target.thickness lies on: give that, too".into(),
-        )),
-        _ => Ok(Some(Cylinders { bodies: Both { impactor, target }, constant, span: shape })),
-    }
-}
-
-/// Rejects what belongs to cylinders, in a scene of balls.
-fn no_line(file: &SceneFile, target: &BodyTable, constant: Option<&Spanned<f64>>) -> Result<(), Mistake> {
-    let needs = |name: &str| format!("{name} belongs to a cylinder: impactor.shape = \"cylinder\"");
-    if let Some(shape) = target.shape.as_ref().filter(|shape| *shape.get_ref() == ShapeName::Cylinder) {
-        let message = "target.shape = \"cylinder\" under a ball: their contact is an ellipse, which no law here has";
-        return Err(Mistake(shape.span(), message.into()));
-    }
-    let spans = [
-        ("target.thickness", target.thickness.as_ref().map(Spanned::span)),
-        ("target.base", target.base.as_ref().map(Spanned::span)),
-        ("law.size_constant", constant.map(Spanned::span)),
-    ];
-    if let Some((name, span)) = spans.into_iter().find_map(|(name, span)| Some((name, span?))) {
-        let hint = if name == "target.thickness" {
-            "; a ball has a plate that gives way of target.plate_thickness"
-        } else {
-            ""
-        };
-        return Err(Mistake(span, needs(name) + hint));
-    }
-    match file.law.loading.as_ref().filter(|law| law.get_ref() == LINE) {
-        Some(law) => Err(Mistake(law.span(), needs("law.loading = \"line\""))),
-        None => Ok(()),
-    }
-}
-
 /// Reach and sideways tension of a body \[m, 1/m\], and what it is in words.
 struct Size {
     reach: f64,
@@ -150,7 +48,20 @@ struct Size {
     words: String,
 }
 
-impl Cylinders<'_> {
+impl<'a> Cylinders<'a> {
+    /// The cylinders of the scene `file`; `None` for balls.
+    pub fn of(file: &'a SceneFile, none: &'a BodyTable, contacts: &Contacts) -> Result<Option<Cylinders<'a>>, Mistake> {
+        let impactor = file.impactor.as_ref().map_or(none, |impactor| &impactor.get_ref().0);
+        let target = file.target.as_ref().map_or(none, Spanned::get_ref);
+        let Some(shape) = impactor.shape.as_ref().filter(|_| is_line(file)) else { return Ok(None) };
+        if !contacts.any_yields() {
+            let message = "a cylinder needs the yield strength of a body: target.yield_strength, or a material";
+            return Err(Mistake(shape.span(), message.into()));
+        }
+        let (bodies, constant) = (Both { impactor, target }, file.law.size_constant.as_ref());
+        Ok(Some(Cylinders { bodies, constant, span: shape.span() }))
+    }
+
     /// The size of a plate.
     fn plate(&self, thickness: f64, poissons_ratio: f64) -> Size {
         let base = self.bodies.target.base.as_ref().map_or(BaseName::Smooth, |base| *base.get_ref());

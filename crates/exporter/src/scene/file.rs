@@ -4,12 +4,13 @@ use super::beside::{self, Beside, OwnMaterial};
 use super::contacts::MOST_CONTACTS;
 use super::parser_words;
 use super::quantities::{Quantity, quantity_of};
+use super::rules;
 use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::numbers::out_of_range;
 use crate::parameters::ConstantTable;
-use crate::table::Material;
+use crate::table::{MATERIALS, Material};
 use crate::tension::{self, Specimen};
 use crate::units;
 use brinell_contact::Surface;
@@ -62,6 +63,9 @@ pub struct SceneFile {
     /// The text with what it uses of the files beside it.
     #[serde(skip)]
     pub(super) alone: String,
+    /// The first mistake by what its keys say of each other, and of their own numbers.
+    #[serde(skip)]
+    pub(super) broken: Option<Mistake>,
 }
 
 /// A table of materials of one's own.
@@ -368,7 +372,7 @@ pub struct Fmu {
     /// The [rate may change within a step](fmu.md); `false` makes an FMU a twentieth smaller. Not with `[coupling]`; rate-dependent laws
     /// have none.
     #[schemars(extend("default" = true))]
-    pub input_derivatives: Option<Spanned<bool>>,
+    pub input_derivatives: Option<bool>,
 }
 
 /// The naming convention of variables for importers.
@@ -522,15 +526,21 @@ impl SceneFile {
     /// # Errors
     /// Text that is not TOML, has a wrong type, or is unknown, with its place.
     pub fn read(text: &str, beside: &Beside) -> Result<SceneFile, Mistake> {
-        let mut file: SceneFile = deserialized(text, &beside.files)?;
-        file.own =
-            beside::check(file.material.take().unwrap_or_default())?.into_iter().map(OwnMaterial::of_scene).collect();
+        let (mut file, taken) = with_tree(text, &beside.files, |tree| {
+            let mut file: SceneFile = of_tree(text, tree)?;
+            let own = beside::check(file.material.take().unwrap_or_default())?;
+            file.own = own.into_iter().map(OwnMaterial::of_scene).collect();
+            let taken = beside::take_in(&mut file, &beside.materials);
+            let own = file.own.iter().map(|own| own.material.name.as_str());
+            let materials: Vec<_> = own.chain(MATERIALS.iter().map(|material| material.name.as_str())).collect();
+            file.broken = rules::check(tree.get_ref(), &materials).err();
+            Ok((file, taken))
+        })?;
         file.alone = with_curves(text, &beside.files)?;
         // beside the FMU there is no schema
         if file.alone.starts_with("#:schema ") {
             file.alone.drain(..file.alone.find('\n').map_or(0, |end| end + 1));
         }
-        let taken = beside::take_in(&mut file, &beside.materials);
         if !taken.is_empty() {
             file.alone = format!("{}\n{taken}", file.alone.trim_end());
             // a list in the text can't go on in tables
@@ -539,13 +549,7 @@ impl SceneFile {
                 Mistake(0..0, message.into())
             })?;
         }
-        // whether this key is required, the parser doesn't know
-        match &file.coupling {
-            Some(table) if file.body.is_none() && table.get_ref().has_no_mass() => {
-                Err(in_words(text, table.span(), "missing field `effective_mass`"))
-            }
-            _ => Ok(file),
-        }
+        Ok(file)
     }
 
     /// The names of the materials of all bodies.
@@ -560,11 +564,24 @@ impl SceneFile {
 
 /// The tables of this `text`, with the `files` that it names.
 fn deserialized<T: for<'a> Deserialize<'a>>(text: &str, files: &Files) -> Result<T, Mistake> {
+    with_tree(text, files, |tree| of_tree(text, tree))
+}
+
+/// What is `made` of the tree of this `text`, with the `files` that it names.
+fn with_tree<T>(
+    text: &str,
+    files: &Files,
+    made: impl FnOnce(&toml::Spanned<DeTable<'_>>) -> Result<T, Mistake>,
+) -> Result<T, Mistake> {
     let (tree, values) = parsed(text, files)?;
     // it borrows the values from here on
     let mut tree = tree;
     tree.get_mut().iter_mut().for_each(|(_, value)| put(value, &values));
-    T::deserialize(Deserializer::from(tree)).map_err(|error| of_parser(text, &error))
+    made(&tree)
+}
+
+fn of_tree<T: for<'a> Deserialize<'a>>(text: &str, tree: &toml::Spanned<DeTable<'_>>) -> Result<T, Mistake> {
+    T::deserialize(Deserializer::from(tree.clone())).map_err(|error| of_parser(text, &error))
 }
 
 /// The bytes of files by the name that a scene gives them.
@@ -741,11 +758,5 @@ fn put<'text>(value: &mut toml::Spanned<DeValue<'text>>, values: &'text InSi) {
             }
         }
         _ => {}
-    }
-}
-
-impl CouplingTable {
-    fn has_no_mass(&self) -> bool {
-        self.effective_mass.is_none() && self.inverse_masses.is_none()
     }
 }

@@ -12,7 +12,7 @@ use crate::nearest::unknown;
 use crate::pairing;
 use crate::parameters;
 use crate::table;
-use brinell_contact::damped::{AnyDamped, Damped};
+use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::{AnyLoading, Hertz};
 use brinell_contact::unloading::AnyUnloading;
 
@@ -29,10 +29,6 @@ pub struct SceneLaws {
 impl SceneLaws {
     /// The laws of the table `law`, which suit the `contacts`, and each other.
     pub fn of(law: &LawTable, contacts: &Contacts, is_line: bool) -> Result<SceneLaws, Mistake> {
-        if let Some(name) = law.loading.as_ref().filter(|name| is_line && name.get_ref() != LINE) {
-            let message = format!("law.loading = \"{}\" is a law of balls: a cylinder has \"{LINE}\"", name.get_ref());
-            return Err(Mistake(name.span(), message));
-        }
         let damped = find_damped(law)?;
         let loading = match damped {
             Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
@@ -57,11 +53,6 @@ impl SceneLaws {
     pub fn takes_both_bodies(&self) -> bool {
         self.damped.is_none() && self.loading.1.takes_both_bodies()
     }
-
-    /// The name of the law whose force depends on the rate.
-    pub fn damped_name(&self) -> Option<&'static str> {
-        self.damped.map(|(name, _)| name)
-    }
 }
 
 /// Whether the law of the table takes the hardening of a body that yields. Wrong names are refused elsewhere.
@@ -74,57 +65,18 @@ pub fn takes_hardening(law: &LawTable) -> bool {
 fn find_damped(law: &LawTable) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
     let asked = law.loading.as_ref();
     let found = asked.and_then(|asked| AnyDamped::ALL.into_iter().find(|(name, _)| name == asked.get_ref()));
-    let needs_restitution = found.is_some_and(|(_, law)| law.needs_restitution());
-    match (&law.restitution, asked) {
-        (Some(restitution), _) if !needs_restitution => {
-            let names = AnyDamped::ALL.iter().filter(|(_, law)| law.needs_restitution()).map(|(name, _)| *name);
-            let names = names.collect::<Vec<_>>().join("\", \"");
-            let message = format!(
-                "law.restitution belongs to the loading laws \"{names}\"; this law has a restitution of its own"
-            );
-            return Err(Mistake(restitution.span(), message));
-        }
-        (None, Some(asked)) if needs_restitution => {
-            let message = format!("law.loading = \"{}\" needs law.restitution, from 0.001 to 1", asked.get_ref());
-            return Err(Mistake(asked.span(), message));
-        }
-        _ => {}
-    }
-    if let (Some((name, _)), Some(unloading)) = (found, &law.unloading) {
-        let asked = unloading.get_ref();
-        let message = format!("law.unloading = \"{asked}\" has no effect: {name} leaves no dent");
-        return Err(Mistake(unloading.span(), message));
-    }
-    let Some((name, reference)) = found else {
-        return match &law.damping {
-            Some(damping) => {
-                Err(Mistake(damping.span(), format!("law.damping belongs to the loading laws \"{}\"", with_dampings())))
-            }
-            None => Ok(None),
-        };
-    };
+    let Some((name, reference)) = found else { return Ok(None) };
     let chosen = match &law.damping {
-        Some(damping) => with_damping(name, reference, damping)?,
+        Some(damping) => with_damping(reference, damping)?,
         None => reference,
     };
     let parameters = law.loading_parameters.as_ref();
     Ok(Some((name, parameters::apply(chosen, "law.loading", parameters, table::damped_law(name))?)))
 }
 
-/// The names of the laws with several damping variants, for a message.
-fn with_dampings() -> String {
-    let several = AnyDamped::ALL.into_iter().filter(|(_, law)| !law.dampings().is_empty());
-    several.map(|(name, _)| name).collect::<Vec<_>>().join("\" and \"")
-}
-
-/// The law `name` with the damping variant of the scene.
-fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<AnyDamped, Mistake> {
+/// The `law` with the damping variant of the scene.
+fn with_damping(law: AnyDamped, asked: &Spanned<String>) -> Result<AnyDamped, Mistake> {
     let dampings = law.dampings();
-    if dampings.is_empty() {
-        let message =
-            format!("law.damping belongs to the loading laws \"{}\"; {name} has one damping", with_dampings());
-        return Err(Mistake(asked.span(), message));
-    }
     law.with_damping(asked.get_ref())
         .ok_or_else(|| Mistake(asked.span(), unknown("law.damping", asked.get_ref(), dampings.into_iter())))
 }

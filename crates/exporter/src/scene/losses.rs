@@ -1,13 +1,12 @@
 //! Losses below yield: `law.elastic_restitution` and `target.plate_thickness`.
 
 use super::Scene;
-use super::contacts::Contacts;
-use super::file::{BodyTable, SceneFile};
-use super::quantities::{check_quantity, quantity_of};
+use super::file::SceneFile;
+use super::quantities::quantity_of;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::model::AnyModel;
-use crate::numbers::{in_message, out_of_range, quantity};
+use crate::numbers::{out_of_range, quantity};
 use brinell_contact::damped::Damped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
@@ -33,40 +32,6 @@ pub const WAVES: &str = "waves";
 pub const RESTITUTION: &str = "elastic_restitution";
 pub const THICKNESS: &str = "target.plate_thickness";
 
-/// The loss of the scene `file`; `damped` is the name of its law if that has a damping of its own.
-pub fn check(file: &SceneFile, contacts: &Contacts, damped: Option<&str>) -> Result<Option<Loss>, Mistake> {
-    let target = file.target.as_ref().map(Spanned::get_ref);
-    let thickness = target.and_then(|target| target.plate_thickness.as_ref());
-    let restitution = file.law.elastic_restitution.as_ref();
-    let (span, key, loss) = match (restitution, thickness) {
-        (None, None) => return Ok(None),
-        (Some(_), Some(thickness)) => {
-            let message =
-                "target.plate_thickness and law.elastic_restitution are two losses below yield: give one of them";
-            return Err(Mistake(thickness.span(), message.into()));
-        }
-        (Some(given), None) => (given.span(), "law.elastic_restitution", of_restitution(given)?),
-        (None, Some(given)) => (given.span(), "target.plate_thickness", of_thickness(given, target)?),
-    };
-    if let Some(name) = damped {
-        let message = format!("{key} has no effect on law.loading = \"{name}\", which has a damping of its own");
-        return Err(Mistake(span, message));
-    }
-    if let (Loss::Plate(_), Some((index, length))) = (loss, contacts.target_rod()) {
-        let message =
-            format!("target.length = {} and target.plate_thickness: a plate is no rod", in_message(*length.get_ref()));
-        return Err(Mistake(length.span(), contacts.said(index, &message)));
-    }
-    if loss.needs_density()
-        && let Some(index) = contacts.without_density()
-    {
-        let what = if loss == Loss::Waves { "law.elastic_restitution = \"waves\"" } else { key };
-        let message = contacts.said(index, &format!("{what} needs target.density, or a material"));
-        return Err(Mistake(span, message));
-    }
-    Ok(Some(loss))
-}
-
 fn of_restitution(given: &Spanned<Value>) -> Result<Loss, Mistake> {
     let number = match given.get_ref() {
         Value::Float(number) => *number,
@@ -86,19 +51,12 @@ fn of_restitution(given: &Spanned<Value>) -> Result<Loss, Mistake> {
     Err(Mistake(given.span(), message))
 }
 
-fn of_thickness(given: &Spanned<f64>, target: Option<&BodyTable>) -> Result<Loss, Mistake> {
-    check_quantity(THICKNESS, "", given)?;
-    if let Some(radius) = target.and_then(|target| target.radius.as_ref()) {
-        let message =
-            format!("target.radius = {} and target.plate_thickness: a plate is flat", in_message(*radius.get_ref()));
-        return Err(Mistake(radius.span(), message));
-    }
-    Ok(Loss::Plate(*given.get_ref()))
-}
-
 impl Loss {
-    fn needs_density(self) -> bool {
-        !matches!(self, Loss::Fitted(_))
+    /// The loss of the scene `file`.
+    pub fn of(file: &SceneFile) -> Result<Option<Loss>, Mistake> {
+        let thickness = file.target.as_ref().and_then(|target| target.get_ref().plate_thickness.as_ref());
+        let plate = thickness.map(|thickness| Loss::Plate(*thickness.get_ref()));
+        Ok(file.law.elastic_restitution.as_ref().map(of_restitution).transpose()?.or(plate))
     }
 
     /// Its parameter in the FMU with the start value, if it has one.

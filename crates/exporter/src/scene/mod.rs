@@ -15,6 +15,7 @@ pub mod names;
 mod parser_words;
 pub mod plausible;
 mod quantities;
+pub(crate) mod rules;
 mod shared_bodies;
 pub mod strength;
 
@@ -32,8 +33,8 @@ use std::path::Path;
 
 pub use beside::{Beside, MaterialTable, OwnMaterial};
 pub use bodies::{Body, Both};
+pub use contacts::taken_names;
 pub use contacts::{Group, Parameter};
-pub use contacts::{OF_ALL_CONTACTS, taken_names};
 pub use cylinders::LINE;
 pub use file::SceneFile;
 pub use fmu::INPUTS;
@@ -41,6 +42,7 @@ pub use inverse_masses::{InverseMasses, place};
 pub use losses::{Loss, WAVES};
 pub use names::{IDENTIFIER, any_case, is_no_name};
 pub use quantities::{PRODUCT, quantity_of};
+pub use rules::OF_ALL_CONTACTS;
 pub use shared_bodies::{GROUND, Meeting};
 pub use strength::{Flow, InImpact, MODELS as RATE_MODELS, PowerLaw, Rate};
 

@@ -1,6 +1,6 @@
 //! The numbers of a scene: their units, and the values that are allowed.
 
-use crate::mistake::{Mistake, Spanned, check_range};
+use crate::mistake::{Mistake, POSITIVE, Spanned, check_range};
 use crate::table::{VARIABLES, Variable};
 use std::ops::RangeInclusive;
 
@@ -14,9 +14,6 @@ pub struct Quantity {
 
 /// Any number.
 const ANY: RangeInclusive<f64> = f64::MIN..=f64::MAX;
-
-/// Positive and finite.
-pub const POSITIVE: RangeInclusive<f64> = f64::MIN_POSITIVE..=f64::MAX;
 
 /// A product of inertia, a number without a key.
 pub const PRODUCT: &str = "product of inertia";

@@ -1,12 +1,11 @@
-//! Contacts that share bodies: the tables `[[body]]`, what each contact says of its two bodies, and what doesn't go with them.
+//! Contacts that share bodies: the tables `[[body]]`, and what each contact says of its two bodies.
 
-use super::file::{ContactTable, FrictionTable, SceneFile, SharedBodyTable};
+use super::file::{ContactTable, SceneFile, SharedBodyTable};
 use super::inverse_masses::{self, End, FreeBody, Inertia, InverseMasses, Vector};
 use super::names::check_identifier;
 use super::quantities::{PRODUCT, quantity_of};
 use crate::layout::shortened;
-use crate::mistake::Spanned;
-use crate::mistake::{Mistake, check_range};
+use crate::mistake::{Mistake, Spanned};
 use crate::nearest::unknown;
 use crate::numbers::{in_message, out_of_range};
 use std::collections::{HashMap, HashSet};
@@ -33,58 +32,24 @@ pub struct Meeting {
     pub arms: [f64; 2],
 }
 
-/// The inverse effective masses of the scene `file`, if its contacts share bodies, and the two bodies of the first contact if it has
-/// friction. `by_mass` is the name of a law whose damping follows from a mass.
+/// The inverse effective masses of the scene `file` with friction in so many `directions`, if its contacts share bodies, and the two bodies
+/// of the first contact if it has friction.
 ///
 /// # Errors
-/// The first mistake in the bodies, or what doesn't go with them.
-pub fn check(
-    file: &SceneFile,
-    by_mass: Option<&str>,
-) -> Result<(Option<InverseMasses>, Option<[Meeting; 2]>), Mistake> {
+/// The first mistake in the bodies.
+pub fn check(file: &SceneFile, directions: usize) -> Result<(Option<InverseMasses>, Option<[Meeting; 2]>), Mistake> {
     let inputs = file.coupling.as_ref().and_then(|coupling| coupling.get_ref().inverse_masses.as_ref());
-    let (inverse_masses, meeting) = match (&file.body, inputs) {
-        (None, None) => {
-            refuse_ends(file, "needs tables [[body]], which say what the bodies weigh; the scene has none")?;
-            return Ok((None, None));
-        }
-        (Some(_), Some(inputs)) => {
-            let message = "coupling.inverse_masses = \"input\" doesn't go with tables [[body]], from which the inverse masses \
-                           follow; leave one of them out";
-            return Err(Mistake(inputs.span(), message.into()));
-        }
-        (None, Some(inputs)) => {
-            refuse_ends(
-                file,
-                "has no effect: with coupling.inverse_masses = \"input\" the masses are inputs of the unit",
-            )?;
-            refuse_masses(file, "the masses are those of coupling.inverse_masses")?;
-            check_count(inputs.span(), file)?;
-            (InverseMasses::Inputs, None)
-        }
-        (Some(bodies), None) => {
-            refuse_masses(file, "the masses are those of the tables [[body]]")?;
-            let Some(first) = bodies.get_ref().first() else {
-                let message = "the list of bodies is empty; leave it out, or give tables [[body]] with name and mass";
-                return Err(Mistake(bodies.span(), message.into()));
-            };
-            let Some(contacts) = contacts_of(file) else {
-                let message =
-                    "tables [[body]] need tables [[contact]], each with `between` and the names of two bodies";
-                return Err(Mistake(first.span(), message.into()));
-            };
-            check_count(first.span(), file)?;
-            of_bodies(bodies.get_ref(), contacts, directions(file))?
-        }
+    let Some(bodies) = &file.body else {
+        inputs.map(|inputs| check_count(inputs.span(), file)).transpose()?;
+        return Ok((inputs.map(|_| InverseMasses::Inputs), None));
     };
-    refuse_rates(file, by_mass)?;
-    Ok((Some(inverse_masses), meeting))
-}
-
-/// The number of tangential directions that the scene asks for, whether or not that is right.
-fn directions(file: &SceneFile) -> usize {
-    let of = |friction: &Spanned<FrictionTable>| friction.get_ref().directions.as_ref().map(|number| *number.get_ref());
-    file.friction.as_ref().map_or(0, |friction| if of(friction) == Some(2) { 2 } else { 1 })
+    let Some(first) = bodies.get_ref().first() else {
+        let message = "the list of bodies is empty; leave it out, or give tables [[body]] with name and mass";
+        return Err(Mistake(bodies.span(), message.into()));
+    };
+    check_count(first.span(), file)?;
+    let (masses, meeting) = of_bodies(bodies.get_ref(), contacts_of(file).unwrap_or_default(), directions)?;
+    Ok((Some(masses), meeting))
 }
 
 fn contacts_of(file: &SceneFile) -> Option<&[Spanned<ContactTable>]> {
@@ -107,73 +72,6 @@ fn check_count(place: Range<usize>, file: &SceneFile) -> Result<(), Mistake> {
         return Ok(());
     }
     Err(Mistake(place, format!("there are {count} contacts: allowed are {MOST_SHARING} that share bodies")))
-}
-
-/// Rejects what contacts say of bodies where there are none, for this reason.
-fn refuse_ends(file: &SceneFile, why: &str) -> Result<(), Mistake> {
-    for contact in contacts_of(file).unwrap_or_default() {
-        let contact = contact.get_ref();
-        let keys = [
-            ("between", contact.between.as_ref().map(Spanned::span)),
-            ("direction", contact.direction.as_ref().map(Spanned::span)),
-            ("normal", contact.normal.as_ref().map(Spanned::span)),
-            ("arms", contact.arms.as_ref().map(Spanned::span)),
-            ("tangent", contact.tangent.as_ref().map(Spanned::span)),
-        ];
-        if let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) {
-            return Err(wrong(contact, span, &format!("{key} {why}")));
-        }
-    }
-    Ok(())
-}
-
-/// Rejects the masses of contacts that share no bodies, for this reason.
-fn refuse_masses(file: &SceneFile, why: &str) -> Result<(), Mistake> {
-    let refused = |name: &str, mass: &Spanned<f64>| {
-        let message = format!("{name} = {} is a second mass: {why}; leave it out", in_message(*mass.get_ref()));
-        Err(Mistake(mass.span(), message))
-    };
-    for contact in contacts_of(file).unwrap_or_default().iter().map(Spanned::get_ref) {
-        if let Some(mass) = &contact.effective_mass {
-            return refused(&format!("{}.effective_mass", contact.name.get_ref()), mass);
-        }
-    }
-    if let Some(coupling) = file.coupling.as_ref().map(Spanned::get_ref) {
-        if let Some(mass) = &coupling.effective_mass {
-            return refused("coupling.effective_mass", mass);
-        }
-        if let Some(mass) = coupling.inputs.iter().find(|input| input.get_ref() == "effective_mass") {
-            return Err(Mistake(mass.span(), format!("coupling.inputs = [\"effective_mass\"]: {why}; leave it out")));
-        }
-    }
-    // the impact on a contact of bodies with inputs needs one, for the predictions
-    let impact = file.impact.as_ref().filter(|_| file.body.is_some());
-    match impact.and_then(|impact| impact.get_ref().mass.as_ref()) {
-        Some(mass) => refused("impact.mass", mass),
-        None => Ok(()),
-    }
-}
-
-/// Rejects laws whose damping follows from one mass, and with friction a strength at the strain rate.
-fn refuse_rates(file: &SceneFile, by_mass: Option<&str>) -> Result<(), Mistake> {
-    if let (Some(name), Some(loading)) = (by_mass, &file.law.loading) {
-        let message = format!(
-            "law.loading = \"{name}\" doesn't go with contacts that share bodies: its damping follows from one mass; a plastic law, \
-             \"hertz\" or \"hunt-crossley\" does"
-        );
-        return Err(Mistake(loading.span(), message));
-    }
-    let impactor = file.impactor.as_ref().and_then(|impactor| impactor.get_ref().0.rate.as_ref());
-    let target = file.target.as_ref().and_then(|target| target.get_ref().rate.as_ref());
-    let rate = impactor.map(|rate| ("impactor", rate)).or(target.map(|rate| ("target", rate)));
-    let Some((body, rate)) = rate.filter(|_| file.friction.is_some()) else {
-        return Ok(());
-    };
-    let message = format!(
-        "{body}.rate doesn't go with contacts that share bodies and have friction: they move in straight parts, which don't end where \
-         one touches while others press, so that its closing speed isn't known; give the strength of the impact (yield_strength)"
-    );
-    Err(Mistake(rate.span(), message))
 }
 
 /// The bodies of a scene.
@@ -200,7 +98,6 @@ impl<'a> Bodies<'a> {
             if bodies.index.insert(text, Some(bodies.free.len())).is_some() {
                 return Err(Mistake(name.span(), format!("name = {text:?} is taken by another body")));
             }
-            check_range(("mass", "kg"), &format!("body `{text}`: "), mass, quantity_of("body", "mass").allowed)?;
             let inertia = inertia.as_ref().map(|inertia| check_inertia(text, inertia)).transpose()?;
             bodies.names.push(text);
             bodies.free.push(FreeBody { mass: *mass.get_ref(), inertia });
@@ -221,13 +118,10 @@ impl<'a> Bodies<'a> {
         Meeting { name: self.names[body].into(), mass, turns, arms }
     }
 
-    /// The two bodies of a `contact`.
+    /// The two bodies of a `contact`, which the rules ask for.
     fn between(&self, contact: &Spanned<ContactTable>) -> Result<[Option<usize>; 2], Mistake> {
         let table = contact.get_ref();
-        let Some(between) = &table.between else {
-            let message = "`between` is missing: every contact of a scene with tables [[body]] names its two bodies";
-            return Err(wrong(table, contact.span(), message));
-        };
+        let Some(between) = &table.between else { return Ok([None; 2]) };
         let list = || names_in_message(between.get_ref());
         let [one, other] = between.get_ref().as_slice() else {
             let message = format!("between = {} must name two bodies", list());
@@ -315,21 +209,13 @@ fn of_bodies(
 ) -> Result<(InverseMasses, Option<[Meeting; 2]>), Mistake> {
     let bodies = Bodies::of(tables)?;
     let mut meeting = None;
-    let normals = contacts.iter().any(|contact| contact.get_ref().normal.is_some());
     let (mut all, mut touched) = (vec![Vec::new(); 1 + directions], HashSet::new());
     for contact in contacts {
         let table = contact.get_ref();
-        if let Some(count) = &table.count {
-            let message = format!(
-                "count = {} doesn't go with bodies: each contact needs two of its own; give it a table [[contact]]",
-                count.get_ref()
-            );
-            return Err(wrong(table, count.span(), &message));
-        }
         let between = bodies.between(contact)?;
         touched.extend(between);
-        let normal = if normals || directions > 0 { normal_of(contact)? } else { line_of(table)? };
-        let tangents: Vec<_> = tangents_of(contact, normal, directions)?.collect();
+        let normal = table.normal.as_ref().map_or_else(|| line_of(table), |normal| normal_of(table, normal))?;
+        let tangents: Vec<_> = tangents_of(table, normal, directions)?.collect();
         let arms = arms_of(table, between)?;
         if let (None, Some(tangent)) = (&meeting, tangents.first()) {
             meeting = Some([0, 1].map(|place| bodies.meeting(between[place], [normal, *tangent], arms[place])));
@@ -381,25 +267,14 @@ fn ends_of(
     Ok(ends)
 }
 
-/// The tangents of a `contact` with this `normal`, in so many `directions`: the given one as far as it is across the normal, and
-/// the one across both.
+/// The tangents of a contact with this `normal`, in so many `directions`: the given one as far as it is across the normal, and the one
+/// across both.
 fn tangents_of(
-    contact: &Spanned<ContactTable>,
+    table: &ContactTable,
     normal: Vector,
     directions: usize,
 ) -> Result<impl Iterator<Item = Vector> + use<>, Mistake> {
-    let table = contact.get_ref();
-    let (Some(given), true) = (&table.tangent, directions > 0) else {
-        return match (&table.tangent, directions) {
-            (Some(tangent), _) => Err(wrong(table, tangent.span(), "tangent has no effect without [friction]")),
-            (None, 0) => Ok([[0.0; 3]; 2].into_iter().take(0)),
-            (None, _) => {
-                let message = "`tangent` is missing: with [friction] each contact needs the direction [x, y, z] of its \
-                               tangential_rate, across its normal";
-                Err(wrong(table, contact.span(), message))
-            }
-        };
-    };
+    let Some(given) = &table.tangent else { return Ok([[0.0; 3]; 2].into_iter().take(0)) };
     let numbers = given.get_ref();
     let tangent = <[f64; 3]>::try_from(numbers.as_slice()).ok().and_then(inverse_masses::direction);
     let across = tangent.and_then(|tangent| inverse_masses::across(normal, tangent));
@@ -416,10 +291,6 @@ fn tangents_of(
 
 /// The normal of a `contact` on a line, from its first body to its second. The line is the axis x.
 fn line_of(contact: &ContactTable) -> Result<Vector, Mistake> {
-    if let Some(arms) = &contact.arms {
-        let message = "arms need `normal`: bodies on one line don't turn";
-        return Err(wrong(contact, arms.span(), message));
-    }
     match contact.direction.as_ref().map(Spanned::get_ref) {
         None | Some(1) => Ok([1.0, 0.0, 0.0]),
         Some(-1) => Ok([-1.0, 0.0, 0.0]),
@@ -433,20 +304,7 @@ fn line_of(contact: &ContactTable) -> Result<Vector, Mistake> {
 }
 
 /// The normal of a contact in space, from its first body to its second.
-fn normal_of(contact: &Spanned<ContactTable>) -> Result<Vector, Mistake> {
-    let table = contact.get_ref();
-    if let Some(direction) = &table.direction {
-        let message = format!(
-            "direction = {} doesn't go with `normal`, of this contact or of another: give each contact of the scene a normal",
-            direction.get_ref()
-        );
-        return Err(wrong(table, direction.span(), &message));
-    }
-    let Some(normal) = &table.normal else {
-        let message =
-            "`normal` is missing: with [friction], or if another contact of the scene has one, each contact needs one";
-        return Err(wrong(table, contact.span(), message));
-    };
+fn normal_of(table: &ContactTable, normal: &Spanned<Vec<f64>>) -> Result<Vector, Mistake> {
     let numbers = normal.get_ref();
     let vector = <[f64; 3]>::try_from(numbers.as_slice()).ok().and_then(inverse_masses::direction);
     vector.ok_or_else(|| {

@@ -3,7 +3,7 @@
 use super::Scene;
 use super::bodies::{Body, Both};
 use super::file::{BodyTable, PowerLawTable, RateTable, TensileTestTable};
-use super::quantities::{check_quantity, quantity_of};
+use super::quantities::quantity_of;
 use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
@@ -105,11 +105,6 @@ impl BodyTable {
         let name = body.name();
         let mut readings = self.readings();
         let Some((key, span)) = readings.next() else {
-            if let Some(exponent) = &self.hardening_exponent {
-                let message =
-                    format!("{name}.hardening_exponent belongs to {name}.hardness or {name}.tensile_strength");
-                return Err(Mistake(exponent.span(), message));
-            }
             let has_other = self.strengths().iter().any(|(_, value)| value.is_some()) || self.power_law.is_some();
             let material = self.material.as_ref().zip(elastic.material).filter(|_| !has_other);
             return Ok(material.and_then(|(place, material)| {
@@ -118,21 +113,9 @@ impl BodyTable {
             }));
         };
         let wrong = |why: String| Mistake(span.clone(), format!("{name}.{key}{why}"));
-        let others = self.strengths().into_iter().filter_map(|(key, value)| value.map(|_| key));
-        let law = self.power_law.as_ref().map(|_| "power_law");
-        // the exponent of a tensile test is its own
-        let exponent = self.hardening_exponent.as_ref().filter(|_| key == "tensile_test").map(|_| "hardening_exponent");
-        let mut others = others.chain(law).chain(readings.map(|(key, _)| key)).chain(exponent);
-        if let Some(other) = others.next() {
-            return Err(wrong(format!(" and {name}.{other} say the same: give one of them")));
-        }
         let exponent = self.hardening_exponent.as_ref().map(|exponent| *exponent.get_ref());
-        let Some(metal) = elastic.metal(exponent) else {
-            return Err(wrong(format!(" needs {name}.youngs_modulus and {name}.poissons_ratio, or a material")));
-        };
-        if let Some(exponent) = &self.hardening_exponent {
-            check_quantity("hardening_exponent", &format!("{name}."), exponent)?;
-        }
+        // a body without moduli is against the rules
+        let Some(metal) = elastic.metal(exponent) else { return Ok(None) };
         let found = match (&self.hardness, &self.tensile_strength) {
             (Some(hardness), _) => match hardness.get_ref() {
                 toml::Value::String(text) => measured::of_hardness(text, &metal)
@@ -145,7 +128,6 @@ impl BodyTable {
                 }
             },
             (None, Some(strength)) => {
-                check_quantity("tensile_strength", &format!("{name}."), strength)?;
                 measured::of_tensile_strength(*strength.get_ref(), &metal).map_err(|why| wrong(format!(": {why}")))?
             }
             (None, None) => {
@@ -181,14 +163,7 @@ impl BodyTable {
             return Ok([Some(yield_strength), modulus].map(|value| Some(Spanned::new(measured.span(), value?))));
         }
         if let Some(table) = &self.power_law {
-            if let Some((key, value)) = self.strengths().iter().find_map(|(key, value)| Some((key, (*value)?))) {
-                let body = body.name();
-                let message = format!(
-                    "{body}.{key} and {body}.power_law say the same: yield strength and hardening follow from the power law"
-                );
-                return Err(Mistake(value.span(), message));
-            }
-            let line = check_power_law(body, table)?.up_to(FIRST_STRAIN);
+            let line = power_law(table).up_to(FIRST_STRAIN);
             return Ok(
                 [line.yield_strength, line.hardening_modulus].map(|value| Some(Spanned::new(table.span(), value)))
             );
@@ -209,14 +184,7 @@ impl BodyTable {
     ) -> Result<Spanned<f64>, Mistake> {
         let body = body.name();
         let wrong = |message: String| Err(Mistake(tangent.span(), message));
-        if self.hardening_modulus.is_some() {
-            return wrong(format!(
-                "{body}.tangent_modulus and {body}.hardening_modulus say the same: give one of them"
-            ));
-        }
-        let Some(modulus) = youngs_modulus.map(|modulus| *modulus.get_ref()) else {
-            return wrong(format!("{body}.tangent_modulus needs {body}.youngs_modulus, or a material"));
-        };
+        let modulus = youngs_modulus.map_or(f64::INFINITY, |modulus| *modulus.get_ref());
         let given = *tangent.get_ref();
         // NaN is outside every range
         if !(0.0..modulus).contains(&given) {
@@ -251,10 +219,6 @@ impl TensileTestTable {
                 ("A tensile test".into(), test)
             }
             (TensileTestTable { proof_stress: Some(proof), tensile_strength: Some(strength), .. }, None) => {
-                for (key, value) in [("proof_stress", proof), ("tensile_strength", strength)] {
-                    check_quantity(key, &format!("{name}."), value)
-                        .map_err(|Mistake(span, why)| TestMistake(Some(span), why))?;
-                }
                 let [proof, strength] = [*proof.get_ref(), *strength.get_ref()];
                 let test = tension::through_two(proof, strength, youngs_modulus).map_err(wrong)?;
                 let [proof, strength] = [proof, strength].map(|stress| quantity(stress, "Pa"));
@@ -307,13 +271,9 @@ impl TensileTestTable {
 const WAYS: &str = "it is the name of a file; or has curve, the name of a file; or proof_stress and tensile_strength; or true_strain (or \
                     plastic_strain) and true_stress";
 
-/// The power law of a `body` of the scene.
-pub fn check_power_law(body: Body, table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
+fn power_law(table: &Spanned<PowerLawTable>) -> PowerLaw {
     let PowerLawTable { coefficient, exponent } = table.get_ref();
-    let owner = format!("{}.", body.name());
-    check_quantity("power_law.coefficient", &owner, coefficient)?;
-    check_quantity("power_law.exponent", &owner, exponent)?;
-    Ok(PowerLaw { coefficient: *coefficient.get_ref(), exponent: *exponent.get_ref() })
+    PowerLaw { coefficient: *coefficient.get_ref(), exponent: *exponent.get_ref() }
 }
 
 /// The names of the models in scenes.
@@ -344,32 +304,15 @@ pub fn check_rate(
         }
         _ => reference_rate.clone(),
     };
-    let keys = [("c", c), ("reference_rate", reference_rate), ("d", d), ("q", q)];
-    let own: &[&str] = match model.get_ref().as_str() {
-        "johnson-cook" => &["c", "reference_rate"],
-        "cowper-symonds" => &["d", "q"],
-        other => return Err(Mistake(model.span(), unknown(&format!("{owner}.model"), other, MODELS.into_iter()))),
-    };
-    let foreign =
-        keys.iter().find_map(|(name, value)| value.as_ref().filter(|_| !own.contains(name)).map(|v| (name, v)));
-    if let Some((name, value)) = foreign {
-        let message = format!(
-            "{owner}.{name} doesn't belong to model = \"{}\", which has {}",
-            model.get_ref(),
-            own.join(" and ")
-        );
-        return Err(Mistake(value.span(), message));
-    }
-    let number = |name: &str| {
-        let value = keys.iter().find(|(known, _)| *known == name).and_then(|(_, value)| value.as_ref());
-        let missing = || Mistake(table.span(), format!("{owner} with model = \"{}\" needs {name}", model.get_ref()));
-        let value = value.ok_or_else(missing)?;
-        check_quantity(&format!("rate.{name}"), &format!("{}.", body.name()), value)?;
-        Ok(*value.get_ref())
-    };
-    let rate = match own[0] {
-        "c" => Rate::JohnsonCook { c: number("c")?, reference_rate: number("reference_rate")? },
-        _ => Rate::CowperSymonds { d: number("d")?, q: number("q")? },
+    let number = |value: &Option<Spanned<f64>>| value.as_ref().map_or(f64::NAN, |value| *value.get_ref());
+    let rate = match (model.get_ref().as_str(), reference_rate) {
+        ("johnson-cook", Some(reference)) => Rate::JohnsonCook { c: number(c), reference_rate: *reference.get_ref() },
+        ("johnson-cook", None) => {
+            let message = format!("{owner} with model = \"johnson-cook\" needs reference_rate");
+            return Err(Mistake(table.span(), message));
+        }
+        ("cowper-symonds", _) => Rate::CowperSymonds { d: number(d), q: number(q) },
+        (other, _) => return Err(Mistake(model.span(), unknown(&format!("{owner}.model"), other, MODELS.into_iter()))),
     };
     Ok(Spanned::new(table.span(), rate))
 }
@@ -377,7 +320,7 @@ pub fn check_rate(
 /// The hardening of a `body` that depends on the strain, by its `table`.
 pub fn flow_of(body: Body, table: &BodyTable, elastic: &Elastic) -> Result<Option<Flow>, Mistake> {
     let measured = table.measured(body, elastic)?;
-    let power_law = table.power_law.as_ref().map(|table| check_power_law(body, table)).transpose()?;
+    let power_law = table.power_law.as_ref().map(power_law);
     Ok(power_law.map(Flow::Line).or(measured.map(|measured| Flow::Measured(measured.into_inner()))))
 }
 

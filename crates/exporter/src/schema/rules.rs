@@ -1,109 +1,28 @@
-//! What one key of a scene says about others, as far as a schema can express it.
+//! What one key of a scene says about others: the rules of the check, as far as a schema can express them, and what goes with each law.
 
 use super::{complete_constants, object};
 use crate::measured::{self, TEST_RATE};
 use crate::model::Dampings;
 use crate::pairing;
 use crate::parameters::{self, LawConstant};
-use crate::scene::{GROUND, LINE, WAVES, taken_names};
+use crate::scene::rules::{BODIES, Is, Key, Level, RULES, Rule};
+use crate::scene::{GROUND, taken_names};
 use crate::table;
-use brinell_contact::damped::{AnyDamped, Damped};
+use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use serde_json::{Value, json};
 
 /// Adds the rules to the `schema` of scenes.
 pub fn add(schema: &mut Value) {
-    let moved = any([has("body"), key("coupling", has("inverse_masses"))]);
-    let knows_mass = any([has("body"), has("coupling")]);
-    let damped = key("law", key("loading", names(AnyDamped::ALL.iter().map(|(name, _)| *name))));
-    let damps_by_mass = AnyDamped::ALL.iter().filter(|(_, law)| law.needs_mass()).map(|(name, _)| *name);
-    let damps_by_mass = key("law", key("loading", names(damps_by_mass)));
-    let elastic_loss = key("law", has("elastic_restitution"));
-    let loss = any([elastic_loss.clone(), key("target", has("plate_thickness"))]);
-    let derivatives = |wanted: bool| key("fmu", key("input_derivatives", json!({ "const": wanted })));
-    let mass_input = key("coupling", key("inputs", json!({ "contains": { "const": "effective_mass" } })));
-    let masses = any([key("coupling", has("effective_mass")), mass_input.clone()]);
-    let softening = AnyLoading::ALL.iter().filter(|(_, law)| !law.takes_both_bodies()).map(|(name, _)| *name);
-    let softening = softening.chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
-    let hardens = any(["hardening_modulus", "tangent_modulus", "power_law"].map(has));
-    let bodies_of = |so: Value| json!({ "impactor": so, "target": so });
-    let rules = [
-        implies(not(has("contact")), of_single_contact()),
-        implies(key("law", key("loading", names(softening))), {
-            let of_all = bodies_of(not(hardens));
-            let of_contacts = each_contact(json!({ "properties": of_all }));
-            all([json!({ "properties": of_all }), of_contacts])
-        }),
-        implies(all([has("coupling"), not(has("body"))]), {
-            json!({ "properties": { "coupling": any([has("effective_mass"), has("inverse_masses")]) } })
-        }),
-        implies(
-            has("body"),
-            all([
-                has("contact"),
-                not(any([key("coupling", has("inverse_masses")), key("impact", has("mass"))])),
-                each_contact(all([has("between"), not(has("count"))])),
-                any([
-                    each_contact(all([has("normal"), not(has("direction"))])),
-                    each_contact(not(any(["normal", "arms"].map(has)))),
-                ]),
-            ]),
-        ),
-        implies(not(has("body")), each_contact(not(any(ENDS.map(has))))),
-        implies(
-            moved.clone(),
-            all([
-                not(any([damps_by_mass.clone(), masses.clone()])),
-                implies(has("friction"), not(any([key("impactor", has("rate")), key("target", has("rate"))]))),
-                each_contact(not(has("effective_mass"))),
-            ]),
-        ),
-        implies(not(has("coupling")), each_contact(not(has("effective_mass")))),
-        implies(all([has("body"), has("friction")]), each_contact(all([has("normal"), has("tangent")]))),
-        implies(
-            has("friction"),
-            all([
-                not(damped.clone()),
-                not(key(
-                    "law",
-                    any([
-                        key("passivity_guard", json!({ "const": true })),
-                        key("unloading", names(without_friction())),
-                    ]),
-                )),
-                any([not(loss.clone()), moved.clone()]),
-                not(key("coupling", has("effective_mass"))),
-            ]),
-        ),
-        implies(
-            not(has("friction")),
-            all([
-                each_contact(not(any([key("friction", has("coefficient")), has("tangent")]))),
-                no_output(&|variable| variable.friction),
-            ]),
-        ),
-        implies(not(moved), no_output(&|variable| table::OF_SHARED.contains(&variable.name.as_str()))),
-        implies(not(knows_mass.clone()), no_output(&|variable| variable.name == "closing_speed")),
-        implies(knows_mass.clone(), not(derivatives(false))),
-        implies(all([not(knows_mass), any([damped.clone(), elastic_loss.clone()])]), not(derivatives(true))),
-        implies(damped, not(loss)),
-        of_cylinders(),
-        not(all([elastic_loss, key("target", has("plate_thickness"))])),
-        implies(
-            mass_input.clone(),
-            each_contact(not(key("parameters_per_contact", json!({ "contains": { "const": "effective_mass" } })))),
-        ),
-        not(all([damps_by_mass, mass_input])),
-    ];
-    schema["allOf"] = json!(rules);
+    schema["allOf"] = RULES.iter().filter(|rule| rule.body.is_none()).map(of_scene).collect();
     let keys = &mut schema["properties"];
-    for body in ["impactor", "target"] {
-        keys[body]["allOf"] = json!(of_body());
-        keys[body]["properties"]["rate"]["oneOf"] = of_rate();
-        keys["contact"]["items"]["properties"][body]["allOf"] = json!(of_body());
+    for body in BODIES {
+        let of_table = RULES.iter().filter(|rule| rule.body.as_deref() == Some(body)).map(of_table);
+        let of_table: Value = of_table.chain(of_readings()).collect();
+        keys[body]["allOf"] = of_table.clone();
+        keys["contact"]["items"]["properties"][body]["allOf"] = of_table;
     }
-    keys["target"]["dependentSchemas"] = json!({ "plate_thickness": not(any([has("radius"), has("length")])) });
     let contact = &mut keys["contact"]["items"]["properties"];
     contact["name"]["not"] = json!({ "enum": taken_names() });
     contact["between"]["uniqueItems"] = json!(true);
@@ -111,169 +30,140 @@ pub fn add(schema: &mut Value) {
         contact[direction]["not"] = json!({ "items": { "const": 0 } });
     }
     keys["body"]["items"]["properties"]["name"]["not"] = json!({ "const": GROUND });
-    keys["impact"]["oneOf"] = json!([has("speed"), has("drop_height")]);
     keys["law"]["allOf"] = json!(of_laws());
 }
 
-/// What goes with a cylinder, and with a ball.
-fn of_cylinders() -> Value {
-    let line = key("impactor", key("shape", json!({ "const": "cylinder" })));
-    let law = |so: Value| json!({ "properties": { "law": { "properties": { "loading": so } } } });
-    let sizes = any([
-        key("target", any([has("thickness"), has("base"), key("shape", json!({ "const": "cylinder" }))])),
-        key("law", has("size_constant")),
-    ]);
-    let own = not(any(["area", "rate"].map(has)));
-    let target = not(any(["plate_thickness", "length"].map(has)));
-    let of_line = [
-        law(json!({ "const": LINE })),
-        json!({ "properties": { "impactor": own, "target": all([own.clone(), target]) } }),
-        not(has("friction")),
-        not(key("law", key("elastic_restitution", json!({ "type": "string" })))),
-        not(all([key("target", has("thickness")), key("law", has("size_constant"))])),
-        json!({ "properties": { "target": {
-            "dependentRequired": { "base": ["thickness"] }, "properties": { "shape": { "const": "cylinder" } },
-        } } }),
-    ];
-    all([
-        implies(line.clone(), all(of_line)),
-        implies(not(line), all([law(not(json!({ "const": LINE }))), not(sizes)])),
-    ])
+/// A rule about keys of one table.
+fn of_table(rule: &Rule) -> Value {
+    let any_of = |keys: &[Key]| any(keys.iter().map(|key| is(&key.path, key)));
+    let what = any_of(&rule.what);
+    implies(all(rule.when.iter().map(|keys| any_of(keys))), if rule.forbids { not(what) } else { what })
 }
 
-/// What a contact says of the bodies of its scene.
-const ENDS: [&str; 5] = ["between", "direction", "normal", "arms", "tangent"];
-
-/// The keys that say how strong a body is, beside its material.
-const STRENGTHS: [&str; 5] = ["yield_strength", "hardness", "tensile_strength", "tensile_test", "power_law"];
-
-/// A scene of one contact, which has all its numbers in the tables of both bodies.
-fn of_single_contact() -> Value {
-    let dense = || any([has("material"), has("density")]);
-    let elastic = || any([has("material"), needs(&["youngs_modulus", "poissons_ratio"])]);
-    let rod = || json!({ "dependentRequired": { "length": ["area"], "area": ["length"] } });
-    let cylinder = || key("shape", json!({ "const": "cylinder" }));
-    let of_impactor = all([
-        implies(not(cylinder()), all([rod(), implies(has("length"), elastic())])),
-        implies(cylinder(), has("length")),
-    ]);
-    let of_elastic = STRENGTHS.into_iter().chain(["hardening_modulus", "youngs_modulus", "poissons_ratio"]);
-    let strong = any(STRENGTHS.into_iter().chain(["material"]).map(has));
-    let plastic = AnyLoading::ALL.iter().map(|(name, _)| *name).filter(|name| *name != "hertz");
-    all([
-        needs(&["impactor", "target"]),
-        json!({ "properties": {
-            "impactor": all([
-                has("radius"),
-                of_impactor,
-                implies(any(of_elastic.map(has)), elastic()),
-                implies(has("hardening_modulus"), strong.clone()),
-            ]),
-            "target": all([elastic(), rod(), implies(any([has("length"), has("plate_thickness")]), dense())]),
-        } }),
-        implies(
-            key("impactor", cylinder()),
-            all([
-                any([key("target", any(["thickness", "radius"].map(has))), key("law", has("size_constant"))]),
-                any([key("impactor", strong.clone()), key("target", strong.clone())]),
-            ]),
-        ),
-        implies(
-            key("law", key("elastic_restitution", json!({ "const": WAVES }))),
-            json!({ "properties": { "target": dense() } }),
-        ),
-        implies(
-            not(any([key("impactor", strong.clone()), key("target", strong)])),
-            not(key("law", any([has("unloading"), has("unloading_parameters"), key("loading", names(plastic))]))),
-        ),
-        implies(
-            not(any([has("coupling"), key("impactor", dense())])),
-            json!({ "properties": { "impact": has("mass") } }),
-        ),
-    ])
+/// A part of what has to hold of a scene with contacts: one of these of the scene, or one of those of each contact.
+#[derive(Clone, Default)]
+struct Clause {
+    of_scene: Vec<Value>,
+    of_contact: Vec<Value>,
+    /// Whether the latter holds where a contact has nothing of its own, and so where there are no tables of contacts.
+    holds_of_none: bool,
 }
 
-/// A scene each of whose contacts is so.
-fn each_contact(so: Value) -> Value {
-    json!({ "properties": { "contact": { "items": so } } })
-}
-
-/// The keys of a body that say the same.
-fn of_body() -> Vec<Value> {
-    let numbers = ["yield_strength", "hardening_modulus", "tangent_modulus"];
-    let others = ["hardness", "tensile_strength", "tensile_test", "power_law"];
-    let readings = others.iter().map(|reading| {
-        let same: Vec<_> =
-            numbers.iter().chain(others.iter().filter(|other| *other != reading)).map(|key| has(key)).collect();
-        implies(has(reading), not(any(same)))
+/// A rule about keys of the scene and of its contacts. That a body has a key means that the contact has it, or the scene for all; so what
+/// has to hold becomes a list of clauses, each of which has parts of the scene and parts of the contacts.
+fn of_scene(rule: &Rule) -> Value {
+    let is_of_scene = |keys: &&Vec<Key>| keys.iter().all(|key| key.level() == Level::Scene);
+    let (once, each): (Vec<_>, Vec<_>) = rule.when.iter().partition(is_of_scene);
+    let condition = |keys: &Vec<Key>| {
+        let any = any(keys.iter().map(|key| is(&key.path, key)));
+        if keys[0].no { not(any) } else { any }
+    };
+    // each condition that fails is enough, or one of what is needed
+    let exceptions = || each.iter().flat_map(|keys| keys.iter()).map(|key| (!key.no, key));
+    let wanted: Vec<Vec<(bool, &Key)>> = match rule.forbids {
+        true => rule.what.iter().map(|key| exceptions().chain([(true, key)]).collect()).collect(),
+        false => vec![exceptions().chain(rule.what.iter().map(|key| (false, key))).collect()],
+    };
+    let then = wanted.iter().flat_map(|literals| {
+        let mut clauses = vec![Clause::default()];
+        literals.iter().for_each(|(is_not, key)| clauses = with(std::mem::take(&mut clauses), *is_not, key));
+        clauses
     });
-    let slow = json!({ "properties": { "reference_rate": { "const": TEST_RATE } } });
-    let rest = [
-        implies(
-            any(["hardness", "tensile_strength", "tensile_test"].map(has)),
-            json!({ "properties": { "rate": slow } }),
-        ),
-        implies(key("hardness", json!({ "pattern": measured::of_impacts() })), not(has("rate"))),
-        not(all([has("hardening_modulus"), has("tangent_modulus")])),
-        implies(has("hardening_exponent"), any([needs(&["hardness"]), needs(&["tensile_strength"])])),
-    ];
-    readings.chain(rest).collect()
+    implies(all(once.into_iter().map(condition)), all(then.map(Clause::schema)))
 }
 
-fn of_rate() -> Value {
-    let model = |name: &str, own: &[&str], others: [&str; 2]| {
-        all([key("model", json!({ "const": name })), needs(own), not(any(others.map(has)))])
+/// The `clauses` with one more part: a `key`, or that it is not so.
+fn with(clauses: Vec<Clause>, is_not: bool, key: &Key) -> Vec<Clause> {
+    let negated = |value: Value| if is_not { not(value) } else { value };
+    let own = if key.level() == Level::Contact { &key.path[1..] } else { &key.path[..] };
+    let add_of_scene = |mut clause: Clause| {
+        clause.of_scene.push(negated(is(&key.path, key)));
+        clause
     };
-    let [johnson_cook, cowper_symonds] = crate::scene::RATE_MODELS;
-    // the rate of a reading is known
-    json!([model(johnson_cook, &["c"], ["d", "q"]), model(cowper_symonds, &["d", "q"], ["c", "reference_rate"])])
-}
-
-/// What goes with each law.
-fn of_laws() -> Vec<Value> {
-    let loading = |name: &str| key("loading", json!({ "const": name }));
-    let unloading = |name: &str| key("unloading", json!({ "const": name }));
-    let no_unloading = || {
-        not(any(["unloading", "unloading_parameters"]
-            .map(has)
-            .into_iter()
-            .chain([key("passivity_guard", json!({ "const": true }))])))
+    let add_of_contact = |mut clause: Clause| {
+        clause.of_contact.push(negated(is(own, key)));
+        clause.holds_of_none |= is_not;
+        clause
     };
-    let mut rules = vec![implies(not(has("loading")), not(any(["restitution", "damping"].map(has))))];
-    for (name, law) in AnyLoading::ALL {
-        let others = AnyUnloading::ALL.iter().filter(|(other, _)| pairing::check(name, other).is_err());
-        let fits = if name == "hertz" {
-            no_unloading()
-        } else {
-            not(key("unloading", names(others.map(|(other, _)| *other))))
-        };
-        let constants = constants("loading_parameters", &parameters::constants(&law, table::loading_law(name)));
-        rules.push(implies(loading(name), all([fits, constants, not(any(["restitution", "damping"].map(has)))])));
-    }
-    for (name, law) in AnyDamped::ALL {
-        let restitution = if law.needs_restitution() { needs(&["restitution"]) } else { not(has("restitution")) };
-        let damping = match law.dampings() {
-            none if none.is_empty() => not(has("damping")),
-            some => json!({ "properties": { "damping": { "enum": some } } }),
-        };
-        let constants = constants("loading_parameters", &parameters::constants(&law, table::damped_law(name)));
-        rules.push(implies(loading(name), all([no_unloading(), restitution, damping, constants])));
-    }
-    for (name, law) in AnyUnloading::ALL {
-        let mut all_of =
-            vec![constants("unloading_parameters", &parameters::constants(&law, table::unloading_law(name)))];
-        if law.guarded().is_none() {
-            all_of.push(not(key("passivity_guard", json!({ "const": true }))));
+    match key.level() {
+        Level::Scene => clauses.into_iter().map(add_of_scene).collect(),
+        Level::Contact => clauses.into_iter().map(add_of_contact).collect(),
+        // neither the contact nor the scene has it
+        Level::Body if is_not => {
+            clauses.into_iter().flat_map(|clause| [add_of_scene(clause.clone()), add_of_contact(clause)]).collect()
         }
-        if let Some(made) = &table::unloading_law(name).made_for {
+        Level::Body => clauses.into_iter().map(|clause| add_of_contact(add_of_scene(clause))).collect(),
+    }
+}
+
+impl Clause {
+    fn schema(mut self) -> Value {
+        if !self.of_contact.is_empty() {
+            let each = json!({ "properties": { "contact": { "items": any(self.of_contact) } } });
+            self.of_scene.push(if self.holds_of_none { each } else { all([has("contact"), each]) });
+        }
+        any(self.of_scene)
+    }
+}
+
+/// The table in which the value at this `path` is as the `key` wants it.
+fn is(path: &[String], wanted: &Key) -> Value {
+    let values = |names: &[String]| {
+        let value = |name: &String| match name.parse() {
+            Ok(value) => Value::Bool(value),
+            Err(_) => json!(name),
+        };
+        json!({ "enum": names.iter().map(value).collect::<Vec<_>>() })
+    };
+    match path {
+        [first, rest @ ..] if first == "contacts" => key("contact", json!({ "contains": is(rest, wanted) })),
+        [only] => match &wanted.is {
+            Is::There => has(only),
+            Is::In(names) => key(only, values(names)),
+            Is::NotIn(names) => key(only, not(values(names))),
+            Is::With(names) => key(only, json!({ "contains": values(names) })),
+        },
+        [table, rest @ ..] => key(table, is(rest, wanted)),
+        [] => json!(true),
+    }
+}
+
+/// What a reading says of the rate of a body.
+fn of_readings() -> [Value; 2] {
+    let slow = json!({ "properties": { "rate": { "properties": { "reference_rate": { "const": TEST_RATE } } } } });
+    [
+        implies(any(["hardness", "tensile_strength", "tensile_test"].map(has)), slow),
+        implies(key("hardness", json!({ "pattern": measured::of_impacts() })), not(has("rate"))),
+    ]
+}
+
+/// What goes with each law, by the table of laws.
+fn of_laws() -> Vec<Value> {
+    let with = |law: &str, name: &str, so: Vec<Value>| implies(key(law, json!({ "const": name })), all(so));
+    let property = |key: &str, so: Value| json!({ "properties": { key: so } });
+    let of_loading = AnyLoading::ALL.iter().map(|(name, law)| {
+        let misfits = AnyUnloading::ALL.iter().filter(|(other, _)| pairing::check(name, other).is_err());
+        let misfits =
+            property("unloading", not(json!({ "enum": misfits.map(|(other, _)| other).collect::<Vec<_>>() })));
+        let own = constants("loading_parameters", &parameters::constants(law, table::loading_law(name)));
+        with("loading", name, vec![own, misfits])
+    });
+    let of_damped = AnyDamped::ALL.iter().map(|(name, law)| {
+        let own = constants("loading_parameters", &parameters::constants(law, table::damped_law(name)));
+        let variants = Some(law.dampings()).filter(|variants| !variants.is_empty());
+        let damping = variants.map(|variants| property("damping", json!({ "enum": variants })));
+        with("loading", name, [own].into_iter().chain(damping).collect())
+    });
+    let of_unloading = AnyUnloading::ALL.iter().map(|(name, law)| {
+        let own = constants("unloading_parameters", &parameters::constants(law, table::unloading_law(name)));
+        let made = table::unloading_law(name).made_for.as_ref().map(|made| {
             let published = pairing::published(&made.loading);
             let of = |name: &String| (name.clone(), json!({ "const": parameters::value_of(&published, name) }));
-            let keys = object(made.as_published.iter().map(of));
-            all_of.push(json!({ "properties": { "loading_parameters": { "properties": keys } } }));
-        }
-        rules.push(implies(unloading(name), all(all_of)));
-    }
-    rules
+            property("loading_parameters", json!({ "properties": object(made.as_published.iter().map(of)) }))
+        });
+        with("unloading", name, [own].into_iter().chain(made).collect())
+    });
+    of_loading.chain(of_damped).chain(of_unloading).collect()
 }
 
 /// The constants of a law under this key.
@@ -283,26 +173,8 @@ fn constants(key: &str, constants: &[LawConstant]) -> Value {
     json!({ "properties": { key: { "properties": keys, "additionalProperties": false } } })
 }
 
-fn without_friction() -> impl Iterator<Item = &'static str> {
-    table::unloading_laws().into_iter().filter(|law| law.no_friction.is_some()).map(|law| law.name.as_str())
-}
-
-/// A scene without these outputs.
-fn no_output(of: &dyn Fn(&table::Variable) -> bool) -> Value {
-    let outputs = table::VARIABLES.iter().filter(|variable| of(variable)).map(|variable| variable.name.as_str());
-    json!({ "properties": { "fmu": { "properties": { "outputs": { "items": not(names(outputs)) } } } } })
-}
-
-fn names(names: impl Iterator<Item = &'static str>) -> Value {
-    json!({ "enum": names.collect::<Vec<_>>() })
-}
-
 fn has(key: &str) -> Value {
-    needs(&[key])
-}
-
-fn needs(keys: &[&str]) -> Value {
-    json!({ "required": keys })
+    json!({ "required": [key] })
 }
 
 /// A table whose `key` exists, and is so.
@@ -315,13 +187,51 @@ fn not(what: Value) -> Value {
 }
 
 fn all(of: impl IntoIterator<Item = Value>) -> Value {
-    json!({ "allOf": of.into_iter().collect::<Vec<_>>() })
+    several("allOf", of.into_iter().collect())
 }
 
 fn any(of: impl IntoIterator<Item = Value>) -> Value {
-    json!({ "anyOf": of.into_iter().collect::<Vec<_>>() })
+    several("anyOf", of.into_iter().collect())
+}
+
+fn several(which: &str, mut of: Vec<Value>) -> Value {
+    match of.len() {
+        0 => json!(which == "allOf"),
+        1 => of.remove(0),
+        _ => json!({ which: of }),
+    }
 }
 
 fn implies(one: Value, other: Value) -> Value {
     json!({ "if": one, "then": other })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BODIES, Key, RULES};
+    use crate::schema::schema;
+    use serde_json::Value;
+
+    /// The schema of the key at this `path` below that of a table.
+    fn below<'a>(schema: &'a Value, path: &[String]) -> Option<&'a Value> {
+        let Some((first, rest)) = path.split_first() else { return Some(schema) };
+        let table = if schema["items"].is_object() { &schema["items"] } else { schema };
+        below(table["properties"].get(first.trim_end_matches('s')).or(table["properties"].get(first))?, rest)
+    }
+
+    #[test]
+    fn a_rule_names_keys_that_scenes_have() {
+        let schema = schema();
+        // of the keys that a contact may not have for itself the schema knows nothing
+        let is_refused =
+            |key: &Key| key.path[0] == "contact" && key.path.len() == 3 && BODIES.contains(&key.path[1].as_str());
+        let of_scene = |key: &Key| is_refused(key) || below(&schema, &key.path).is_some();
+        for rule in RULES.iter() {
+            let of_body = |key: &Key| below(&schema["properties"][rule.body.as_deref()?], &key.path);
+            let keys: Vec<_> = rule.when.iter().flatten().chain(&rule.what).collect();
+            let known = keys.iter().filter(|key| of_scene(key) || of_body(key).is_some()).count();
+            assert_eq!(known, keys.len(), "{keys:?}");
+        }
+        assert!(RULES.len() > 100);
+    }
 }
