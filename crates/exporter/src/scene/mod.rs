@@ -21,6 +21,7 @@ mod shared_bodies;
 #[cfg(test)]
 mod shared_bodies_tests;
 mod strength;
+mod tabulated;
 
 use crate::mistake::Spanned;
 use crate::mistake::{Mistake, SceneError};
@@ -39,7 +40,7 @@ pub use bodies::{Body, Both};
 pub use contacts::{Group, Parameter};
 pub use contacts::{OF_ALL_CONTACTS, taken_names};
 pub use cylinders::LINE;
-pub use file::SceneFile;
+pub use file::{SceneFile, TABLE};
 pub use fmu::INPUTS;
 pub use inverse_masses::{InverseMasses, place};
 pub use losses::{Loss, WAVES};
@@ -119,6 +120,8 @@ pub struct Scene {
     pub meeting: Option<[Meeting; 2]>,
     /// Where the constant `C` of a line contact is from, in words; `None` for contacts of balls.
     pub line: Option<String>,
+    /// How near the law is to a curve of one's own, in words; `None` for other laws.
+    pub own_curve: Option<String>,
     /// Number of tangential directions, zero without friction.
     pub directions: usize,
     pub impact: Impact,
