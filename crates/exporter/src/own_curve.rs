@@ -270,7 +270,10 @@ impl Chain {
             all.iter().map(|&most| Chain::through(points, &knots(points, most), floor, first)).collect();
         let least =
             [0, 1].map(|place| chains.iter().fold(f64::INFINITY, |least: f64, chain| least.min(chain.rms[place])));
-        let is_near = |chain: &Chain| [0, 1].into_iter().all(|place| chain.rms[place] <= NEAR.max(1.1 * least[place]));
+        // where the force has noise, the radius need not be much nearer
+        let near = |chain: &Chain| [NEAR, NEAR.max(0.3 * chain.rms[0])];
+        let is_near =
+            |chain: &Chain| (0..2).all(|place| chain.rms[place] <= near(chain)[place].max(1.1 * least[place]));
         let place = chains.iter().position(is_near).unwrap_or(all.len() - 1);
         chains.swap_remove(place)
     }

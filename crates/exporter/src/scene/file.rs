@@ -317,7 +317,7 @@ pub struct LawTable {
     /// The table in place of the name: [`deserialized`] takes it apart.
     #[schemars(skip)]
     #[serde(rename = "loading table")]
-    pub own_curve: Option<Spanned<OwnCurveTable>>,
+    pub(super) own_curve: Option<Spanned<OwnCurveTable>>,
     /// Constants of the loading law, or of the rate-dependent law, by name.
     #[schemars(with = "Option<ConstantKeys>", extend("x-default" = "those of the reference"))]
     pub loading_parameters: Option<ConstantTable>,
