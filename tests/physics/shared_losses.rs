@@ -11,8 +11,8 @@ use brinell_contact::{Loading, Surface, Unloading};
 
 pub type LosingModel = losses::Model<AnyLoading, AnyUnloading, AnyLoss>;
 
-/// The number of evaluations of a step over one impact, as the machine states it; of a law without segments ten times as many.
-const MOST_OF_AN_IMPACT: u32 = 3000;
+/// The number of evaluations of a step over one impact, above the most that the machine states; of a law without segments ten times as many.
+const MOST_OF_AN_IMPACT: u32 = 4000;
 
 const STEEL: Solid = Solid { density: 7850.0, youngs_modulus: 206e9, poissons_ratio: 0.3 };
 

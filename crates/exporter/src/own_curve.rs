@@ -1,7 +1,6 @@
 //! A loading curve of one's own: the rows of a file, and the law through them.
 //!
-//! The force is the chain of pieces that is closest to the rows by least squares of the relative deviation, on as few knots as are as near as
-//! many. Where the file has no radius of the contact, it follows from the depth in contact, `a^2 = R (2 d - d_e)` (Field and Swain), and the
+//! The force is the chain of pieces that is closest to the rows by least squares, each by its noise, on as few knots as the noise asks for. Where the file has no radius of the contact, it follows from the depth in contact, `a^2 = R (2 d - d_e)` (Field and Swain), and the
 //! elastic recovery from it, `d_e = 3 F/(4 E* a)`; an unloading of the file gives its length at the largest depth.
 
 use crate::measurement::{self, Choices, Measurement};
@@ -22,20 +21,27 @@ const ELASTIC: f64 = 0.005;
 /// How much more than a passive contact the recovery may be, relatively; it is then shortened.
 const LONGER: f64 = 0.1;
 
-/// The rms deviation of the force that needs no more knots.
+/// The rms deviation of the force, relatively, that needs no more knots.
 const NEAR: f64 = 2e-4;
 
-/// How far Hertz's curve may pass from the tangent at the first row, over the force there, where the contact yields before that row.
-const TOUCHES: f64 = 0.02;
+/// The curve begins in the row above which each force is its noise times this number at least.
+const OF_NOISE: f64 = 8.0;
 
-/// A force is known within its rms noise times this number.
-const OF_NOISE: f64 = 20.0;
+/// The largest power of the depth before the first row, where the contact has yielded: Hertz's is 1.5.
+const STEEPEST: f64 = 1.4;
+
+/// The number of knots there.
+const BEFORE: usize = 4;
 
 /// Forces below this part of the largest one count as that.
 const LEAST: f64 = 0.01;
 
-/// Rows of a piece.
-const OF_PIECE: usize = 3;
+/// The least number of rows of a piece, and the least rise along it, in units of the noise over the root of the number of its rows: slopes
+/// are then known within a tenth.
+const OF_PIECE: (usize, f64) = (3, 35.0);
+
+/// How much lines of `a^2` keep straight, over the weight of a row.
+const SMOOTH: f64 = 1e-4;
 
 /// The rows of a file in SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -104,7 +110,7 @@ impl Rows {
     }
 }
 
-/// A row of the loading, in units of the largest depth and force.
+/// A row of the loading \[m, N\].
 #[derive(Clone, Copy)]
 struct Point {
     row: usize,
@@ -143,65 +149,31 @@ pub fn law(rows: &Rows, pair: &Pair) -> Result<(Tabulated, String), String> {
             ROWS.0
         ));
     }
-    let (depth, force) =
-        (points[points.len() - 1].depth, points.iter().fold(0.0, |most: f64, point| most.max(point.force)));
-    let mut noise = noise(rows, &points, force)?;
-    let mut fit = Fit::of(&points, pair, (depth, force), noise);
-    // what the chain leaves is noise, too
-    let left = fit.left(force);
-    if left > noise && OF_NOISE * left > LEAST * force {
-        noise = left;
-        fit = Fit::of(&points, pair, (depth, force), noise);
-    }
-    let Fit { used, points, chain, begins, floor } = &fit;
-    let bodies = Bodies { pair, rows, scale: (depth, force), points, begins: *begins, noise };
-    let (law, shortened) = bodies.law(chain, unloading(rows, deepest, force))?;
-    let words = words(&law, pair, used, floor * force, shortened);
+    let force = points.iter().fold(0.0, |most: f64, point| most.max(point.force));
+    let noise = Noise::of(&points);
+    check_rise(rows, &points, FALL * force + 4.0 * noise.at(force))?;
+    // a row below the noise says nothing
+    let begin =
+        points.iter().rposition(|point| point.force < OF_NOISE * noise.at(point.force)).map_or(0, |row| row + 1);
+    let used = &points[begin.min(points.len() - ROWS.0)..];
+    let elastic = elastic_rows(used, pair, &noise);
+    let (plastic, first) = (&used[elastic.unwrap_or(0)..], elastic.map(|row| hertz(pair, used[row].depth)));
+    let mut chain = Chain::near(plastic, &noise, first);
+    let begins_elastic = elastic.is_some() || chain.begin_elastic(pair);
+    chain.split();
+    let squares = squares(&chain, plastic, pair);
+    let bodies = Bodies { pair, rows, points: plastic, begins_elastic, noise };
+    let (law, shortened) = bodies.law(&chain, &squares, unloading(rows, deepest, force))?;
+    let words = words(&law, pair, used, used[0].force.max(LEAST * force), shortened);
     Ok((law, words))
 }
 
-/// The chain through the points of a loading.
-struct Fit<'a> {
-    /// Those that are not below the noise.
-    used: &'a [Point],
-    /// Those beyond the elastic part, in units of the largest depth and force and of the radius.
-    points: Vec<Point>,
-    chain: Chain,
-    begins: Begins,
-    /// The part of the largest force below which deviations are relative to it.
-    floor: f64,
+fn hertz(pair: &Pair, depth: f64) -> f64 {
+    pair.hertz_stiffness() * depth.powf(1.5)
 }
 
-impl Fit<'_> {
-    fn of<'a>(points: &'a [Point], pair: &Pair, (depth, force): (f64, f64), noise: f64) -> Fit<'a> {
-        // a row below the noise says nothing
-        let begin = points.iter().position(|point| point.force > OF_NOISE * noise).unwrap_or(0);
-        let used = &points[begin.min(points.len() - ROWS.0)..];
-        let elastic = elastic_rows(used, pair, noise);
-        let scaled = |point: &Point| {
-            let radius = if point.radius.is_nan() { of_contact_depth(point, pair).sqrt() } else { point.radius };
-            Point { depth: point.depth / depth, force: point.force / force, radius: radius / pair.radius, ..*point }
-        };
-        let points: Vec<_> = used[elastic.unwrap_or(0)..].iter().map(scaled).collect();
-        let hertz = |at: f64| pair.hertz_stiffness() * (at * depth).powf(1.5) / force;
-        let floor = LEAST.max(OF_NOISE * noise / force);
-        let mut chain = Chain::near(&points, floor, elastic.map(|_| hertz(points[0].depth)));
-        let begins = match elastic {
-            Some(_) => Begins::Elastic,
-            None => chain.begin_elastic(&hertz, pair.radius / depth),
-        };
-        Fit { used, points, chain, begins, floor }
-    }
-
-    /// The rms distance of the forces from the chain \[N\].
-    fn left(&self, force: f64) -> f64 {
-        let off = |point: &Point| force * (self.chain.force(point.depth) - point.force);
-        (self.points.iter().map(|point| off(point) * off(point)).sum::<f64>() / self.points.len() as f64).sqrt()
-    }
-}
-
-/// The rms distance of the forces from the closest ones that don't fall \[N\].
-fn noise(rows: &Rows, points: &[Point], largest: f64) -> Result<f64, String> {
+/// Refuses forces that are more than `allowed` \[N\] off the closest ones that don't fall.
+fn check_rise(rows: &Rows, points: &[Point], allowed: f64) -> Result<(), String> {
     // pools of neighbours with one mean
     let mut pools: Vec<(f64, usize)> = Vec::new();
     for point in points {
@@ -214,103 +186,158 @@ fn noise(rows: &Rows, points: &[Point], largest: f64) -> Result<f64, String> {
         pools.push(pool);
     }
     let rising = pools.iter().flat_map(|&(mean, count)| std::iter::repeat_n(mean, count));
-    let off: Vec<_> = points.iter().zip(rising).map(|(point, mean)| (point, mean - point.force)).collect();
-    let (worst, fall) = off.iter().fold(
-        (points[0].row, 0.0),
-        |worst, (point, off)| {
-            if *off > worst.1 { (point.row, *off) } else { worst }
-        },
-    );
-    if fall > FALL * largest {
-        return Err(format!(
+    let falls = points.iter().zip(rising).map(|(point, mean)| (mean - point.force, point));
+    match falls.max_by(|one, other| one.0.total_cmp(&other.0)) {
+        Some((fall, point)) if fall > allowed => Err(format!(
             "{}: the force {} at a depth of {} is {} below that of its neighbours: a loading curve rises; allowed is {}",
-            rows.said(worst),
-            quantity(rows.force[worst], "N"),
-            quantity(rows.depth[worst], "m"),
+            rows.said(point.row),
+            quantity(point.force, "N"),
+            quantity(point.depth, "m"),
             quantity(fall, "N"),
-            quantity(FALL * largest, "N")
-        ));
+            quantity(allowed, "N")
+        )),
+        _ => Ok(()),
     }
-    Ok((off.iter().map(|(_, off)| off * off).sum::<f64>() / off.len() as f64).sqrt())
 }
 
-/// The place of the last point up to which the curve is Hertz's, if it begins so.
-fn elastic_rows(points: &[Point], pair: &Pair, noise: f64) -> Option<usize> {
-    let is_hertz = |point: &&Point| {
-        let hertz = pair.hertz_stiffness() * point.depth.powf(1.5);
-        (point.force / hertz - 1.0).abs() <= (ELASTIC + 3.0 * noise / point.force).min(4.0 * ELASTIC)
-    };
-    points.iter().take_while(is_hertz).count().checked_sub(1)
+/// The standard deviation of a force: a constant \[N\], and a part of it.
+struct Noise {
+    constant: f64,
+    part: f64,
 }
 
-/// Where the elastic part ends.
-#[derive(Clone, Copy, PartialEq)]
-enum Begins {
-    /// In a row, up to which the curve is Hertz's.
-    Elastic,
-    /// Before the first row, where Hertz's curve meets the tangent there.
-    Before,
-    /// In the first row, whatever the curve is before.
-    AtOnce,
+impl Noise {
+    /// From how far each force is off the cubic through two rows before and two behind, at smaller and at larger forces.
+    ///
+    /// Reference: T. Gasser, L. Sroka, C. Jennen-Steinmetz, *Biometrika* 73 (1986) 625-633.
+    fn of(points: &[Point]) -> Noise {
+        let off = |five: &[Point]| {
+            let others = [0, 1, 3, 4];
+            let weight = |one: usize| {
+                let of = |other: usize| (five[2].depth - five[other].depth) / (five[one].depth - five[other].depth);
+                others.into_iter().filter(|other| *other != one).map(of).product::<f64>()
+            };
+            let weights = others.map(weight);
+            let cubic: f64 = others.iter().zip(weights).map(|(one, weight)| weight * five[*one].force).sum();
+            (five[2].force - cubic).abs() / (1.0 + weights.iter().map(|weight| weight * weight).sum::<f64>()).sqrt()
+        };
+        let off: Vec<_> = points.windows(5).map(|five| (off(five), five[2].force)).collect();
+        // the median of the size of normal numbers of deviation one is 0.6745
+        let halves = [&off[..off.len() / 2], &off[off.len() / 2..]].map(|half| {
+            let median = |of: &dyn Fn(&(f64, f64)) -> f64| {
+                let mut numbers: Vec<_> = half.iter().map(of).collect();
+                numbers.sort_by(f64::total_cmp);
+                numbers[numbers.len() / 2]
+            };
+            [(median(&|(off, _)| *off) / 0.6745).powi(2), median(&|(_, force)| *force).powi(2)]
+        });
+        let [[low, small], [high, large]] = halves;
+        let part = ((high - low) / (large - small)).max(0.0);
+        let constant = if part > 0.0 { (low - part * small).max(0.0) } else { 0.5 * (low + high) };
+        Noise { constant: constant.sqrt(), part: part.sqrt() }
+    }
+
+    fn at(&self, force: f64) -> f64 {
+        self.constant.hypot(self.part * force)
+    }
+
+    /// What the deviation of a curve counts by.
+    fn weight(&self, force: f64) -> f64 {
+        let size = self.at(force).hypot(NEAR * force);
+        1.0 / (size * size)
+    }
 }
 
-/// Depth, force and stiffness at some knots, and `a^2` there, in units of the largest depth and force and of the radius.
+/// The place of the last point up to which the curve is Hertz's, if it begins so: by means over as many rows as are known well enough.
+fn elastic_rows(points: &[Point], pair: &Pair, noise: &Noise) -> Option<usize> {
+    let (mut count, mut sums) = (0, [0.0; 2]);
+    for (place, point) in points.iter().enumerate() {
+        let hertz = hertz(pair, point.depth);
+        let weight = noise.weight(hertz) * hertz;
+        sums[0] += weight * (point.force - hertz);
+        sums[1] += weight * hertz;
+        let (off, error) = (sums[0] / sums[1], 1.0 / sums[1].sqrt());
+        let is_last = place + 1 == points.len() && error < 8.0 * ELASTIC;
+        if error <= 0.5 * ELASTIC || is_last {
+            if off.abs() > ELASTIC + 2.0 * error {
+                break;
+            }
+            (count, sums) = (place + 1, [0.0; 2]);
+        }
+    }
+    count.checked_sub(1)
+}
+
+/// Depth, force and stiffness at some knots \[m, N, N/m\].
 struct Chain {
     knots: Vec<[f64; 3]>,
-    squares: Vec<f64>,
-    /// Relative rms deviations from the points of force and `a^2`.
-    rms: [f64; 2],
 }
 
 impl Chain {
-    /// The chain near the `points` with the fewest knots that is about as near as with the most. The force at the first one may be known.
-    fn near(points: &[Point], floor: f64, first: Option<f64>) -> Chain {
-        let all = [2, 3, 4, 6, 8, 12, 16, 24, MOST - 1];
-        let mut chains: Vec<_> =
-            all.iter().map(|&most| Chain::through(points, &knots(points, most), floor, first)).collect();
-        let least =
-            [0, 1].map(|place| chains.iter().fold(f64::INFINITY, |least: f64, chain| least.min(chain.rms[place])));
-        // where the force has noise, the radius need not be much nearer
-        let near = |chain: &Chain| [NEAR, NEAR.max(0.3 * chain.rms[0])];
-        let is_near =
-            |chain: &Chain| (0..2).all(|place| chain.rms[place] <= near(chain)[place].max(1.1 * least[place]));
-        let place = chains.iter().position(is_near).unwrap_or(all.len() - 1);
-        chains.swap_remove(place)
+    /// The chain near the `points` with as many knots as they ask for. The force at the first one may be known.
+    ///
+    /// Reference: G. Schwarz, *Ann. Stat.* 6 (1978) 461-464, for the number of knots.
+    fn near(points: &[Point], noise: &Noise, first: Option<f64>) -> Chain {
+        let chains = [2, 3, 4, 6, 8, 12, 16, 24, MOST - BEFORE]
+            .map(|most| Chain::through(points, &knots(points, noise, most), noise, first));
+        let count = points.len() as f64;
+        let mean = |chain: &Chain, weight: &dyn Fn(f64) -> f64| {
+            let square = |point: &Point| weight(point.force) * (chain.force(point.depth) - point.force).powi(2);
+            points.iter().map(square).sum::<f64>() / count
+        };
+        let is_near = |chain: &Chain| mean(chain, &|force| 1.0 / (force * force)) < NEAR * NEAR;
+        let cost = |chain: &Chain| {
+            count * mean(chain, &|force| noise.weight(force)).max(1e-30).ln()
+                + 2.0 * chain.knots.len() as f64 * count.ln()
+        };
+        let place = chains.iter().position(is_near).unwrap_or_else(|| {
+            (0..chains.len())
+                .fold(0, |best, place| if cost(&chains[place]) < cost(&chains[best]) { place } else { best })
+        });
+        chains.into_iter().nth(place).expect("one of them")
     }
 
-    /// Puts a knot before the first one, where Hertz's curve meets the tangent there. The `radius` is in units of the largest depth.
-    fn begin_elastic(&mut self, hertz: &dyn Fn(f64) -> f64, radius: f64) -> Begins {
+    /// Goes on to smaller depths as a power of the depth up to Hertz's curve, if that meets it.
+    fn begin_elastic(&mut self, pair: &Pair) -> bool {
         let [depth, force, stiffness] = self.knots[0];
-        let tangent = |at: f64| force - stiffness * (depth - at);
-        // Hertz's curve is as steep as the tangent there
-        let steep = depth * (stiffness * depth / (1.5 * hertz(depth))).powi(2);
-        if steep >= depth || hertz(depth) <= (1.0 + ELASTIC) * force {
-            return Begins::AtOnce;
+        let above = hertz(pair, depth) / force;
+        if above <= 1.0 + ELASTIC {
+            return false;
         }
-        // from there on it rises above the tangent, or is above it already
-        let (mut low, mut high) = (steep, depth);
-        if hertz(steep) > tangent(steep) {
-            if hertz(steep) - tangent(steep) > TOUCHES * force {
-                return Begins::AtOnce;
-            }
-            high = steep;
-        }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            *(if hertz(middle) < tangent(middle) { &mut low } else { &mut high }) = middle;
-        }
-        self.knots.insert(0, [high, hertz(high), stiffness.min(1.5 * hertz(high) / high)]);
-        self.squares.insert(0, high / radius);
-        Begins::Before
+        // a slope is known roughly only
+        let power = (stiffness * depth / force).min(STEEPEST);
+        let begin = depth * above.powf(-1.0 / (1.5 - power));
+        let knot = |step: usize| {
+            let part = (depth / begin).powf(step as f64 / BEFORE as f64 - 1.0);
+            let (depth, force) = (depth * part, force * part.powf(power));
+            [depth, force, power * force / depth]
+        };
+        self.knots.splice(0..0, (0..BEFORE).map(knot));
+        true
     }
 
-    /// The closest chain on these `knots`, by the deviation relative to the force, or to the `floor` below that.
-    fn through(points: &[Point], knots: &[f64], floor: f64, first: Option<f64>) -> Chain {
+    /// Puts knots between others, the widest steps first: lines between them are then as near as the curve.
+    fn split(&mut self) {
+        while (2..MOST).contains(&self.knots.len()) {
+            let step = |place: usize| self.knots[place][0] / self.knots[place - 1][0];
+            let place =
+                (1..self.knots.len()).fold(1, |best, place| if step(place) > step(best) { place } else { best });
+            if step(place) < 1.2 {
+                break;
+            }
+            let depth = (self.knots[place][0] * self.knots[place - 1][0]).sqrt();
+            let piece = Segment::between(self.knots[place - 1], self.knots[place]);
+            self.knots.insert(place, [depth, piece.force(depth), piece.stiffness(depth)]);
+        }
+    }
+
+    /// The closest chain on these `knots`.
+    fn through(points: &[Point], knots: &[f64], noise: &Noise, first: Option<f64>) -> Chain {
         let size = 2 * knots.len();
         let unit = |place: usize, begin: usize| {
             let ends = [0, 2].map(|end| {
                 let of = |kind: usize| if place == end + kind { 1.0 } else { 0.0 };
-                [knots[begin + end / 2], of(0), of(1)]
+                [knots[begin + end / 2] / knots[0], of(0), of(1)]
             });
             Segment::between(ends[0], ends[1])
         };
@@ -324,51 +351,29 @@ impl Chain {
         for (point, trust) in points.iter().map(|point| (point, 1.0)).chain(between.iter().map(|point| (point, 1e-4))) {
             let piece = knots.partition_point(|knot| *knot <= point.depth).clamp(1, (knots.len() - 1).max(1)) - 1;
             let Some(units) = units.get(piece) else { continue };
-            let weight = trust / (point.force.max(floor) * point.force.max(floor));
-            let parts = units.map(|unit| unit.force(point.depth));
+            let weight = trust * noise.weight(point.force) * points[0].force * points[0].force;
+            let parts = units.map(|unit| unit.force(point.depth / knots[0]));
             for (row, part) in parts.iter().enumerate() {
                 for (column, other) in parts.iter().enumerate() {
                     equations[2 * piece + row][2 * piece + column] += weight * part * other;
                 }
-                equations[2 * piece + row][size] += weight * part * point.force;
+                equations[2 * piece + row][size] += weight * part * point.force / points[0].force;
             }
         }
         if let Some(first) = first {
-            equations[0][0] += 1e12;
-            equations[0][size] += 1e12 * first;
+            equations[0][0] += 1e15;
+            equations[0][size] += 1e15 * first / points[0].force;
         }
         let solved = solved(equations);
-        let mut found: Vec<_> =
-            knots.iter().enumerate().map(|(k, knot)| [*knot, solved[2 * k], solved[2 * k + 1]]).collect();
-        if let [only] = &mut found[..] {
+        let knot = |(k, knot): (usize, &f64)| {
+            [*knot, solved[2 * k] * points[0].force, solved[2 * k + 1] * points[0].force / knots[0]]
+        };
+        let mut knots: Vec<_> = knots.iter().enumerate().map(knot).collect();
+        if let [only] = &mut knots[..] {
             only[1] = first.unwrap_or(points[0].force);
         }
-        rise(&mut found);
-        let mut chain = Chain { squares: squares(points, knots), knots: found, rms: [0.0; 2] };
-        let rms = |off: &dyn Fn(&Point) -> f64| {
-            (points.iter().map(|point| off(point) * off(point)).sum::<f64>() / points.len() as f64).sqrt()
-        };
-        // a chain of many knots is near the noise, too
-        let free = points.len().saturating_sub(2 * knots.len()).max(1) as f64;
-        chain.rms = [
-            (points.len() as f64 / free).sqrt()
-                * rms(&|point| (chain.force(point.depth) - point.force) / point.force.max(floor)),
-            rms(&|point| chain.square(point.depth) / (point.radius * point.radius) - 1.0),
-        ];
-        chain
-    }
-
-    /// The places of the knots around a depth, and the part of the way between them.
-    fn around(knots: &[f64], depth: f64) -> [(usize, f64); 2] {
-        let end = knots.partition_point(|knot| *knot <= depth).clamp(1, (knots.len() - 1).max(1));
-        let part = knots.get(end).map_or(0.0, |upper| (depth - knots[end - 1]) / (upper - knots[end - 1]));
-        [(end - 1, 1.0 - part), (end, part)]
-    }
-
-    fn square(&self, depth: f64) -> f64 {
-        let knots: Vec<_> = self.knots.iter().map(|knot| knot[0]).collect();
-        let parts = Chain::around(&knots, depth);
-        parts.iter().map(|(place, part)| part * self.squares.get(*place).copied().unwrap_or(0.0)).sum()
+        rise(&mut knots);
+        Chain { knots }
     }
 
     fn force(&self, depth: f64) -> f64 {
@@ -380,16 +385,39 @@ impl Chain {
     }
 }
 
-/// `a^2` at the knots, the straight lines between which are closest to the points.
-fn squares(points: &[Point], knots: &[f64]) -> Vec<f64> {
-    let mut equations = vec![vec![0.0; knots.len() + 1]; knots.len()];
+/// `a^2` at the knots of the chain \[m^2\]: the lines between which are closest to the points, or by the depth in contact.
+fn squares(chain: &Chain, points: &[Point], pair: &Pair) -> Vec<f64> {
+    if points[0].radius.is_nan() {
+        return chain.knots.iter().map(|[depth, force, _]| of_contact_depth(*depth, *force, pair)).collect();
+    }
+    let depths: Vec<_> = chain.knots.iter().map(|knot| knot[0]).collect();
+    let mut equations = vec![vec![0.0; depths.len() + 1]; depths.len()];
+    let mut ask = |parts: &[(usize, f64)], square: f64, weight: f64| {
+        for (row, one) in parts {
+            parts.iter().for_each(|(column, other)| equations[*row][*column] += weight * one * other);
+            equations[*row][depths.len()] += weight * one * square;
+        }
+    };
     for point in points {
         let square = point.radius * point.radius;
-        let parts = Chain::around(knots, point.depth).into_iter().filter(|(place, _)| *place < knots.len());
-        for (row, one) in parts.clone() {
-            parts.clone().for_each(|(column, other)| equations[row][column] += one * other / (square * square));
-            equations[row][knots.len()] += one / square;
+        let end = depths.partition_point(|knot| *knot <= point.depth).clamp(1, (depths.len() - 1).max(1));
+        match depths.get(end) {
+            None => ask(&[(0, 1.0)], square, 1.0 / (square * square)),
+            Some(upper) => {
+                let part = (point.depth - depths[end - 1]) / (upper - depths[end - 1]);
+                ask(&[(end - 1, 1.0 - part), (end, part)], square, 1.0 / (square * square));
+            }
         }
+    }
+    // where there are few rows, the lines bend little
+    for (place, three) in depths.windows(3).enumerate() {
+        let part = (three[1] - three[0]) / (three[2] - three[0]);
+        let size = pair.radius * three[1];
+        ask(&[(place, 1.0 - part), (place + 1, -1.0), (place + 2, part)], 0.0, SMOOTH / (size * size));
+    }
+    if chain.knots[0][0] < points[0].depth {
+        let square = pair.radius * depths[0];
+        ask(&[(0, 1.0)], square, points.len() as f64 / (square * square));
     }
     let mut squares = solved(equations);
     (1..squares.len()).for_each(|place| squares[place] = squares[place].max(squares[place - 1]));
@@ -404,24 +432,32 @@ fn interpolated(points: &[Point], depth: f64) -> Point {
     Point { depth, force: one.force + part * (other.force - one.force), ..one }
 }
 
-/// Depths of at most so many knots, the first and the last of which are those of the points, in geometric steps, with some points between two.
-fn knots(points: &[Point], most: usize) -> Vec<f64> {
-    let (first, last) = (points[0].depth, points[points.len() - 1].depth);
-    let mut knots = vec![first];
-    let (mut taken, mut count) = (1, points.len());
-    for step in 1..most.max(2) {
-        let depth = first * (last / first).powf(step as f64 / (most.max(2) - 1) as f64);
-        let below = points.partition_point(|point| point.depth < depth);
-        if below >= taken + OF_PIECE && count >= below + OF_PIECE && step + 1 < most {
-            knots.push(depth);
-            taken = below;
+/// Depths of at most so many knots in rows, the first and the last of which are those of the points, in geometric steps, with enough rows and
+/// enough of a rise between two.
+fn knots(points: &[Point], noise: &Noise, most: usize) -> Vec<f64> {
+    let last = points.len() - 1;
+    let step = (points[last].depth / points[0].depth).powf(1.0 / (most - 1) as f64);
+    let is_piece = |begin: usize, end: usize| {
+        let (rows, rise) = (end - begin, points[end].force - points[begin].force);
+        rows >= OF_PIECE.0 && rise * (rows as f64).sqrt() >= OF_PIECE.1 * noise.at(points[end].force)
+    };
+    let mut places = vec![0];
+    let mut next = points[0].depth * step;
+    for place in 1..last {
+        if points[place].depth >= next * (1.0 - 1e-9)
+            && is_piece(places[places.len() - 1], place)
+            && is_piece(place, last)
+        {
+            places.push(place);
+            while next <= points[place].depth * (1.0 + 1e-9) {
+                next *= step;
+            }
         }
     }
-    count -= 1;
-    if count > 0 {
-        knots.push(last);
+    if last > 0 {
+        places.push(last);
     }
-    knots
+    places.into_iter().map(|place| points[place].depth).collect()
 }
 
 /// The solution of symmetric equations, each with its right-hand side at its end.
@@ -476,7 +512,7 @@ fn unloading(rows: &Rows, deepest: usize, force: f64) -> FromFile {
     back.sort_by(|one, other| one.0.total_cmp(&other.0));
     let low: Vec<_> =
         back.iter().filter(|(_, at)| *at < 0.5 * force).map(|(depth, force)| (*depth, force.cbrt().powi(2))).collect();
-    if back.len() < ROWS.0 || low.len() < OF_PIECE {
+    if back.len() < ROWS.0 || low.len() < OF_PIECE.0 {
         return None;
     }
     // near its end the path has Hertz's exponent
@@ -496,27 +532,24 @@ fn unloading(rows: &Rows, deepest: usize, force: f64) -> FromFile {
 struct Bodies<'a> {
     pair: &'a Pair,
     rows: &'a Rows,
-    /// The largest depth \[m\] and force \[N\].
-    scale: (f64, f64),
     points: &'a [Point],
-    begins: Begins,
-    /// Of the force \[N\].
-    noise: f64,
+    begins_elastic: bool,
+    noise: Noise,
 }
 
 impl Bodies<'_> {
     /// The law, and how much its recovery was shortened, relatively.
-    fn law(&self, chain: &Chain, file: FromFile) -> Result<(Tabulated, f64), String> {
-        let (radius, (depth, force)) = (self.pair.radius, self.scale);
+    fn law(&self, chain: &Chain, squares: &[f64], file: FromFile) -> Result<(Tabulated, f64), String> {
+        let radius = self.pair.radius;
         let unit = self.pair.modulus * radius * radius;
-        let knot = |([d, f, k], square): (&[f64; 3], &f64)| TableKnot {
-            depth: d * depth / radius,
-            force: f * force / unit,
-            stiffness: k * force / depth * radius / unit,
+        let knot = |([depth, force, stiffness], square): (&[f64; 3], &f64)| TableKnot {
+            depth: depth / radius,
+            force: force / unit,
+            stiffness: stiffness * radius / unit,
             factor: 1.0,
-            square: *square,
+            square: square / (radius * radius),
         };
-        let mut knots: Vec<TableKnot> = chain.knots.iter().zip(&chain.squares).map(knot).collect();
+        let mut knots: Vec<TableKnot> = chain.knots.iter().zip(squares).map(knot).collect();
         let is_finite = |knot: &TableKnot| {
             [knot.depth, knot.force, knot.stiffness, knot.square].iter().all(|number| number.is_finite())
         };
@@ -538,23 +571,25 @@ impl Bodies<'_> {
         }
         // below the first knot nothing has yielded
         let first = &mut knots[0];
-        match self.begins {
-            Begins::AtOnce => self.check(first, first.depth)?,
-            _ => first.square = first.depth,
+        if self.begins_elastic {
+            first.square = first.depth;
+        } else {
+            self.check(first, first.depth)?;
         }
         first.factor *= first.depth / recovery_of(first);
         let mut shortened: f64 = 0.0;
         for place in 1..knots.len() {
             let whole = knots[place].factor;
             self.check(&knots[place], knots[place].depth)?;
+            let knot = &mut knots[place];
+            let least = knot.depth.min((1.5 - 0.5 * shape) * knot.force / knot.stiffness.max(f64::MIN_POSITIVE));
+            knot.factor *= (least / recovery_of(knot)).min(1.0);
             while self.falls(&knots, shape, place) {
                 knots[place].factor *= 0.995;
                 let most = recovery_of(&knots[place]);
                 self.check(&TableKnot { factor: whole, ..knots[place] }, most)?;
             }
-            let knot = &knots[place];
-            let least = knot.depth.min((1.5 - 0.5 * shape) * knot.force / knot.stiffness.max(f64::MIN_POSITIVE));
-            shortened = shortened.max(whole / knot.factor - 1.0).max(recovery_of(knot) / least - 1.0);
+            shortened = shortened.max(whole / knots[place].factor - 1.0);
         }
         Ok((Tabulated::new(knots.into_iter(), shape), shortened))
     }
@@ -581,10 +616,10 @@ impl Bodies<'_> {
     fn check(&self, knot: &TableKnot, most: f64) -> Result<(), String> {
         let depth = knot.depth * self.pair.radius;
         let force = knot.force * self.pair.modulus * self.pair.radius * self.pair.radius;
-        if recovery_of(knot) <= (1.0 + LONGER + OF_NOISE * self.noise / force) * most {
+        if recovery_of(knot) <= (1.0 + LONGER + 20.0 * self.noise.at(force) / force) * most {
             return Ok(());
         }
-        let distance = |point: &&Point| (point.depth * self.scale.0 - depth).abs();
+        let distance = |point: &&Point| (point.depth - depth).abs();
         let nearest = self.points.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)));
         Err(format!(
             "{}: from a depth of {} under {} an unloading would give back {}, and so more energy than the loading took: allowed is {}. The \
@@ -609,12 +644,12 @@ fn recovery_of(knot: &TableKnot) -> f64 {
 /// `a^2` \[m^2\] by the depth in contact: `a^2 = R (2 d - d_e)`, and `d_e = 3 F/(4 E* a)`.
 ///
 /// Reference: J. S. Field, M. V. Swain, *J. Mater. Res.* 8 (1993) 297-306.
-fn of_contact_depth(point: &Point, pair: &Pair) -> f64 {
+fn of_contact_depth(depth: f64, force: f64, pair: &Pair) -> f64 {
     // beyond Hertz's force it would be less than his
-    let square = |recovery: f64| pair.radius * (2.0 * point.depth - recovery).max(point.depth);
+    let square = |recovery: f64| pair.radius * (2.0 * depth - recovery).max(depth);
     let mut recovery: f64 = 0.0;
     for _ in 0..60 {
-        recovery = 0.5 * (recovery + 0.75 * point.force / (pair.modulus * square(recovery).sqrt()));
+        recovery = 0.5 * (recovery + 0.75 * force / (pair.modulus * square(recovery).sqrt()));
     }
     square(recovery)
 }
