@@ -29,6 +29,7 @@ mod law_parameters;
 mod library;
 mod long_messages;
 mod loss_parameters;
+mod own_curve;
 mod parameters_per_contact;
 mod prebuilt_libraries;
 mod prebuilt_refusals;

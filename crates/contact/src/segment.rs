@@ -56,7 +56,7 @@ impl Segment {
     ///
     /// Its slope is a quadratic in `u = sqrt(d)`: the straight line between the slopes at the ends, plus a multiple of
     /// `(u - p)(u - q)` that makes the integral equal to the difference of the forces.
-    pub(crate) fn between([lower, begin, first]: [f64; 3], [upper, end, last]: [f64; 3]) -> Segment {
+    pub fn between([lower, begin, first]: [f64; 3], [upper, end, last]: [f64; 3]) -> Segment {
         let (p, q) = (sqrt(lower), sqrt(upper));
         let length = q - p;
         let incline = (last - first) / length;

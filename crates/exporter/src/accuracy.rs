@@ -16,7 +16,8 @@ const EQUAL: f64 = 0.01;
 pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
     if prediction.residual_indentation <= 0.0 || scene.yield_strength.is_none() {
         // the elastic depth of a line contact depends on its size, too
-        return scene.line.as_ref().and_then(|_| accuracy(scene, prediction)).into_iter().collect();
+        let is_said = scene.line.is_some() || scene.own_curve.is_some();
+        return is_said.then(|| accuracy(scene, prediction)).flatten().into_iter().collect();
     }
     let softer = scene.softer(0);
     let (name, other) = (softer.name(), softer.other().name());
@@ -122,6 +123,11 @@ const SOFTEST: f64 = 4.5;
 pub fn accuracy(scene: &Scene, prediction: &Prediction) -> Option<String> {
     if let Some(size) = &scene.line {
         return Some(of_line(scene, size));
+    }
+    if let Some((words, law)) = scene.own_curve.as_ref().zip(scene.loading.1.table()) {
+        let last = law.knots().last().map_or(0.0, |knot| knot.depth * scene.model().pair.radius);
+        let beyond = if prediction.max_indentation > last { " This impact goes deeper." } else { "" };
+        return Some(format!("{words}{beyond}"));
     }
     if prediction.residual_indentation <= 0.0 || scene.damped.is_some() {
         return None;

@@ -93,6 +93,10 @@ fn published_words(scene: &Scene) -> String {
 /// Whether both laws of `scene` have their published constants.
 fn is_published(scene: &Scene) -> bool {
     let (loading, unloading) = (scene.loading, scene.unloading);
+    // a curve of one's own is made passive
+    if loading.1.table().is_some() {
+        return true;
+    }
     pairing::published(loading.0) == loading.1
         && unloading.is_none_or(|unloading| AnyUnloading::ALL.contains(&unloading))
 }

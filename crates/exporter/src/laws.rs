@@ -3,7 +3,7 @@
 use crate::model::{AnyModel, Dampings, RateLaw, paired};
 use crate::nearest::unknown;
 use crate::pairing::{self, unloading_of};
-use crate::scene::{LINE, Scene};
+use crate::scene::{LINE, Scene, TABLE};
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
@@ -86,7 +86,9 @@ pub fn choose(scene: &Scene, names: &[String]) -> Result<Vec<Choice>, UnknownLaw
     }
     let every = |name: &String| match name.as_str() {
         "all" => {
-            let all = AnyLoading::ALL.iter().filter(|(_, law)| law.is_line() == scene.line.is_some());
+            let all = AnyLoading::ALL.iter().filter(|(name, law)| {
+                law.is_line() == scene.line.is_some() && (law.table().is_none() || *name == scene.loading.0)
+            });
             all.map(|(name, _)| (*name).to_string()).collect()
         }
         "damped" => AnyDamped::ALL.iter().map(|(name, _)| (*name).to_string()).collect(),
@@ -116,6 +118,11 @@ fn damped_laws(name: &str, law: &AnyDamped) -> String {
 fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let (loading_name, other_name) = name.split_once('/').map_or((name, None), |(one, other)| (one, Some(other)));
     let is_line = loading_name == LINE;
+    if loading_name == TABLE && scene.own_curve.is_none() {
+        let message =
+            "table is a curve of one's own, and the scene names no file: law = { loading = { table = \"file.csv\" } }";
+        return Err(UnknownLaw::Pairing(message.into()));
+    }
     if is_line != scene.line.is_some() && loading_names().any(|known| known == loading_name) {
         let [law, body] = if is_line { ["cylinders", "ball"] } else { ["balls", "cylinder"] };
         let message = format!("{loading_name} is a law of {law}, and the impactor of the scene is a {body}");

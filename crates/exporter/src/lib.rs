@@ -9,6 +9,7 @@
 //! | [`schema`] | the JSON Schema of scenes |
 //! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
 //! | [`measurement`] | tables of measurements, in any dialect |
+//! | `own_curve` | the law through a loading curve of one's own |
 //! | [`tension`], [`measured`] | the flow stress that a tensile test, a hardness or a tensile strength says |
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
 //! | [`curve`] | force, pressure and energies along loading and unloading |
@@ -70,6 +71,7 @@ pub mod model_description;
 pub mod nearest;
 pub mod nominal;
 pub mod numbers;
+mod own_curve;
 pub mod package;
 pub mod pairing;
 pub mod parameters;

@@ -6,6 +6,7 @@ mod rules;
 use crate::measured;
 use crate::model::Dampings;
 use crate::parameters::{self, LawConstant};
+use crate::scene::TABLE;
 use crate::scene::{
     IDENTIFIER, INPUTS, OF_ALL_CONTACTS, PRODUCT, RATE_MODELS, SceneFile, WAVES, is_no_name, quantity_of,
 };
@@ -167,7 +168,7 @@ fn names(table: &str, key: &str) -> Option<Vec<(String, String)>> {
     let plain = |names: &[&str]| names.iter().map(|name| ((*name).to_string(), String::new())).collect();
     let of_laws = |laws: Vec<&table::Law>| laws.iter().map(|law| (law.name.clone(), law.title.clone())).collect();
     Some(match (table, key) {
-        ("law", "loading") => of_laws(table::loading_laws()),
+        ("law", "loading") => of_laws(table::loading_laws().into_iter().filter(|law| law.name != TABLE).collect()),
         ("law", "unloading") => of_laws(table::unloading_laws()),
         ("law", "damping") => plain(&AnyDamped::ALL.iter().flat_map(|(_, law)| law.dampings()).collect::<Vec<_>>()),
         ("fmu", "outputs") => {
@@ -179,6 +180,17 @@ fn names(table: &str, key: &str) -> Option<Vec<(String, String)>> {
     })
 }
 
+/// The name of a law, or a table with the name of a file.
+fn own_curve(schema: &mut Map<String, Value>) {
+    let names = schema.remove("enum");
+    schema.insert("type".into(), json!(["string", "object"]));
+    let table = json!({
+        "type": "object", "required": [TABLE], "additionalProperties": false,
+        "properties": { (TABLE): { "type": ["string", "object"], "description": "The name of a file." } },
+    });
+    schema.insert("anyOf".into(), json!([{ "enum": names }, table]));
+}
+
 fn variables(causality: Causality) -> impl Iterator<Item = &'static Variable> {
     VARIABLES.iter().filter(move |variable| variable.causality == causality && variable.second_of.is_none())
 }
@@ -187,7 +199,11 @@ fn variables(causality: Causality) -> impl Iterator<Item = &'static Variable> {
 fn form(schema: &mut Map<String, Value>, table: &str, key: &str) {
     let is_list = schema.get("type") == Some(&json!("array"));
     if let Some(values) = names(table, key).filter(|_| !is_list) {
-        return enumerate(schema, values);
+        enumerate(schema, values);
+        if (table, key) == ("law", "loading") {
+            own_curve(schema);
+        }
+        return;
     }
     let more = match (table, key) {
         // a ball, the principal axes, or the tensor

@@ -66,6 +66,13 @@ impl Loading for AnyLoading {
         }
     }
 
+    fn through(self, list: &[f64]) -> AnyLoading {
+        match self {
+            AnyLoading::Tabulated(law) => AnyLoading::Tabulated(law.through(list)),
+            law => law,
+        }
+    }
+
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
         self.law().regime(pair, indentation)
     }
@@ -126,9 +133,14 @@ impl Loading for AnyLoading {
 }
 
 impl AnyLoading {
-    /// All laws of contacts at a point, with their names: a scene of balls can have each of them.
+    /// All published laws of contacts at a point, with their names: every scene of balls can have each of them.
     pub fn of_balls() -> impl Iterator<Item = (&'static str, AnyLoading)> {
-        AnyLoading::ALL.into_iter().filter(|(_, law)| !law.is_line())
+        AnyLoading::ALL.into_iter().filter(|(_, law)| !law.is_line() && law.table().is_none())
+    }
+
+    /// The curve of one's own, if it is one.
+    pub fn table(&self) -> Option<&Tabulated> {
+        if let AnyLoading::Tabulated(law) = self { Some(law) } else { None }
     }
 
     /// Whether it is the law of a line contact.

@@ -19,6 +19,7 @@ pub mod paired;
 pub mod power;
 pub mod stronge;
 mod table;
+pub mod tabulated;
 pub mod thornton;
 pub mod vu_quoc_zhang;
 pub mod walton_braun;
@@ -61,6 +62,7 @@ laws! {
         vu_quoc_zhang::VuQuocZhang [peak_pressure_factor, plastic_radius, curvature] { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
         johnson::Johnson [yield_pressure_factor, plastic_pressure_factor] { "johnson" = Johnson::REFERENCE }
         luding::Luding [yield_pressure_factor, stiffness_factor, stiffness_ratio, limit_depth] { "luding" = Luding::REFERENCE }
+        tabulated::Tabulated [] or Tabulated::REFERENCE { "table" = Tabulated::REFERENCE }
         line::Line [length, impactor_reach, impactor_tension, target_reach, target_tension] or Line::REFERENCE { "line" = Line::REFERENCE }
     }
     paired { Brinell as PairedBrinell }
@@ -149,6 +151,14 @@ pub trait Loading {
 
     /// The law of a line contact between these bodies; the pair describes the impactor or the target.
     fn along_line(self, _bodies: TwoBodies, _is_impactor: bool) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
+
+    /// The law with this list of numbers, if it is a curve of one's own.
+    fn through(self, _list: &[f64]) -> Self
     where
         Self: Sized,
     {

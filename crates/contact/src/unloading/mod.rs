@@ -14,6 +14,7 @@ pub mod jackson;
 pub mod line;
 pub mod luding;
 pub mod original_radius;
+pub mod tabulated;
 pub mod thornton;
 pub mod vu_quoc_zhang;
 pub mod walton_braun;
@@ -40,6 +41,7 @@ laws! {
         jackson::Jackson [factor, offset, exponent] { "jackson" = Jackson::REFERENCE }
         vu_quoc_zhang::VuQuocZhang [curvature] { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
         luding::Luding [stiffness_ratio, limit_depth] { "luding" = Luding::REFERENCE }
+        tabulated::Tabulated [] { "table" = Tabulated }
         line::Line [length] { "line" = Line::REFERENCE }
     }
     guarded {

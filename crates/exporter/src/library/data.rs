@@ -81,6 +81,9 @@ impl SceneData {
         if let Some(guard) = &plan.guard {
             lists.add_bytes(List::Guard, format!("the passivity guard {}", guard.words()).as_bytes());
         }
+        if let Some(curve) = scene.loading.1.table() {
+            lists.add(List::Curve, curve.list().map(|number| [number.to_bits()]));
+        }
         lists.add_bytes(List::Guid, guid.as_bytes());
         let texts = std::mem::take(&mut lists.texts);
         lists.add_bytes(List::Texts, &texts);

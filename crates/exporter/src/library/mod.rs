@@ -77,7 +77,7 @@ fn kind_of(scene: &Scene, data: &Data) -> [(&'static str, String); 10] {
         ("Watch", presence(scene.watches)),
         ("Shared", has(Flag::Shared)),
         // a strength that each impact finds makes other bodies of the two
-        ("Prepared", presence(data.has(Flag::Paired) && !scene.finds_strength())),
+        ("Prepared", presence(data.has(Flag::Paired) && !scene.finds_strength() || scene.loading.1.table().is_some())),
     ]
 }
 

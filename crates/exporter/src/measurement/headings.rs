@@ -27,7 +27,7 @@ const fn kind(key: &'static str, unit: &'static str, largest: f64, names: &'stat
 const ANY: f64 = f64::INFINITY;
 
 #[rustfmt::skip]
-pub const KINDS: [ColumnKind; 26] = [
+pub const KINDS: [ColumnKind; 27] = [
     kind("speed", "m/s", 3000.0, &["speed", "velocity", "v", "impact speed", "impact velocity", "closing speed",
         "incident speed", "incident velocity", "incoming speed", "approach speed", "speed before", "geschwindigkeit",
         "aufprallgeschwindigkeit"]),
@@ -58,6 +58,7 @@ pub const KINDS: [ColumnKind; 26] = [
         "verl\u{e4}ngerung"]),
     kind("force", "N", ANY, &["force", "load", "load on sample", "standard force", "axial force", "normal force",
         "compressive load", "tensile load", "fn", "kraft", "pr\u{fc}fkraft", "standardkraft"]),
+    kind("contact_radius", "m", 0.1, &["contact radius", "radius of contact", "radius of the contact", "kontaktradius"]),
     kind("hardness", "", ANY, &["hardness", "h\u{e4}rte", "brinell hardness", "vickers hardness", "rockwell hardness",
         "leeb hardness", "hardness number"]),
     ColumnKind { by_word: true, ..kind("strain", "", ANY, &["strain", "dehnung", "elongation", "epsilon", "eps",

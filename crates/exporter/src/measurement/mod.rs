@@ -274,6 +274,11 @@ impl Measurement {
         self.above.iter().find(|(kind, _)| kind.key == key).map(|(_, value)| *value)
     }
 
+    /// The line of each row.
+    pub fn lines(&self) -> impl Iterator<Item = usize> {
+        self.rows.iter().map(|(line, _)| *line)
+    }
+
     /// The numbers of a column in the SI unit.
     ///
     /// # Errors
@@ -377,7 +382,7 @@ impl Measurement {
             "heading": self.heading,
             "columns": self.columns.iter().map(column).collect::<Value>(),
             "unknown": self.unknown.iter().map(|name| asked(name)).collect::<Value>(),
-            "lines": self.rows.iter().map(|(line, _)| *line).collect::<Value>(),
+            "lines": self.lines().collect::<Value>(),
             "notes": self.notes,
             "readings": readings.as_ref().ok(),
             "wrong_reading": readings.as_ref().err(),

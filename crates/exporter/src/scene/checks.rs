@@ -13,6 +13,7 @@ use super::losses::Loss;
 use super::names::check_name;
 use super::quantities::check_quantity;
 use super::shared_bodies;
+use super::tabulated;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::model::{check_energy, speed_of_height};
@@ -103,6 +104,7 @@ pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> 
         inverse_masses,
         meeting,
         line: None,
+        own_curve: None,
         directions,
         impact,
         predictions: Vec::new(),
@@ -131,6 +133,7 @@ pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> 
     if let Some(cylinders) = cylinders {
         cylinders.settle(&mut scene, &file, &contacts)?;
     }
+    tabulated::settle(&mut scene, &file, &contacts)?;
     // an impact that can't be may be one in a wrong unit
     let doubted = |Mistake(span, message)| {
         let doubts = doubts.iter().map(|Mistake(_, doubt)| format!("; {doubt}"));

@@ -9,6 +9,7 @@ use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::numbers::out_of_range;
+use crate::own_curve;
 use crate::parameters::ConstantTable;
 use crate::table::{MATERIALS, Material};
 use crate::tension::{self, Specimen};
@@ -313,9 +314,14 @@ impl From<SurfaceName> for Surface {
 #[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LawTable {
-    /// A [loading law](all-laws.md#loading-laws) or a [rate-dependent law](rate-dependent.md).
+    /// A [loading law](all-laws.md#loading-laws) or a [rate-dependent law](rate-dependent.md), or `{ table = "file.csv" }` with a
+    /// [curve of one's own](laws.md#a-curve-of-ones-own).
     #[schemars(extend("x-default" = "`\"brinell\"`; without a yield strength `\"hertz\"`"))]
     pub loading: Option<Spanned<String>>,
+    /// The table in place of the name: [`deserialized`] takes it apart.
+    #[schemars(skip)]
+    #[serde(rename = "loading table")]
+    pub(super) own_curve: Option<Spanned<OwnCurveTable>>,
     /// Constants of the loading law, or of the rate-dependent law, by name.
     #[schemars(with = "Option<ConstantKeys>", extend("x-default" = "those of the reference"))]
     pub loading_parameters: Option<ConstantTable>,
@@ -340,6 +346,26 @@ pub struct LawTable {
     /// Shorten the elastic recovery where the laws would return [more energy than they took](laws.md#energy).
     #[schemars(extend("default" = false))]
     pub passivity_guard: Option<Spanned<bool>>,
+}
+
+/// A loading curve of one's own.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the name of a law, or { table = \"file.csv\" }")]
+pub struct OwnCurveTable {
+    pub table: Spanned<RowsTable>,
+}
+
+/// Its rows.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the name of a file, or lists")]
+pub struct RowsTable {
+    pub depth: Vec<f64>,
+    pub force: Vec<f64>,
+    #[serde(default)]
+    pub contact_radius: Vec<f64>,
+    /// Their lines in the file.
+    #[serde(default)]
+    pub line: Vec<f64>,
 }
 
 /// A [`ConstantTable`] as a scene has it: numbers.
@@ -577,11 +603,22 @@ fn with_tree<T>(
     // it borrows the values from here on
     let mut tree = tree;
     tree.get_mut().iter_mut().for_each(|(_, value)| put(value, &values));
+    name_own_curve(tree.get_mut());
     made(&tree)
 }
 
 fn of_tree<T: for<'a> Deserialize<'a>>(text: &str, tree: &toml::Spanned<DeTable<'_>>) -> Result<T, Mistake> {
     T::deserialize(Deserializer::from(tree.clone())).map_err(|error| of_parser(text, &error))
+}
+
+/// Puts the name of the law in place of a curve of one's own, which gets a key for itself.
+fn name_own_curve(tree: &mut DeTable) {
+    let Some(DeValue::Table(law)) = tree.get_mut("law").map(toml::Spanned::get_mut) else { return };
+    let Some(loading) = law.get_mut("loading").filter(|loading| loading.get_ref().is_table()) else { return };
+    let span = loading.span();
+    let name = DeValue::String(TABLE.into());
+    let curve = std::mem::replace(loading, toml::Spanned::new(span.clone(), name));
+    law.insert(toml::Spanned::new(span, "loading table".into()), curve);
 }
 
 /// The bytes of files by the name that a scene gives them.
@@ -591,6 +628,9 @@ type Files = BTreeMap<String, Result<Vec<u8>, String>>;
 const TEST: &str = "tensile_test";
 const CURVE: &str = "curve";
 
+/// The law of a curve of one's own, and its key that may be the name of a file.
+pub const TABLE: &str = "table";
+
 /// The names of files in the `text` of a scene. None, if it is no TOML.
 pub fn files_named(text: &str) -> Vec<String> {
     fn named(value: &DeValue, key: &str, found: &mut Vec<String>) {
@@ -599,13 +639,13 @@ pub fn files_named(text: &str) -> Vec<String> {
                 table.iter().for_each(|(key, value)| named(value.get_ref(), key.get_ref(), found));
             }
             DeValue::Array(list) => list.iter().for_each(|value| named(value.get_ref(), key, found)),
-            DeValue::String(name) if [TEST, CURVE].contains(&key) => found.push(name.to_string()),
+            DeValue::String(name) if [TEST, CURVE, TABLE].contains(&key) => found.push(name.to_string()),
             _ => {}
         }
     }
     let mut found = Vec::new();
     // most scenes name none, and may be large
-    if !text.contains(TEST) {
+    if !text.contains(TEST) && !text.contains(TABLE) {
         return found;
     }
     let tree = DeTable::parse(text);
@@ -686,6 +726,16 @@ impl Found<'_> {
                 let owner = path.rsplit_once('.').map_or("", |(owner, _)| owner);
                 let curve = self.curve(name, &specimen(owner, table)?).map_err(wrong)?;
                 self.values.insert(value.span().start, (value.span().end, curve));
+                return Ok(());
+            }
+            if let ("law.loading.table", DeValue::String(name)) = (path.as_str(), value.get_ref()) {
+                let wrong = |why| Mistake(value.span(), format!("{path} = \"{}\": {why}", shortened(name)));
+                let rows = match self.files.get(name.as_ref()) {
+                    Some(Ok(bytes)) => own_curve::read(bytes).map(|rows| rows.in_toml()),
+                    Some(Err(why)) => Err(why.clone()),
+                    None => Err("the file isn't at hand".into()),
+                };
+                self.values.insert(value.span().start, (value.span().end, rows.map_err(wrong)?));
                 return Ok(());
             }
             self.in_value(&path, unit, value)

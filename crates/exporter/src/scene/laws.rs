@@ -3,7 +3,8 @@
 use super::Scene;
 use super::contacts::Contacts;
 use super::cylinders::LINE;
-use super::file::LawTable;
+use super::file::{LawTable, TABLE};
+use super::tabulated;
 use crate::law_check;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
@@ -35,8 +36,9 @@ impl SceneLaws {
             None => check_loading(law, contacts, is_line)?,
         };
         let elastic = matches!(loading.1, AnyLoading::Hertz(_));
+        let has_no_strength = elastic || loading.1.table().is_some();
         let hardens = damped.is_none() && loading.1.takes_both_bodies();
-        contacts.check_rate(elastic)?;
+        contacts.check_rate(has_no_strength)?;
         contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
         let unloading = check_unloading(law, loading.0, elastic)?;
         check_parameters(law, &loading, unloading.as_ref())?;
@@ -44,9 +46,9 @@ impl SceneLaws {
         Ok(SceneLaws { damped, loading, unloading, passivity_guard })
     }
 
-    /// Whether nothing yields, or the force depends on the rate.
+    /// Whether nothing yields, or the force depends on the rate, or the curve says where it yields.
     pub fn has_no_strength(&self) -> bool {
-        matches!(self.loading.1, AnyLoading::Hertz(_))
+        matches!(self.loading.1, AnyLoading::Hertz(_) | AnyLoading::Tabulated(_))
     }
 
     /// Whether the law takes each of the two bodies for itself, so that the harder one may yield too.
@@ -97,12 +99,17 @@ fn check_loading(given: &LawTable, contacts: &Contacts, is_line: bool) -> Result
         let names = names.chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
         Mistake(span.clone(), unknown("law.loading", asked, names))
     })?;
-    if !yields && law.0 != "hertz" {
+    if law.1.table().is_some() && !tabulated::is_own(given) {
+        let message = "law.loading = \"table\" needs the file: law = { loading = { table = \"file.csv\" } }";
+        return Err(Mistake(span, message.into()));
+    }
+    let needs_strength = law.0 != "hertz" && law.0 != TABLE;
+    if !yields && needs_strength {
         let message =
             format!("law.loading = \"{asked}\" needs target.yield_strength (or a material); \"hertz\" doesn't");
         return Err(Mistake(span, message));
     }
-    if law.0 != "hertz" {
+    if needs_strength {
         contacts.check_strength(law.0)?;
     }
     let parameters = given.loading_parameters.as_ref();

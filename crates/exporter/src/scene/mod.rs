@@ -15,9 +15,10 @@ pub mod names;
 mod parser_words;
 pub mod plausible;
 mod quantities;
-pub(crate) mod rules;
+pub mod rules;
 mod shared_bodies;
 pub mod strength;
+mod tabulated;
 
 use crate::mistake::Spanned;
 use crate::mistake::{Mistake, SceneError};
@@ -36,7 +37,7 @@ pub use bodies::{Body, Both};
 pub use contacts::taken_names;
 pub use contacts::{Group, Parameter};
 pub use cylinders::LINE;
-pub use file::SceneFile;
+pub use file::{SceneFile, TABLE};
 pub use fmu::INPUTS;
 pub use inverse_masses::{InverseMasses, place};
 pub use losses::{Loss, WAVES};
@@ -117,6 +118,8 @@ pub struct Scene {
     pub meeting: Option<[Meeting; 2]>,
     /// Where the constant `C` of a line contact is from, in words; `None` for contacts of balls.
     pub line: Option<String>,
+    /// How near the law is to a curve of one's own, in words; `None` for other laws.
+    pub own_curve: Option<String>,
     /// Number of tangential directions, zero without friction.
     pub directions: usize,
     pub impact: Impact,

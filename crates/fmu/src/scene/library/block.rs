@@ -15,7 +15,7 @@ use core::ops::Deref;
 pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 
 /// Version of the layout.
-pub const VERSION: u64 = 8;
+pub const VERSION: u64 = 9;
 
 /// Capacity for kinds of variables of a contact.
 pub const KINDS: usize = 64;
@@ -123,11 +123,13 @@ pub enum List {
     Texts = 5,
     /// The GUID, in UTF-8.
     Guid = 6,
+    /// The numbers of a loading curve of one's own.
+    Curve = 7,
 }
 
 impl List {
     /// The number of lists.
-    pub const COUNT: usize = 7;
+    pub const COUNT: usize = 8;
 }
 
 /// A table of the scene: contacts with the same properties.
@@ -621,6 +623,12 @@ impl<'a> Contents<'a> {
     /// The inverse masses \[1/kg\].
     pub fn inverse_masses(self) -> &'a [f64] {
         numbers_of(self.list(List::InverseMasses))
+    }
+
+    /// The numbers of a loading curve of one's own.
+    #[inline(always)]
+    pub fn curve(self) -> &'a [f64] {
+        numbers_of(self.list(List::Curve))
     }
 }
 

@@ -47,12 +47,12 @@ fn plastic<L: Loading + Numbered, U: Numbered, X: OfScene>(
     given: &Given,
     value: impl Fn(Parameter) -> f64 + Copy,
 ) -> Model<L, U> {
-    let Given { pair, surface, .. } = *given;
+    let Given { pair, surface, curve, .. } = *given;
     let unloading = law(&data.unloading);
     if let Some(loading) = X::spring(data, given, value).and_then(L::of_spring) {
         return Model { pair, loading, unloading, surface };
     }
-    let loading = law::<L>(&data.loading);
+    let loading = law::<L>(&data.loading).through(curve);
     let loading = match data.has(Flag::Paired) {
         true => {
             let bodies = two_bodies(value);

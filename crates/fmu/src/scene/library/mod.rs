@@ -103,6 +103,8 @@ pub struct Given {
     pub surface: Surface,
     /// Density of the target \[kg/m^3\]; NaN if unknown.
     pub density: f64,
+    /// The numbers of a loading curve of one's own.
+    pub curve: &'static [f64],
 }
 
 /// The source of the data.
@@ -351,7 +353,8 @@ impl<K: Kind, B: Memory> Scene for LibraryScene<K, B> {
         let data = Self::data();
         let table = data.table(Self::table_of(group));
         let surface = if table.is_some_and(|table| table.is_fresh) { Surface::Fresh } else { Surface::Dented };
-        let given = Given { pair, surface, density: table.map_or(f64::NAN, |table| table.density) };
+        let given =
+            Given { pair, surface, density: table.map_or(f64::NAN, |table| table.density), curve: data.curve() };
         K::Laws::model(&data, &given, |parameter| Self::parameter(parameter, group, values))
     }
 

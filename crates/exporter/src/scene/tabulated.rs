@@ -1,0 +1,68 @@
+//! A loading curve of one's own in a scene: the law of its bodies, and of no others.
+
+use super::Scene;
+use super::contacts::Contacts;
+use super::file::{LawTable, SceneFile};
+use crate::mistake::Mistake;
+use crate::own_curve::{self, Rows};
+use brinell_contact::loading::AnyLoading;
+use std::ops::Range;
+
+/// Whether the law is a curve of one's own.
+pub fn is_own(law: &LawTable) -> bool {
+    law.own_curve.is_some()
+}
+
+/// Puts the curve of the file into the laws of the `scene`. The numbers of the bodies that it belongs to are then constants of the FMU.
+pub fn settle(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> Result<(), Mistake> {
+    let Some(curve) = &file.law.own_curve else { return Ok(()) };
+    let table = &curve.get_ref().table;
+    let span = table.span();
+    let given = table.get_ref();
+    let wrong = |why: String| Mistake(span.clone(), format!("law.loading.table: {why}"));
+    let count = given.depth.len();
+    let lists =
+        [("force", given.force.len()), ("contact_radius", given.contact_radius.len()), ("line", given.line.len())];
+    let is_optional = |name: &str| name != "force";
+    if let Some((name, other)) =
+        lists.iter().find(|(name, other)| *other != count && !(is_optional(name) && *other == 0))
+    {
+        return Err(wrong(format!("{name} has {other} numbers, and depth {count}: they must be as many")));
+    }
+    let rows = Rows {
+        lines: given.line.clone(),
+        depth: given.depth.clone(),
+        force: given.force.clone(),
+        radius: given.contact_radius.clone(),
+    };
+    let pair = scene.pair_of(0).expect("bodies that fit");
+    let is_alike = |one: f64, other: f64| (one - other).abs() <= 1e-12 * one.abs();
+    for group in 1..scene.contacts.len() {
+        let other = scene.pair_of(group).expect("bodies that fit");
+        if !is_alike(pair.radius, other.radius) || !is_alike(pair.modulus, other.modulus) {
+            let message = "its bodies are no copies of those of the first contact, to which the curve of the file belongs; export a unit for each";
+            return Err(wrong(contacts.said(group, message)));
+        }
+    }
+    let (law, words) = own_curve::law(&rows, &pair).map_err(wrong)?;
+    fix(scene, file, &span)?;
+    scene.loading.1 = AnyLoading::Tabulated(law);
+    scene.own_curve = Some(words);
+    Ok(())
+}
+
+/// Makes the numbers of the bodies constants.
+fn fix(scene: &mut Scene, file: &SceneFile, span: &Range<usize>) -> Result<(), Mistake> {
+    let is_of_body = |name: &str| name.contains("impactor.") || name.contains("target.");
+    let named = file.fmu.parameters.iter().flatten().find(|name| is_of_body(name.get_ref()));
+    let per_contact =
+        scene.contacts.iter().flat_map(|group| &group.own).find(|own| own.per_contact && is_of_body(own.name));
+    let found = named.map(|name| (name.get_ref().clone(), name.span()));
+    if let Some((name, span)) = found.or(per_contact.map(|own| (own.name.to_string(), span.clone()))) {
+        let message = format!("{name} is no parameter of a curve of one's own: the file belongs to these bodies");
+        return Err(Mistake(span, message));
+    }
+    let own = scene.contacts.iter_mut().flat_map(|group| &mut group.own);
+    own.chain(&mut scene.parameters).filter(|own| is_of_body(own.name)).for_each(|own| own.settable = false);
+    Ok(())
+}
