@@ -71,7 +71,7 @@ pub mod model_description;
 pub mod nearest;
 pub mod nominal;
 pub mod numbers;
-mod own_curve;
+pub mod own_curve;
 pub mod package;
 pub mod pairing;
 pub mod parameters;

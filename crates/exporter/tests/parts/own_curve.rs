@@ -3,7 +3,7 @@
 use brinell_contact::impact::{Impact, predict};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::{self, AnyUnloading};
-use brinell_contact::{Body, Numbered, OtherBody, TwoBodies};
+use brinell_contact::{Body, Loading, Model, Numbered, OtherBody, Pair, Surface, TwoBodies};
 use brinell_exporter::own_curve::*;
 use brinell_exporter::scene::{Beside, Scene};
 use brinell_testing::physics::Random;
