@@ -155,8 +155,8 @@ fn the_errors_of_two_laws_are_those_of_an_independent_computation() {
 fn the_accuracy_in_the_table_of_laws_is_the_measured_one() {
     let path = root().join("modelDescription/laws.toml");
     let mut table = fs::read_to_string(&path).expect("the table of laws");
-    // that of a line contact is not measured on balls
-    for law in entries("loading").filter(|law| text(law, "name") != "line") {
+    // that of a line contact is not measured on balls, and a curve of one's own is its file's
+    for law in entries("loading").filter(|law| !["line", "table"].contains(&text(law, "name"))) {
         let (name, told) = (text(law, "name"), text(law, "accuracy"));
         let Errors { worst, rms, .. } = errors(name);
         let measured = format!("{} at {} d_y, rms {:.1} %", percent(worst, 1), errors(name).place(), 100.0 * rms);
