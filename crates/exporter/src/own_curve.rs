@@ -443,14 +443,12 @@ fn knots(points: &[Point], noise: &Noise, most: usize) -> Vec<f64> {
     };
     let mut places = vec![0];
     let mut next = points[0].depth * step;
-    for place in 1..last {
-        if points[place].depth >= next * (1.0 - 1e-9)
-            && is_piece(places[places.len() - 1], place)
-            && is_piece(place, last)
-        {
+    for (place, point) in points.iter().enumerate().take(last).skip(1) {
+        if point.depth >= next * (1.0 - 1e-9) && is_piece(places[places.len() - 1], place) && is_piece(place, last) {
             places.push(place);
-            while next <= points[place].depth * (1.0 + 1e-9) {
-                next *= step;
+            // depths may be so close that a step is none
+            for _ in 0..most {
+                next *= if next <= point.depth * (1.0 + 1e-9) { step } else { 1.0 };
             }
         }
     }

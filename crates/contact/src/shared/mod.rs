@@ -37,8 +37,9 @@
 //! (`chords`); the balance of work is exact, and Coulomb's bound holds to 1e-9.
 //!
 //! # Evaluations
-//! An impact of one contact takes some hundred evaluations in a step, and at most 3,000 if its laws have segments. A longer step takes
-//! as many for each touch, and some hundred for each oscillation of a contact that is pressed.
+//! An impact of one contact takes some hundred evaluations in a step. The most that was seen is 3,105 if its laws have segments, else
+//! 36,595, both on a plate of 3 mm. A longer step takes as many for each touch, and some hundred for each oscillation of a contact that is
+//! pressed.
 //!
 //! # Rest
 //! Bodies come to rest with a [fitted](crate::losses::Fitted) loss, as fast as it damps a lasting contact. The
