@@ -182,13 +182,16 @@ fn names(table: &str, key: &str) -> Option<Vec<(String, String)>> {
 
 /// The name of a law, or a table with the name of a file.
 fn own_curve(schema: &mut Map<String, Value>) {
-    let names = schema.remove("enum");
+    let names: Map<String, Value> = ["enum", "x-taplo"].iter().filter_map(|key| schema.remove_entry(*key)).collect();
     schema.insert("type".into(), json!(["string", "object"]));
     let table = json!({
         "type": "object", "required": [TABLE], "additionalProperties": false,
         "properties": { (TABLE): { "type": ["string", "object"], "description": "The name of a file." } },
     });
-    schema.insert("anyOf".into(), json!([{ "enum": names }, table]));
+    // of a mistyped name is said which names there are; with `anyOf`, only that it fits nowhere
+    schema.insert("if".into(), json!({ "type": "object" }));
+    schema.insert("then".into(), table);
+    schema.insert("else".into(), names.into());
 }
 
 fn variables(causality: Causality) -> impl Iterator<Item = &'static Variable> {

@@ -46,7 +46,7 @@ export class Schema {
     if (!isTable(node)) return [];
     const reference = text(node.$ref);
     const target = reference && reference.slice(2).split("/").reduce<Json | undefined>((at, step) => (isTable(at) ? at[step] : undefined), this.root);
-    const inner = [...list(node.allOf), ...list(node.anyOf), ...list(node.oneOf)].flatMap((part) => this.#parts(part));
+    const inner = [...list(node.allOf), ...list(node.anyOf), ...list(node.oneOf), ...(node.else ? [node.else] : [])].flatMap((part) => this.#parts(part));
     return [node, ...(target ? this.#parts(target) : []), ...inner];
   }
 
