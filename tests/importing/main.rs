@@ -7,6 +7,8 @@ use brinell_testing::{debian, prebuilt, pytest, python, skips, unit};
 // the C compiler of Unix has one name
 #[cfg(unix)]
 mod abi;
+// among the first in the order of names: making the page takes minutes, beside which the others run
+mod browser;
 mod c_interface;
 mod engines;
 mod every_importer;
@@ -14,7 +16,6 @@ mod examples;
 mod fmpy;
 mod friction_importers;
 mod numbers_in_engines;
-mod page;
 mod python_module;
 #[cfg(unix)]
 mod second_importer;
