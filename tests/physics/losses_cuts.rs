@@ -1,6 +1,6 @@
 //! A body of known mass under a contact with a loss reaches the same state, however the time is divided into steps.
 
-use crate::physics::{AnyModel, Random, pair_of, some_models};
+use crate::physics::{AnyModel, Random, all_models, pair_of};
 use brinell_contact::impact::{Impact, predict};
 use brinell_contact::losses::{AnyLoss, Fitted, History, Model, Plate, Solid, Waves, follow, impact};
 use brinell_contact::motion::Drive;
@@ -98,7 +98,7 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies_and_wherever_the_for
     let mut random = Random(77);
     let (mut worst, mut cases) = ([0.0f64; 3], 0);
     for _ in 0..rounds() {
-        for model in some_models(crate::physics::mild()) {
+        for model in all_models(crate::physics::mild()) {
             for (kind, worst) in worst.iter_mut().enumerate() {
                 let Some(case) = draw(&mut random, &model, kind) else { continue };
                 let Some(whole) = run(&case, 1) else { continue };
@@ -137,7 +137,7 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies_and_wherever_the_for
 fn the_contact_time_of_a_prediction_is_that_of_the_force() {
     const STEPS: u32 = 400;
     let (mut random, mut cases) = (Random(4407), 0);
-    for model in some_models(crate::physics::mild()) {
+    for model in all_models(crate::physics::mild()) {
         for kind in 0..3 {
             let Some(case) = draw(&mut random, &model, kind) else { continue };
             let found = impact::predict(&case.model, &Impact { mass: case.drive.mass, speed: case.speed });
@@ -163,7 +163,7 @@ fn the_contact_time_of_a_prediction_is_that_of_the_force() {
 #[test]
 fn bodies_that_leave_a_surface_that_lags_behind_them_may_come_back_within_the_same_step() {
     let mut cases = 0;
-    for (name, plastic) in some_models(crate::physics::mild()) {
+    for (name, plastic) in all_models(crate::physics::mild()) {
         let yields = plastic.pair.yield_point(1.1);
         let (mass, depth) = (1.0, 0.1 * yields.indentation);
         for (restitution, slowness) in [(0.3, 1.0), (0.3, 100.0), (0.6, 1.0)] {
@@ -192,7 +192,7 @@ fn bodies_that_leave_a_surface_that_lags_behind_them_may_come_back_within_the_sa
 #[test]
 fn bodies_that_are_pulled_back_hard_feel_the_whole_law_on_their_way() {
     let mut cases = 0;
-    for (name, plastic) in some_models(crate::physics::mild()) {
+    for (name, plastic) in all_models(crate::physics::mild()) {
         let yields = plastic.pair.yield_point(1.1);
         // the force at yield is far below the pull, as the change of speed by it is below the error of the integration
         let (speed, depth) = (1.0, 2000.0 * yields.indentation);
@@ -213,7 +213,7 @@ fn bodies_that_are_pulled_back_hard_feel_the_whole_law_on_their_way() {
 
 #[test]
 fn a_flight_after_the_contact_is_no_heat_however_fast_it_gets() {
-    for (name, plastic) in some_models(crate::physics::mild()) {
+    for (name, plastic) in all_models(crate::physics::mild()) {
         let yields = plastic.pair.yield_point(1.1);
         let (speed, mass) = (1.0, 100.0 * yields.force * yields.indentation);
         // the contact takes a small part of the energy, and the flight gives a billion times as much
@@ -237,7 +237,7 @@ fn a_flight_after_the_contact_is_no_heat_however_fast_it_gets() {
 fn bodies_come_to_rest_in_steps_of_few_evaluations_wherever_they_rest() {
     let mut random = Random(99);
     let mut most = 0;
-    for (name, plastic) in some_models(crate::physics::mild()) {
+    for (name, plastic) in all_models(crate::physics::mild()) {
         let modulus = random.log_uniform(1e9, 1e12);
         let pair = pair_of(random.log_uniform(1e-4, 1.0), modulus, modulus / random.log_uniform(50.0, 1000.0));
         let plastic = AnyModel { pair, ..plastic };
