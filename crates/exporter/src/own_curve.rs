@@ -1,7 +1,8 @@
 //! A loading curve of one's own: the rows of a file, and the law through them.
 //!
-//! The force is the chain of pieces that is closest to the rows by least squares, each by its noise, on as few knots as the noise asks for. Where the file has no radius of the contact, it follows from the depth in contact, `a^2 = R (2 d - d_e)` (Field and Swain), and the
-//! elastic recovery from it, `d_e = 3 F/(4 E* a)`; an unloading of the file gives its length at the largest depth.
+//! The force is the chain of pieces that is closest to the rows by least squares, each by its noise, on as few knots as the noise asks
+//! for. Where the file has no radius of the contact, it follows from the depth in contact, `a^2 = R (2 d - d_e)` (Field and Swain), and
+//! the elastic recovery from it, `d_e = 3 F/(4 E* a)`; an unloading of the file gives its length at the largest depth.
 
 use crate::measurement::{self, Choices, Measurement};
 use crate::numbers::{cell, quantity};
@@ -14,6 +15,9 @@ const ROWS: (usize, usize) = (8, 10_000);
 
 /// How far a force may be below one at a smaller depth, over the largest force.
 const FALL: f64 = 0.05;
+
+/// How much forces may scatter, over the largest one: their standard deviation.
+const SCATTER: f64 = 0.2;
 
 /// How far the curve may be off Hertz's where it counts as elastic, relatively.
 const ELASTIC: f64 = 0.005;
@@ -151,6 +155,15 @@ pub fn law(rows: &Rows, pair: &Pair) -> Result<(Tabulated, String), String> {
     }
     let force = points.iter().fold(0.0, |most: f64, point| most.max(point.force));
     let noise = Noise::of(&points);
+    let scatter = noise.at(force) / force;
+    // NaN counts as too much
+    if !(0.0..=SCATTER).contains(&scatter) {
+        return Err(format!(
+            "the forces scatter by {} % of the largest one from row to row: allowed is {} %",
+            cell(100.0 * scatter, 1.0),
+            100.0 * SCATTER
+        ));
+    }
     check_rise(rows, &points, FALL * force + 4.0 * noise.at(force))?;
     // a row below the noise says nothing
     let begin =

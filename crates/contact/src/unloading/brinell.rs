@@ -1,6 +1,6 @@
 //! The unloading of the law `brinell`: recovery and path fitted to finite elements.
 
-use super::{Peak, Recovery, Unloading, residual_after};
+use super::{Peak, Recovery, Unloading, path_of_shape, residual_after};
 use crate::large_strain::recovery_factor;
 use crate::loading;
 use crate::material::Pair;
@@ -99,15 +99,7 @@ impl Unloading for Brinell {
         let recovery = (3.0 - plain) * peak.force / (4.0 * pair.modulus * peak.contact_radius);
         let residual = residual_after(peak, peak.recovery.factor * recovery);
         let shape = held(plain + peak.recovery.difference);
-        let recovery = peak.indentation - residual;
-        Segment {
-            lower: residual,
-            upper: peak.indentation,
-            origin: residual,
-            power: (1.0 + shape) * peak.force / (recovery * sqrt(recovery)),
-            square: -shape * peak.force / (recovery * recovery),
-            ..Segment::NOTHING
-        }
+        path_of_shape(peak, residual, shape)
     }
 
     fn contact_radius(&self, _pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {

@@ -154,6 +154,20 @@ fn residual_after(peak: &Peak, recovery: f64) -> f64 {
     }
 }
 
+/// `F = F_m ((1 + g) s^1.5 - g s^2)` with `s = (d - d_f)/d_e`, the shape `g` \[-\] and the dent `d_f` \[m\].
+#[inline]
+fn path_of_shape(peak: &Peak, residual: f64, shape: f64) -> Segment {
+    let recovery = peak.indentation - residual;
+    Segment {
+        lower: residual,
+        upper: peak.indentation,
+        origin: residual,
+        power: (1.0 + shape) * peak.force / (recovery * sqrt(recovery)),
+        square: -shape * peak.force / (recovery * recovery),
+        ..Segment::NOTHING
+    }
+}
+
 /// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` \[m\].
 ///
 /// `d_e` is computed again from the rounded `d_f`, so that the path ends at the peak to the last bits.

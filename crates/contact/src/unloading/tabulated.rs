@@ -1,9 +1,8 @@
 //! The unloading of a curve of one's own.
 
-use super::{Peak, Unloading, residual_after};
+use super::{Peak, Unloading, path_of_shape, residual_after};
 use crate::material::Pair;
 use crate::segment::Segment;
-use libm::sqrt;
 
 /// `F = F_m ((1 + g) s^1.5 - g s^2)` with `s = (d - d_f)/d_e`. The loading law [`Tabulated`](crate::loading::Tabulated) gives `d_e` and `g`
 /// at the peak. Without an unloading in the file the path is Hertz's, `g = 0`, with `d_e = 3 F_m/(4 E* a_m)`.
@@ -19,14 +18,6 @@ impl Unloading for Tabulated {
     fn path(&self, _pair: &Pair, peak: &Peak) -> Segment {
         let shape = peak.recovery.difference;
         let residual = residual_after(peak, peak.recovery.factor);
-        let recovery = peak.indentation - residual;
-        Segment {
-            lower: residual,
-            upper: peak.indentation,
-            origin: residual,
-            power: (1.0 + shape) * peak.force / (recovery * sqrt(recovery)),
-            square: -shape * peak.force / (recovery * recovery),
-            ..Segment::NOTHING
-        }
+        path_of_shape(peak, residual, shape)
     }
 }

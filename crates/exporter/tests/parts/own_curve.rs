@@ -186,6 +186,9 @@ fn what_is_not_passive_is_refused_with_its_place() {
     refused(&without, &pair(), &["line 32: contact_radius = 0 m under a force: it must be above zero"]);
     let huge = Rows { force: rows.force.iter().map(|force| 1e300 * force).collect(), ..rows.clone() };
     assert!(law(&huge, &pair()).is_err());
+    // no curve at all
+    let scattered = Rows { force: (0..200).map(|row| if row % 3 == 0 { 90.0 } else { 5.0 }).collect(), ..rows.clone() };
+    refused(&scattered, &pair(), &["the forces scatter by ", " % of the largest one from row to row: allowed is 20 %"]);
     // as published it makes energy
     refused(&sampled(&of("johnson"), 100, 2.0), &pair(), &["line ", "would give back", "allowed is"]);
     refused(&sampled(&of("stronge"), 200, 2.0), &pair(), &["line ", "would give back", "allowed is"]);
