@@ -14,7 +14,9 @@
 //! friction.
 //!
 //! The mean forces are found by Newton's method, with the response of all rows to each other: a loss may stop a light body between two
-//! contacts in a thousandth of a chord.
+//! contacts in a thousandth of a chord. It ends before it is exact: the bodies take the forces that were found on the ways of the contacts,
+//! and what the contacts then have not gone of the ways of the bodies is left for the next chord. Of the work, which is a sum of forces times
+//! ways, this leaves the change of a force from chord to chord times a small part of a way. The last chord of a step is exact.
 //!
 //! The springs keep what they passed on the bent way: two straight lines in place of a parabola (`tangential`).
 //!
@@ -34,7 +36,7 @@
 use super::gradients::{self, SOLVED, System, Unknown};
 use super::inverse_masses::InverseMasses;
 use super::rest::STILL;
-use super::scales::{Scales, energy_of_load, stiffness_at};
+use super::scales::{GROWN, Scales, energy_of_load, stiffness_at};
 use super::work::{Instant, Row, Work};
 use super::{Refused, SharedContact};
 use crate::loading::Loading;
@@ -89,6 +91,9 @@ const NEWTON: f64 = 1e-4;
 /// A change of a rate in an iteration that is rounding, relative to the largest rate.
 const CLOSE: f64 = 1e-13;
 
+/// The same for a chord after which others follow.
+const NEARLY: f64 = 1e-9;
+
 /// A block of contacts with friction that are coupled, in a row of contacts that may have others in between.
 pub(super) struct Chords<'a, C, M, B, F> {
     work: &'a mut [Work<C>],
@@ -101,6 +106,9 @@ pub(super) struct Chords<'a, C, M, B, F> {
     /// Evaluations so far.
     pub evaluations: u32,
     scales: Scales,
+    /// The energy \[J\] and the sum of the largest indentations \[m\] for which the time of the scales was found.
+    energy: f64,
+    depths: f64,
     /// The error of a chord that is accepted.
     tolerance: f64,
     marker: PhantomData<(M, B)>,
@@ -124,6 +132,8 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             left: step,
             evaluations: 0,
             scales,
+            energy: 0.0,
+            depths: f64::NAN,
             tolerance: ELASTIC,
             marker: PhantomData,
         }
@@ -231,31 +241,39 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
         if self.evaluations > MOST_EVALUATIONS { Err(Refused::TooLong { left: self.left }) } else { Ok(()) }
     }
 
-    /// The scales of the motion, from the largest energy so far.
+    /// The scales of the motion, from the largest energy so far. The time is found again where a dent or the energy has grown.
     fn rescale(&mut self) {
-        let (mut moving, mut stored, mut least) = (0.0, 0.0, 0.0);
+        let (mut moving, mut stored, mut depths) = (0.0, 0.0, 0.0);
         for (_, member) in self.members() {
             for row in member.rows() {
                 moving = largest(0.5 * row.rate * row.rate / row.inverse_mass, moving);
             }
-            let (force, path) = (member.contact.plastic().force(), member.contact.path());
+            let plastic = member.contact.plastic();
+            let (force, indentation) = (plastic.force(), plastic.indentation());
             // of Hertz's contact, and not more than that of a spring over the whole indentation
-            let stiffness = path.stiffness(member.contact.plastic().indentation());
+            let stiffness = member.contact.path().stiffness(indentation);
             let spring = quotient(0.6 * force * force, stiffness, stiffness > 1e-100 * force, 0.0);
-            stored += smallest(spring, 0.5 * force * fabs(member.contact.plastic().indentation()));
-            least = largest(energy_of_load((&path, HERTZ), fabs(member.acceleration) / member.inverse_mass), least);
+            stored += smallest(spring, 0.5 * force * fabs(indentation));
+            depths += plastic.max_indentation();
         }
-        let energy = largest(largest(moving + stored, least), 0.5 * self.scales.root_energy * self.scales.root_energy);
-        self.scales.root_energy = sqrt(2.0 * energy);
-        let mut fastest = 0.0;
-        for (_, member) in self.members() {
-            let stiffness = stiffness_at((&member.contact.path(), HERTZ), energy);
-            for (row, ratio) in member.rows().iter().zip(ratios(member)) {
-                fastest = largest(ratio * row.inverse_mass * stiffness, fastest);
+        let mut energy = largest(moving + stored, 0.5 * self.scales.root_energy * self.scales.root_energy);
+        if depths != self.depths || energy > GROWN * self.energy {
+            let mut fastest = 0.0;
+            for (_, member) in self.members() {
+                let load = fabs(member.acceleration) / member.inverse_mass;
+                energy = largest(energy_of_load((&member.contact.path(), HERTZ), load), energy);
             }
+            for (_, member) in self.members() {
+                let stiffness = stiffness_at((&member.contact.path(), HERTZ), energy);
+                for (row, ratio) in member.rows().iter().zip(ratios(member)) {
+                    fastest = largest(ratio * row.inverse_mass * stiffness, fastest);
+                }
+            }
+            (self.energy, self.depths) = (energy, depths);
+            // rates may be so small that their squares vanish
+            self.scales.time = quotient(1.0, sqrt(fastest), fastest > 1e-300, f64::INFINITY);
         }
-        // rates may be so small that their squares vanish
-        self.scales.time = quotient(1.0, sqrt(fastest), fastest > 1e-300, f64::INFINITY);
+        self.scales.root_energy = sqrt(2.0 * energy);
     }
 
     /// Finds the accelerations for the forces of all rows.
@@ -293,27 +311,19 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
         for (place, member) in self.members_mut() {
             let model = model(place);
             member.contact.set_forces(model.borrow(), &mut member.rows);
+            let [Row { net, .. }, ..] = member.rows;
             for (row, stiffness) in member.rows.iter_mut().zip(member.contact.stiffnesses(model.borrow())) {
                 row.force = row.expected(time);
-                (row.stiffness_before, row.stiffness, row.beside) = (stiffness, stiffness, 0.0);
-                (row.stiffness_after, row.work_beside, row.is_limited) = ([0.0; 2], 0.0, false);
+                row.stiffness_before = stiffness;
+                row.stiffness = row.expected_stiffness(time);
+                let [_, beside] = row.stiffness;
+                row.beside = time * time / 12.0 * beside * net;
+                (row.stiffness_after, row.is_limited) = ([0.0; 2], false);
             }
         }
         let (bent, mut spent) = (time * time / 12.0, 0);
-        // in a plane, the way between the ends of the chord has another direction of slip: with this term the median error is twice as large
-        let bends_beside = C::DIRECTIONS == 1;
         for turn in 0..ITERATIONS {
-            self.accelerate();
-            for (_, member) in self.members_mut() {
-                member.set_ways(time);
-                let [Row { way: normal, .. }, ..] = member.rows;
-                for row in member.rows_mut() {
-                    let [own, beside] = row.stiffness;
-                    row.bend_beside = if bends_beside { bent * beside * normal } else { 0.0 };
-                    (row.bend, row.curved) = (bent * own * row.way + row.bend_beside, row.acceleration);
-                }
-            }
-            self.respond(|row| -row.bend, |row| &mut row.way);
+            self.set_ways(time);
             for (place, member) in self.members_mut() {
                 member.flies = member.stays_apart(member.contact.plastic(), member.contact.path().lower);
                 if member.flies {
@@ -337,30 +347,76 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                     let ([own, beside], [start, start_beside]) = (row.stiffness, row.stiffness_before);
                     let [end, end_beside] = after;
                     row.stiffness_after = after;
-                    let force = row.found - bent * own * row.curved;
+                    let with = |stiffness: f64| row.found - bent * stiffness * row.curved;
                     // a contact that parts presses by rounding at most
-                    let force = if index == 0 { largest(force, 0.0) } else { force };
-                    let off = time * sqrt(row.inverse_mass) * fabs(force - row.force);
-                    change = if off > change || off.is_nan() { off } else { change };
-                    row.is_limited |= index > 0 && fabs(force) > row.most;
-                    // for the next turn
-                    (row.found, row.beside) = (force, bent * beside * normal.curved);
-                    row.work_beside = row.bend_beside * row.curved;
+                    let force = if index == 0 { largest(with(own), 0.0) } else { with(own) };
+                    let is_limited = row.is_limited || index > 0 && fabs(force) > row.most;
                     // a contact that slides at last, or would exceed its limit, is taken as sliding
-                    let mean = if end > 0.0 && !row.is_limited { 0.5 * (start + end) } else { 0.0 };
-                    row.stiffness = [smallest(mean, most), 0.5 * (start_beside + end_beside)];
+                    let mean = if end > 0.0 && !is_limited { 0.5 * (start + end) } else { 0.0 };
+                    let next = smallest(mean, most);
+                    let off = largest(fabs(force - row.force), fabs(with(next) - with(own)));
+                    let off = time * sqrt(row.inverse_mass) * off;
+                    change = if off > change || off.is_nan() { off } else { change };
+                    // for the next turn
+                    (row.found, row.is_limited) = (force, is_limited);
+                    row.stiffness_next = [next, 0.5 * (start_beside + end_beside)];
+                    row.beside = bent * beside * normal.curved;
                 }
             }
             // the first turn does not know the stiffnesses of the end
-            if change <= CLOSE * scales.root_energy && turn > 0 {
+            let close = if time >= self.left { CLOSE } else { NEARLY };
+            if change <= close * scales.root_energy && turn > 0 {
+                self.take_found(time);
                 self.count(spent)?;
                 return Ok(self.error(time));
+            }
+            for (_, member) in self.members_mut() {
+                member.rows_mut().iter_mut().for_each(|row| row.stiffness = row.stiffness_next);
             }
             self.improve(time);
         }
         self.count(spent)?;
         // a chord this long is not found by iteration
         Ok((f64::INFINITY, 1.0))
+    }
+
+    /// Sets the ways of a chord of this `time` \[s\] by the forces of all rows, with what their bends change.
+    fn set_ways(&mut self, time: f64) {
+        let bent = time * time / 12.0;
+        // in a plane, the way between the ends of the chord has another direction of slip: with this term the median error is twice as large
+        let bends_beside = C::DIRECTIONS == 1;
+        self.accelerate();
+        for (_, member) in self.members_mut() {
+            member.set_ways(time);
+            let [Row { way: normal, .. }, ..] = member.rows;
+            for row in member.rows_mut() {
+                let [own, beside] = row.stiffness;
+                row.bend_beside = if bends_beside { bent * beside * normal } else { 0.0 };
+                (row.bend, row.curved) = (bent * own * row.way + row.bend_beside, row.acceleration);
+                row.way += row.debt;
+            }
+        }
+        self.respond(|row| -row.bend, |row| &mut row.way);
+    }
+
+    /// Moves the bodies by the forces that were found on the ways of the contacts. What the contacts have not gone of the ways of the
+    /// bodies then is left for the next chord, so that the sum of the works is right.
+    fn take_found(&mut self, time: f64) {
+        for (_, member) in self.members_mut() {
+            let [Row { force: expected, found: normal, .. }, ..] = member.rows;
+            let size = root(member.rows().iter().skip(1).map(|row| row.found * row.found).sum());
+            let mut beside = 0.0;
+            for (axis, row) in member.rows_mut().iter_mut().enumerate() {
+                // the bound of friction is that of the normal force that was found
+                let most = row.most * quotient(normal, expected, expected > 0.0, 0.0);
+                let part = if axis > 0 && size > most { quotient(most, size, size > 0.0, 1.0) } else { 1.0 };
+                (row.force, row.gone) = (part * row.found, row.way);
+                beside += row.bend_beside * row.curved - (1.0 - part) * row.found * row.way;
+            }
+            // a contact that flies moves at last
+            member.moved.take_up(beside);
+        }
+        self.set_ways(time);
     }
 
     /// Takes the forces that were found for the next turn, less their response to themselves: a step of Newton's method.
@@ -448,12 +504,14 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             } else {
                 member.contact = member.moved;
             }
+            let flies = member.flies;
             member.deepest = largest(member.deepest, member.contact.plastic().max_indentation());
             for row in member.rows_mut() {
                 row.moment += time * (row.impulse + 0.5 * time * row.force) - row.bend;
                 row.impulse += time * row.force;
                 row.rate += time * row.net;
-                row.last = [row.start, row.force, time];
+                row.debt = if flies { 0.0 } else { row.way - row.gone };
+                (row.last, row.stiffness_last) = ([row.start, row.force, time], row.stiffness_before);
             }
         }
         Ok(())
@@ -504,7 +562,8 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             let is_pressed = member.contact.plastic().force() > 0.0;
             for row in member.rows_mut() {
                 row.moment += h * (row.impulse + 0.5 * h * row.force) + row.solution.number;
-                row.way = h * (row.rate + 0.5 * h * row.net) - row.solution.product;
+                row.way = h * (row.rate + 0.5 * h * row.net) - row.solution.product + row.debt;
+                row.debt = 0.0;
             }
             if !is_pressed {
                 member.rows_mut().iter_mut().for_each(Row::loosen);
@@ -546,6 +605,9 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 (row.net, row.force) = (row.acceleration, 0.0);
             });
             member.set_ways(time);
+            for row in member.rows_mut() {
+                (row.way, row.debt) = (row.way + row.debt, 0.0);
+            }
             // the way to the surface ends there
             let (until, touches) = time_to_touch::<C, M>(&member.contact, &member.rows);
             let (surface, touches) = (member.contact.path().lower, touches && until <= time);

@@ -160,6 +160,9 @@ pub trait SharedContact<M>: PlasticContact<M> {
         Ok(())
     }
 
+    /// Adds to the work of the tangential force what it does on the bend of a chord \[J\].
+    fn take_up(&mut self, _work: f64) {}
+
     /// Notes what friction did over a `step` \[s\].
     fn end_step(&mut self, _rows: &[Row; 3], _step: f64) {}
 }

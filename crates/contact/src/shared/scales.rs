@@ -19,7 +19,7 @@ pub(super) struct Scales {
 }
 
 /// Energies grow by this factor before the time is computed again.
-const GROWN: f64 = 1.2;
+pub(super) const GROWN: f64 = 1.2;
 
 /// The indentation \[m\] at which both parts of a segment that are given, of the first power and of the other one, are below
 /// a limit: `(limit/linear)^first` and `(limit/power)^second`. Infinite for a segment without force.

@@ -69,12 +69,16 @@ pub struct Row {
     pub(crate) start: f64,
     /// The force at the start of the last chord and in its middle \[N\], and its time \[s\].
     pub(super) last: [f64; 3],
+    /// The part of the bodies' way that the contact has not gone yet \[m\].
+    pub(super) debt: f64,
     /// Mean force of the chord that the way follows from \[N\].
     pub(super) force: f64,
     /// Mean acceleration with these forces \[m/s^2\].
     pub(crate) net: f64,
     /// Way of the chord \[m\].
     pub(crate) way: f64,
+    /// The way that the contact went.
+    pub(super) gone: f64,
     /// Mean force on this way \[N\].
     pub(crate) found: f64,
     /// How the force that is found grows with the way, and with that of the normal \[N/m\].
@@ -91,17 +95,19 @@ pub struct Row {
     pub(super) is_limited: bool,
     /// The stiffness at the start of the chord, and how the force grows with the indentation beside \[N/m\].
     pub(super) stiffness_before: [f64; 2],
+    /// The same at the start of the last chord.
+    pub(super) stiffness_last: [f64; 2],
     /// The same at its end.
     pub(super) stiffness_after: [f64; 2],
-    /// The same as means over the chord.
+    /// The same as means over the chord, and those for the next turn.
     pub(super) stiffness: [f64; 2],
+    pub(super) stiffness_next: [f64; 2],
     /// The part of the force on a curved way that grows with the indentation \[N\].
     pub(crate) beside: f64,
     /// The moment of the impulse by which the way is not straight \[N.s^2\].
     pub(super) bend: f64,
-    /// The part of it by a force that grows with the indentation, and its work on the bent way \[J\].
+    /// The part of it by a force that grows with the indentation.
     pub(super) bend_beside: f64,
-    pub(crate) work_beside: f64,
     /// Mean acceleration with the mean forces on the way \[m/s^2\].
     pub(super) curved: f64,
     /// Of a block that comes to rest.
@@ -121,9 +127,9 @@ impl Row {
 
     /// Sets what no force needs.
     pub(super) fn loosen(&mut self) {
-        let (stiffness, found, most, beside, work_beside) = ([0.0; 2], 0.0, 0.0, 0.0, 0.0);
+        let (stiffness, found, most, beside) = ([0.0; 2], 0.0, 0.0, 0.0);
         let (slope, slope_beside, gives) = (0.0, 0.0, 0.0);
-        *self = Row { stiffness, found, most, beside, work_beside, slope, slope_beside, gives, ..*self };
+        *self = Row { stiffness, stiffness_next: stiffness, found, most, beside, slope, slope_beside, gives, ..*self };
     }
 
     /// The mean force of the next chord, of this `time` \[s\], if the force goes on along a parabola \[N\].
@@ -136,6 +142,18 @@ impl Row {
         let (slope, bend) = (4.0 * self.start + 2.0 * start - 6.0 * middle, 3.0 * (self.start + start - 2.0 * middle));
         let part = time / before;
         self.start + part * (0.5 * slope + part * bend / 3.0)
+    }
+
+    /// The mean stiffnesses over the next chord, of this `time` \[s\], if they go on along straight lines \[N/m\].
+    pub(super) fn expected_stiffness(&self, time: f64) -> [f64; 2] {
+        let [.., before] = self.last;
+        let mut expected = self.stiffness_before;
+        for (expected, last) in expected.iter_mut().zip(self.stiffness_last) {
+            let change = quotient(0.5 * time * (*expected - last), before, before > 0.0 && last != 0.0, 0.0);
+            // not where it jumps, or begins
+            *expected += if fabs(change) < 0.5 * fabs(*expected) { change } else { 0.0 };
+        }
+        expected
     }
 
     /// The largest stiffness \[N/m\] of a normal row for the bend of a chord of this `time` \[s\]: half of that at which its moment, and

@@ -106,10 +106,12 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
         let image = |height: f64| height_with(new, old.stiffness(height));
         let is_bent = !(is_hertzian(old) && is_hertzian(new));
         let mut edge = new.lower;
+        let mut known = None;
         for (vertex, end) in self.segments_up_to(top) {
             let at =
                 |cut: &Cut<D, N>, height: f64, offset: [f64; D]| cut.point((image(height), offset), top.0 - height);
-            let mut from = at(cut, vertex.height, vertex.offset);
+            // a segment begins where the one below ends
+            let mut from = known.unwrap_or_else(|| at(cut, vertex.height, vertex.offset));
             edge = image(end.0);
             let parts = match is_bent && cut.left.has_room() {
                 true => {
@@ -126,6 +128,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             }
             let to = at(cut, end.0, end.1);
             cut.between(slope(&from, &to), &from, &to);
+            known = Some(to);
         }
         edge
     }

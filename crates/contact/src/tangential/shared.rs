@@ -109,9 +109,13 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
             (row.found, row.most) = (mean, most);
             (row.slope, row.slope_beside) =
                 if is_bound { (0.0, model.friction.coefficient * slope * edge) } else { (along, 0.0) };
-            self.work = self.work.plus(mean * slip + row.work_beside);
+            self.work = self.work.plus(mean * slip);
         }
         Ok(())
+    }
+
+    fn take_up(&mut self, work: f64) {
+        self.work = self.work.plus(work);
     }
 
     fn end_step(&mut self, rows: &[Row; 3], step: f64) {
