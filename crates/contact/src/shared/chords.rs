@@ -393,7 +393,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 let [own, beside] = row.stiffness;
                 row.bend_beside = if bends_beside { bent * beside * normal } else { 0.0 };
                 (row.bend, row.curved) = (bent * own * row.way + row.bend_beside, row.acceleration);
-                row.way += row.debt;
+                row.way += row.lag;
             }
         }
         self.respond(|row| -row.bend, |row| &mut row.way);
@@ -510,7 +510,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 row.moment += time * (row.impulse + 0.5 * time * row.force) - row.bend;
                 row.impulse += time * row.force;
                 row.rate += time * row.net;
-                row.debt = if flies { 0.0 } else { row.way - row.gone };
+                row.lag = if flies { 0.0 } else { row.way - row.gone };
                 (row.last, row.stiffness_last) = ([row.start, row.force, time], row.stiffness_before);
             }
         }
@@ -562,8 +562,8 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             let is_pressed = member.contact.plastic().force() > 0.0;
             for row in member.rows_mut() {
                 row.moment += h * (row.impulse + 0.5 * h * row.force) + row.solution.number;
-                row.way = h * (row.rate + 0.5 * h * row.net) - row.solution.product + row.debt;
-                row.debt = 0.0;
+                row.way = h * (row.rate + 0.5 * h * row.net) - row.solution.product + row.lag;
+                row.lag = 0.0;
             }
             if !is_pressed {
                 member.rows_mut().iter_mut().for_each(Row::loosen);
@@ -606,7 +606,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             });
             member.set_ways(time);
             for row in member.rows_mut() {
-                (row.way, row.debt) = (row.way + row.debt, 0.0);
+                (row.way, row.lag) = (row.way + row.lag, 0.0);
             }
             // the way to the surface ends there
             let (until, touches) = time_to_touch::<C, M>(&member.contact, &member.rows);

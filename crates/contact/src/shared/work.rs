@@ -70,7 +70,7 @@ pub struct Row {
     /// The force at the start of the last chord and in its middle \[N\], and its time \[s\].
     pub(super) last: [f64; 3],
     /// The part of the bodies' way that the contact has not gone yet \[m\].
-    pub(super) debt: f64,
+    pub(super) lag: f64,
     /// Mean force of the chord that the way follows from \[N\].
     pub(super) force: f64,
     /// Mean acceleration with these forces \[m/s^2\].
