@@ -454,8 +454,8 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
     /// The error of a chord over that which is accepted, and the part of it at which a slip ends that makes it too large.
     ///
     /// What the bend of the chord changes is corrected; what is left is that change times the part by which a stiffness is not known: by
-    /// which it changes over the chord. It counts whole where contacts may yield, where springs do not move in closed form, and where a
-    /// contact is deeper than ever: without the latter, half of the evaluations have three times the error.
+    /// which it changes over the chord. It counts whole where springs do not move in closed form, and where a contact is deeper than
+    /// ever: without the latter, a tenth of the motions that yield have ten times the error.
     fn error(&self, time: f64) -> (f64, f64) {
         let accepted = self.tolerance * self.scales.root_energy;
         let (mut error, mut end) = (0.0, 1.0);
@@ -465,7 +465,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             let is_deeper = after.plastic().max_indentation() > before.plastic().max_indentation();
             let model = (self.model)(place);
             let [scale, scale_after] = [before, after].map(|contact| contact.slip_scale(model.borrow()));
-            let scale = scale.filter(|_| !is_deeper && self.tolerance == ELASTIC && scale_after.is_some());
+            let scale = scale.filter(|_| !is_deeper && scale_after.is_some());
             // forces with a loss are means of products
             let lossy = smallest(fabs(normal.share - 1.0), 1.0);
             let stiffest = largest(before.plastic().stiffness(), after.plastic().stiffness());
