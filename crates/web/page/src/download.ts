@@ -61,7 +61,7 @@ export class Download {
       this.#rest.hidden = !this.#canRest || this.#missing().length === 0;
       const what = !this.#falls ? "The ball hits and leaves." : this.#rest.hidden ? "The ball falls and bounces until it lies still." : "The ball falls and bounces.";
       const more = this.#rest.hidden ? "" :
-        " To rest, it needs a fresh spot for each bounce, a loss below yield (2 % of the speed, a guess) and an FMU that knows its mass: the button adds what is missing.";
+        " To rest, the ball needs a fresh spot for each bounce, a loss below yield (2 % of the speed, a guess) and an FMU that knows its mass: the button adds what is missing.";
       this.#says.textContent = `${what} Needs fmpy: pip install fmpy.${more}`;
     });
   }
