@@ -58,8 +58,11 @@ export class Download {
             button("svg", "Picture .svg", () => void this.#file("picture", "curve"))));
     results.onPrediction(() => {
       this.#python.textContent = this.#snippet();
-      this.#rest.hidden = !this.#canRest || this.#missing().length === 0;
-      const what = !this.#falls ? "The ball hits and leaves." : this.#rest.hidden ? "The ball falls and bounces until it lies still." : "The ball falls and bounces.";
+      const missing = this.#missing().length > 0;
+      this.#rest.hidden = !missing || !this.#canRest;
+      const kept = scene.value("law", "elastic_restitution"); // waves take less and less of it, and no ball rests by them alone
+      const rests = !missing && typeof kept === "number" && kept < 1;
+      const what = !this.#falls ? "The ball hits and leaves." : rests ? "The ball falls and bounces until it lies still." : "The ball falls and bounces.";
       const more = this.#rest.hidden ? "" :
         " To rest, the ball needs a fresh spot for each bounce, a loss below yield (2 % of the speed, a guess) and an FMU that knows its mass: the button adds what is missing.";
       this.#says.textContent = `${what} Needs fmpy: pip install fmpy.${more}`;

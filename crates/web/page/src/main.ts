@@ -17,7 +17,7 @@
 //   tab.NAME, panel.NAME            result, try, download, tools, link; on a phone also form and text
 //   undo, redo, open, new, file, export       the head of the page; file is the hidden input
 //   platform.FOLDER, download.*     fmu, toml, python, rest, copy, csv, history, svg, state; python.says
-//   try.*, way.NAME, tools.tool, .units, .step, .block.WAY, .errors.WAY, .chart.WAY, .notes.WAY, .text, .words, link, link.copy, toast
+//   try.*, way.NAME, tools.tool, .units, .step, .block.WAY, .errors.WAY, .chart.WAY, .notes.WAY, .text, .words, link, link.copy, link.file, toast
 import "./locale";
 import type { Mistake } from "./contract";
 import { describe, h, toast } from "./dom";
