@@ -29,7 +29,8 @@ pub struct Arguments {
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
     #[error(
-        "this program was installed without its page: a release has it, `python3 packaging/page.py` makes it from the sources, and {VARIABLE} names it"
+        "this program was installed without its page: a release has it, `cargo run --release -- app` in a clone of the repository makes and \
+         opens it, and {VARIABLE} names it"
     )]
     Missing,
     #[error("{VARIABLE} = {} is no file", shown(.0))]
@@ -38,7 +39,10 @@ pub enum AppError {
     NoPython(io::Error),
     #[error("{PYTHON} {} has made no page: {status}", shown(script))]
     NotMade { script: PathBuf, status: ExitStatus },
-    #[error("no browser opens {}: {source}", shown(path))]
+    #[error(
+        "no browser could be started here ({source}); the page is {}: open it as a file in any browser",
+        shown(path)
+    )]
     Unopened { path: PathBuf, source: io::Error },
 }
 

@@ -297,7 +297,8 @@ fn the_page_on_drake_prints_what_it_shows() {
 
 #[test]
 fn the_page_on_fmpy_prints_what_it_shows() {
-    page("fmpy", &[]);
+    let page = read("fmpy.md");
+    prints(&page, &[], &unit::export(&unit::write_scene("ball", block(&page, "toml"))));
 }
 
 /// Runs these files of tests/python/, which need the packages.

@@ -427,7 +427,7 @@ def picture(own, given):
         axes.set_xticks([0.1, 0.3, 1, 3], ["0.1", "0.3", "1", "3"])
         axes.minorticks_off()
     first.set_title("with their own numbers", fontsize=10)
-    first.annotate("newton: 24", (0.12, 1.05), fontsize=7.5, va="top")
+    first.annotate("newton: 24, off the picture", (0.12, 1.05), fontsize=7.5, va="top")
     second.set_title("with Brinell's numbers, right at 3.13 m/s", fontsize=10)
     hardness, measured, found = leeb()
     third.errorbar(hardness, measured, 0.012, fmt="o", color="#777777", markersize=3, linewidth=1, label="measured")

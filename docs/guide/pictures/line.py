@@ -71,7 +71,7 @@ def main(program):
     loading = table(TRUTH / "loading.csv")
     force, width = column(loading, "F_over"), column(loading, "a_over")
     depth = column(loading, "depth") + CONSTANT * force / 4
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(6.4, 3.2), layout="constrained")
     shown = np.flatnonzero(force <= 32)[::6]
     left.plot(depth[shown], force[shown], ".", color=GREY, markersize=3, label="finite elements")
     for peak in (5, 12, 30):

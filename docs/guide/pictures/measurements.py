@@ -103,8 +103,8 @@ def other_laws(axes, scenes):
         said = np.array([laws[index].restitution for laws in predictions])
         style = {"linewidth": 2.5, "color": BLUE} if law == "brinell" else {"linewidth": 1.0}
         axes.plot(vickers, 100.0 * (said / restitution - 1.0), label=law, **style)
-    axes.set(xlabel="Vickers hardness [HV]", ylabel="error of the restitution [%]", title="other laws, same strength", ylim=(-45, 65))
-    axes.legend(frameon=False, fontsize=7, ncols=2, loc="upper right")
+    axes.set(xlabel="Vickers hardness [HV]", ylabel="error of the restitution [%]", title="other laws, same strength", ylim=(-45, 85))
+    axes.legend(frameon=False, fontsize=7, ncols=2, columnspacing=1, handlelength=1.5, loc="upper right")
 
 
 def dents(depths, diameters, scenes):
@@ -158,7 +158,7 @@ def record(axes, scenes):
         style = {"linewidth": 2.5, "color": BLUE} if law == "brinell" else {"linewidth": 1.0}
         (line,) = axes.plot(force[: last + 1], best[: last + 1], label=law, **style)
         axes.plot(force[last:], best[last:], ":", color=line.get_color())
-    axes.set(xlabel="force [N] (dotted: unloading)", ylabel="recorded depth - fit [um]", title="start of an indentation", ylim=(-0.6, 0.7))
+    axes.set(xlabel="force [N] (dotted: unloading)", ylabel="recorded depth - fit [um]", title="start of an indentation", ylim=(-0.6, 0.9))
     axes.legend(frameon=False, fontsize=7, ncols=2)
 
 
@@ -174,16 +174,16 @@ def metallic_glass(axes, scenes):
 
 def main():
     pyplot.rcParams.update(STYLE)
-    figure, axes = pyplot.subplots(2, 3, figsize=(11.5, 6.6), layout="constrained")
+    figure, axes = pyplot.subplots(3, 2, figsize=(6.4, 8.4), layout="constrained")
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         # the ends of some curves are beyond every law
         warnings.simplefilter("ignore", brinell.ProgramWarning)
         scenes = Scenes(folder)
         rebounds(axes[0, 0], scenes)
         other_laws(axes[0, 1], scenes)
-        record(axes[0, 2], scenes)
+        record(axes[2, 0], scenes)
         dents(axes[1, 0], axes[1, 1], scenes)
-        metallic_glass(axes[1, 2], scenes)
+        metallic_glass(axes[2, 1], scenes)
     save(figure, FOLDER / "measurements.svg")
 
 

@@ -90,7 +90,8 @@ def draw(axis, curve, points, titles, words):
 def main():
     pyplot.rcParams.update(STYLE)
     curves, equal_bodies = computed()
-    figure, axes = pyplot.subplots(1, 4, figsize=(12, 3.1), layout="constrained")
+    figure, axes = pyplot.subplots(2, 2, figsize=(6.4, 5.4), layout="constrained")
+    axes = axes.flat
     for axis, (quantity, label, words) in zip(axes, QUANTITIES):
         points = [column[1:] for column in rows(quantity)]
         curve = curves["angle_deg"], curves[quantity]

@@ -123,7 +123,7 @@ def main():
         (indentation, force), dent = cycle(unit(folder, "plain"))
         time, height = fall(unit(folder, "known", "coupling = { effective_mass = 4e-3 }"))
     figure, (left, middle, right) = pyplot.subplots(
-        1, 3, figsize=(9.6, 2.9), layout="constrained", width_ratios=[0.8, 1.2, 1.4]
+        1, 3, figsize=(7.2, 2.5), layout="constrained", width_ratios=[0.9, 1.1, 1.2]
     )
     sketch(left)
     middle.plot(indentation, force, color=BLUE)

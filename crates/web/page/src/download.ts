@@ -1,9 +1,12 @@
 // What can be taken away: the FMU for the platforms chosen, the scene, a Python snippet that runs it, curves.
-import type { About } from "./contract";
+import type { About, Edit, Path } from "./contract";
 import { describe, h, save, toast } from "./dom";
 import { embedded, type Engine } from "./engine";
 import type { Results } from "./results";
 import type { Scene } from "./scene";
+
+/** Of the drop heights of a scene [m/s^2]. */
+const GRAVITY = 9.80665;
 
 type Platform = About["platforms"][number];
 
@@ -23,6 +26,9 @@ export class Download {
   readonly #boxes: HTMLInputElement[];
   readonly #state = h("p", { class: "note", role: "status", "data-test": "download.state" });
   readonly #python = h("pre", { tabindex: 0, "data-test": "python" });
+  readonly #says = h("p", { class: "note", "data-test": "python.says" });
+  readonly #rest = h("button", { type: "button", "data-test": "download.rest", title: "Changes the scene; Undo takes it back",
+    onclick: () => (this.scene.edit(...this.#missing()), this.#python.focus()) }, "Let it bounce to rest");
   readonly #given = new Set<string>();
 
   constructor(readonly scene: Scene, readonly results: Results, readonly engine: Engine, readonly about: About) {
@@ -41,7 +47,7 @@ export class Download {
       h("div", { class: "checks" }, ...labels),
         h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "download.fmu", onclick: () => void this.fmu() },
           "Download FMU")), this.#state,
-      h("h2", {}, "Run it in Python"), h("p", { class: "note" }, "The ball hits and leaves. Needs fmpy: pip install fmpy"), this.#python,
+      h("h2", {}, "Run it in Python"), this.#says, h("div", { class: "row" }, this.#rest), this.#python,
       h("div", { class: "row" }, button("python", "Download .py", () => save(`${this.#name()}.py`, this.#python.textContent ?? "", "text/x-python")),
         button("copy", "Copy", () => void copy(this.#python.textContent ?? ""))),
       h("h2", {}, "Scene and curves"),
@@ -50,7 +56,41 @@ export class Download {
         button("csv", "Curve .csv", () => void this.#file("csv", "curve")),
           button("history", "History .csv", () => void this.#file("csv", "history")),
             button("svg", "Picture .svg", () => void this.#file("picture", "curve"))));
-    results.onPrediction(() => (this.#python.textContent = this.#snippet()));
+    results.onPrediction(() => {
+      this.#python.textContent = this.#snippet();
+      const missing = this.#missing().length > 0;
+      this.#rest.hidden = !missing || !this.#canRest;
+      const kept = scene.value("law", "elastic_restitution"); // waves take less and less of it, and no ball rests by them alone
+      const rests = !missing && typeof kept === "number" && kept < 1;
+      const what = !this.#falls ? "The ball hits and leaves." : rests ? "The ball falls and bounces until it lies still." : "The ball falls and bounces.";
+      const more = this.#rest.hidden ? "" :
+        " To rest, the ball needs a fresh spot for each bounce, a loss below yield (2 % of the speed, a guess) and an FMU that knows its mass: the button adds what is missing.";
+      this.#says.textContent = `${what} Needs fmpy: pip install fmpy.${more}`;
+    });
+  }
+
+  /** Whether the FMU moves the ball, so that the script lets it fall; a scene may make the gap a constant. */
+  get #falls(): boolean {
+    const parameters = this.scene.value("fmu", "parameters");
+    return this.scene.value("coupling") !== undefined && (!Array.isArray(parameters) || parameters.includes("initial_gap"));
+  }
+
+  /** Whether what is missing can be added: to one contact of round bodies that yield, and whose law has no loss of its own. */
+  get #canRest(): boolean {
+    const { scene, about } = this;
+    return ["contact", "body", "friction"].every((table) => scene.value(table) === undefined) && scene.value("impactor", "shape") !== "cylinder" &&
+      !about.laws.damped.some(({ name }) => name === scene.value("law", "loading")) && Boolean(this.results.prediction?.laws[0]?.onsets.length);
+  }
+
+  /** What the scene lacks for a ball that comes to rest. */
+  #missing(): Edit[] {
+    const lacks = (...paths: Path[]): boolean => paths.every((path) => this.scene.value(...path) === undefined);
+    const edits: Edit[] = [];
+    if (this.scene.value("target", "surface") !== "fresh") edits.push({ path: ["target", "surface"], value: "fresh" });
+    if (lacks(["law", "elastic_restitution"], ["target", "plate_thickness"])) edits.push({ path: ["law", "elastic_restitution"], value: 0.98 });
+    const mass = this.scene.value("impact", "mass") ?? this.results.mass;
+    if (lacks(["coupling"]) && mass !== undefined) edits.push({ path: ["coupling", "effective_mass"], value: mass });
+    return edits;
   }
 
   #name = (): string => String(this.scene.value("name") ?? "scene");
@@ -92,13 +132,8 @@ export class Download {
   }
 
   #snippet(): string {
-    const prediction = this.results.prediction;
-    const speed = prediction?.speed ?? 1;
-    const mass = prediction?.mass ?? 1;
-    const law = prediction?.laws[0];
-    const step = Number((((law?.loading_time ?? 1e-5) + (law?.unloading_time ?? 1e-5)) / 200).toPrecision(2));
-    const force = this.scene.value("coupling") === undefined ? "force" : "mean_force";
-    return this.scene.value("contact") !== undefined ? this.#several() : `from fmpy import extract, read_model_description
+    if (this.scene.value("contact") !== undefined) return this.#several();
+    return `from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
 description = read_model_description("${this.#name()}.fmu")
@@ -108,7 +143,18 @@ unit = FMU2Slave(guid=description.guid, unzipDirectory=extract("${this.#name()}.
 unit.instantiate()
 unit.setupExperiment()
 unit.enterInitializationMode()
-unit.exitInitializationMode()
+${this.#falls ? this.#fall() : this.#hit()}
+unit.terminate()
+unit.freeInstance()
+`;
+  }
+
+  /** An impact in two hundred steps. */
+  #hit(): string {
+    const { mass = 1, speed = 1, laws: [law] = [] } = this.results.prediction ?? {};
+    const step = Number((((law?.loading_time ?? 1e-5) + (law?.unloading_time ?? 1e-5)) / 200).toPrecision(2));
+    const force = this.scene.value("coupling") === undefined ? "force" : "mean_force";
+    return `unit.exitInitializationMode()
 
 mass, speed, step, time = ${mass}, ${speed}, ${step}, 0.0    # kg, m/s, s
 largest = 0.0
@@ -121,10 +167,34 @@ while True:
     time += step
     if force == 0.0 and speed < 0.0:
         break
-print(f"largest force {largest:.4g} N, leaves with {-speed:.4g} m/s")
-unit.terminate()
-unit.freeInstance()
-`;
+print(f"largest force {largest:.4g} N, leaves with {-speed:.4g} m/s")`;
+  }
+
+  /** A fall until the ball lies still, or for a minute. A parallel importer applies each force one step later, and doesn't know its effect until then. */
+  #fall(): string {
+    const { mass = 1, speed = 1 } = this.results.prediction ?? {};
+    const inputs = this.scene.value("coupling", "inputs");
+    const has = (name: string): boolean => Array.isArray(inputs) && inputs.includes(name);
+    const late = this.scene.value("coupling", "master") === "parallel";
+    const height = Number(((speed * speed) / (2 * GRAVITY)).toPrecision(6));
+    const inMass = has("effective_mass") ? '    unit.setReal([variables["effective_mass"]], [mass])\n' : "";
+    return `unit.setReal([variables["initial_gap"]], [${height}])    # m
+unit.exitInitializationMode()
+
+mass, gravity, step = ${mass}, ${GRAVITY}, 1e-3    # kg, m/s^2, s
+speed = force = time = 0.0    # m/s towards the target, N, s
+while time < 60.0 and (abs(speed) > 1e-6 or force == 0.0):
+    before = speed
+    unit.setReal([variables["indentation_rate"]], [${late ? "speed + force / mass * step])    # that force isn't applied yet" : "speed])"}
+${inMass}    ${has("external_acceleration") ? 'unit.setReal([variables["external_acceleration"]], [gravity])'
+      : 'unit.setRealInputDerivatives([variables["indentation_rate"]], [1], [gravity])'}
+    unit.doStep(currentCommunicationPoint=time, communicationStepSize=step)
+    [force] = unit.getReal([variables["mean_force"]])    # over this step
+    speed += (gravity - force / mass) * step
+    time += step
+    if before > ${Number((0.1 * speed).toPrecision(2))} and speed < 0.0:
+        print(f"{time:.3f} s: leaves with {-speed:.3g} m/s")
+print(f"{time:.3f} s: lies still, held by {force:.4g} N" if time < 60.0 else "it still moves after a minute")`;
   }
 
   #several(): string {

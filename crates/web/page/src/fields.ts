@@ -285,6 +285,7 @@ export function material(context: Context, path: Path, look: Look = {}): Field {
   const source = h("p", { class: "source", "data-test": `${key(path)}.source` });
   const warning = h("p", { class: "source", "data-test": `${key(path)}.warning` });
   const { element, mark } = shell(context, path, look, h("div", {}, input, list, numbers, source, warning), input);
+  element.classList.add("wide"); // the end of a name tells hardened from annealed
   let active = -1;
 
   function open(search: string): void {

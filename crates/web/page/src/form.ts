@@ -24,7 +24,7 @@ function strength(context: Context, body: Body): Field {
     { label: "as the material", keys: [] },
     { label: "yield strength", keys: [at("yield_strength")], start: () => [set(at("yield_strength"), megapascals(known()))],
       field: quantity(context, at("yield_strength")) },
-    { label: "hardness", keys: [at("hardness")], start: () => [set(at("hardness"), "200 HV10")], field: withScale(context, at("hardness"), SCALES) },
+    { label: "hardness", keys: [at("hardness")], start: () => [set(at("hardness"), "200 HBW 10/3000")], field: withScale(context, at("hardness"), SCALES) },
     { label: "tensile strength", keys: [at("tensile_strength")], start: () => [set(at("tensile_strength"), "500 MPa")],
       field: quantity(context, at("tensile_strength")) },
     { label: "tensile test", keys: [at("tensile_test")],
@@ -159,7 +159,7 @@ export class Form {
   readonly #contacts: ReturnType<typeof contacts>;
   readonly #banner = h("div", { class: "banner", role: "alert", "data-test": "mistake", hidden: true });
 
-  constructor(readonly context: Context, readonly show: (mistake: Mistake) => void) {
+  constructor(readonly context: Context, readonly show: (mistake: Mistake) => void, massOfImpact: () => string | undefined) {
     const { scene } = context;
     const any = (...path: Path): Field | null => anyField(context, path);
     const fields: Field[] = [];
@@ -171,7 +171,7 @@ export class Form {
     const gravity = 9.80665;
     const speed = (): number => scene.si("impact", "speed") ?? 1;
     const height = (): number => scene.si("impact", "drop_height") ?? 0.5;
-    const mass = (): Json => scene.value("impact", "mass") ?? "4 g";
+    const mass = (): Json => scene.value("impact", "mass") ?? massOfImpact() ?? "4 g";
     const round = (value: number): number => Number(value.toPrecision(3));
     const impact = oneOf(context, "impact.by", "Given by", [
       { label: "a drop height", keys: [["impact", "drop_height"]],

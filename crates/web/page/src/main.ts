@@ -16,8 +16,8 @@
 //   chart.curve, chart.history, chart.sweep with .plot and .readout; slider.speed, slider.radius, slider.strength, each with .from, .to and .wrong
 //   tab.NAME, panel.NAME            result, try, download, tools, link; on a phone also form and text
 //   undo, redo, open, new, file, export       the head of the page; file is the hidden input
-//   platform.FOLDER, download.*     fmu, toml, python, copy, csv, history, svg, state
-//   try.*, way.NAME, tools.tool, .units, .step, .block.WAY, .errors.WAY, .chart.WAY, .notes.WAY, .text, .words, link, link.copy, toast
+//   platform.FOLDER, download.*     fmu, toml, python, rest, copy, csv, history, svg, state; python.says
+//   try.*, way.NAME, tools.tool, .units, .step, .block.WAY, .errors.WAY, .chart.WAY, .notes.WAY, .text, .words, link, link.copy, link.file, toast
 import "./locale";
 import type { Mistake } from "./contract";
 import { describe, h, toast } from "./dom";
@@ -101,7 +101,7 @@ async function start(): Promise<void> {
   const link = h("button", { type: "button", "data-test": "share", title: "Copy a link that has the whole scene", onclick: () => void share.copy() }, "Copy link");
   const examples = new Examples(scene, about.ok, open, link);
   const results = new Results(context, { drawing, spreading }, show, { go: (tab) => select(tab), examples: examples.element });
-  const form = new Form(context, show);
+  const form = new Form(context, show, () => results.mass);
   const download = new Download(scene, results, workshop, about.ok);
   const tryit = new TryIt(scene, results, module);
   const tools = new Tools(scene, workshop, about.ok);

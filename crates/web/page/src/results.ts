@@ -107,6 +107,11 @@ export class Results {
     context.scene.onCheck(() => void this.update());
   }
 
+  /** The mass of the impact as one writes it, where it is known. */
+  get mass(): string | undefined {
+    return this.prediction ? `${Number((1e3 * this.prediction.mass).toPrecision(4))} g` : undefined;
+  }
+
   onPrediction(listener: () => void): void {
     this.#listeners.push(listener);
   }

@@ -47,6 +47,8 @@ export class Share {
   constructor(scene: Scene, version: string) {
     this.element = h("div", { class: "share" },
       h("p", {}, "This link holds the whole scene. Whoever opens it sees what you see. The address of this page has it, too, so a reload loses nothing."), this.#link,
+      location.protocol === "file:" ? h("p", { class: "note", "data-test": "link.file" },
+        "This page is a file, so the link opens on this computer only. Elsewhere, put what it has from # on behind the address of another brinell.html.") : "",
       h("div", { class: "row" }, h("button", { type: "button", class: "primary", "data-test": "link.copy",
         onclick: () => void this.copy() }, "Copy link")),
       h("p", { class: "note" }, "Nothing is ever sent anywhere: a browser keeps what stands behind the # to itself, and this page forbids itself every connection (its content security policy says default-src 'none'). It works without a network; save it and keep it."),
