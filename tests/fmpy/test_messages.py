@@ -2,6 +2,7 @@
 validity of its law."""
 
 import re
+from ctypes import c_char_p
 
 import pytest
 from unit import ERROR, WARNING, unit
@@ -83,6 +84,17 @@ def test_a_contact_that_becomes_too_wide_is_told_once_at_the_step_that_goes_beyo
         for distance in (depth, -2 * depth, 3 * depth):
             press(instance, distance, steps)
         assert len(warnings(instance)) == 1
+
+
+def test_a_contact_that_is_beyond_already_is_told_at_its_next_step_and_again_when_the_category_is_switched_on():
+    instance = unit("plain").instance(logging=True)
+    instance.initialize(initial_gap=-0.2 * RADIUS)
+    assert instance.log == []
+    for count in (1, 2, 3):
+        for _ in range(2):
+            instance.step(1e-9, 1.0)
+        assert len(warnings(instance)) == count
+        instance.call("SetDebugLogging", True, 1, (c_char_p * 1)(b"logStatusWarning"))
 
 
 def test_the_message_names_the_contact_that_goes_beyond():
