@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the page: Brinell in one HTML file, for a browser without a server.
 
-    python3 packaging/page.py [--prebuilt FOLDER] [-o brinell.html]
+    python3 packaging/page.py [--prebuilt FOLDER] [--quick] [-o brinell.html]
 
 FOLDER is one that `brinell prebuild` has written: the page has its libraries inside. Without it, those for this system are made.
 The crate `brinell-web` is compiled for WebAssembly: with the installed Rust if it has that target; where it is rustup's and the page
@@ -28,12 +28,16 @@ OLDEST_NODE = (20, 19)
 
 # Small rather than fast: the page is a download. A panic ends the module, which the page then loads anew.
 PROFILE = {"panic": '"abort"', "lto": '"thin"', "opt-level": "3", "strip": "true"}
+# for tests: compiled in less time, but for what is small and works long
+QUICK = PROFILE | {"lto": '"off"', "opt-level": "1"}
+QUICK |= {f"package.{name}.opt-level": "3" for name in ("brinell-contact", "brotli-decompressor", "libm", "sha2", "zlib-rs")}
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--prebuilt", type=Path, help="the folder that `brinell prebuild` has written [default: made anew]")
     parser.add_argument("--program", type=Path, help="the program that makes libraries [default: built by cargo]")
+    parser.add_argument("--quick", action="store_true", help="compile the module in less time: it is larger and slower")
     parser.add_argument("-o", "--output", type=Path, default=Path("brinell.html"))
     scratch = ROOT / "target" / "page"
     parser.add_argument("--scratch", type=Path, default=scratch, help=f"where to build [default: {scratch}]")
@@ -49,7 +53,7 @@ def main() -> None:
         add_target()
     for path in libraries:
         shutil.copy(path, data / path.name)
-    shutil.copy(module(given.scratch), data / "brinell_web.wasm")
+    shutil.copy(module(given.scratch, QUICK if given.quick else PROFILE), data / "brinell_web.wasm")
     (data / "licenses.txt").write_bytes(third_party(TARGET, "brinell-web"))
     shutil.copy(page(given.scratch, data), given.output)
     print(f"{given.output.stat().st_size:>10} {given.output}")
@@ -68,10 +72,10 @@ def add_target() -> None:
         subprocess.run(["rustup", "target", "add", TARGET], cwd=ROOT, check=False)
 
 
-def module(scratch: Path) -> Path:
+def module(scratch: Path, profile: dict[str, str]) -> Path:
     """The module for WebAssembly."""
     command = ["cargo", "build", "--release", "--locked", "--package", "brinell-web", "--target", TARGET]
-    for key, value in PROFILE.items():
+    for key, value in profile.items():
         command += ["--config", f"profile.release.{key}={value}"]
     variables = {**os.environ, "CARGO_TARGET_DIR": str(scratch / "wasm")}
     # flags for programs of this machine

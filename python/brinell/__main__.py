@@ -25,13 +25,6 @@ TOLD = 10
 """Largest number of failed runs that the command lists."""
 
 
-def _pair(text: str) -> tuple[str, str]:
-    name, equals, value = text.partition("=")
-    if not (name and equals and value):
-        raise argparse.ArgumentTypeError(f"{text!r} is not of the form NAME=VALUE")
-    return name, value
-
-
 def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m brinell",
@@ -44,7 +37,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     add("scene", help="the scene file (TOML), or an FMU that knows the mass")
     add(
         "--vary",
-        type=_pair,
+        type=command_line.pair,
         action="append",
         required=True,
         metavar="NAME=FROM:TO[:COUNT]",
@@ -56,7 +49,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--seed", type=int, default=0, help="seed of the samples [default: 0]")
     add(
         "--set",
-        type=_pair,
+        type=command_line.pair,
         action="append",
         default=[],
         metavar="NAME=VALUE",
@@ -64,7 +57,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     )
     add(
         "--uncertain",
-        type=_pair,
+        type=command_line.pair,
         action="append",
         default=[],
         metavar="NAME=SPREAD",
@@ -117,10 +110,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"brinell: {error}: pip install 'brinell[{more}]'", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print(
-            "brinell: stopped; if a table is among the outputs, the same call continues from here",
-            file=sys.stderr,
-        )
+        print("brinell: stopped; if a table is among the outputs, the same call continues from here", file=sys.stderr)
         return 130
     except (ContactError, ProgramError, TypeError, ValueError, OSError) as error:
         print(f"brinell: {error}", file=sys.stderr)

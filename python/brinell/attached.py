@@ -43,10 +43,7 @@ SLOW = 1e-10
 AROUND = 0.3
 """Way [m or rad] to other poses at which the directions of friction are looked at."""
 
-MOVED = (
-    "the bodies were moved since the last step, but not apart; "
-    "contact.reset(initial_gap=...) starts anew"
-)
+MOVED = "the bodies were moved since the last step, but not apart; contact.reset(initial_gap=...) starts anew"
 NOTHING = np.zeros(0)
 CROSS = -np.array([np.cross(np.eye(3), axis).ravel() for axis in np.eye(3)])
 """An arm times this is the matrix, row by row, by which a spin moves its end."""
@@ -145,9 +142,7 @@ class Attached(ABC):
     """The matrix of inverse effective masses [1/kg] in the last step: of the normals, then of the
     tangents in each direction. A direction in which the bodies can't move has no couplings."""
 
-    def __init__(
-        self, pairs: Sequence[Pair], contact: Attachable, parameters: dict[str, Any]
-    ) -> None:
+    def __init__(self, pairs: Sequence[Pair], contact: Attachable, parameters: dict[str, Any]) -> None:
         self._own = np.array([pair.own for pair in pairs])
         self._reach = np.array([pair.reach for pair in pairs])
         self._touching = self._own + self._reach
@@ -170,9 +165,7 @@ class Attached(ABC):
         try:
             if len(contact.contacts) != count:
                 shown = ", ".join(contact.contacts)
-                raise ContactError(
-                    f"{count} contacts of the engine: {contact.path.name} has {shown}"
-                )
+                raise ContactError(f"{count} contacts of the engine: {contact.path.name} has {shown}")
             if not contact.shares_bodies:
                 self._check_alone()
             self._tangents = self._first_tangents()
@@ -199,10 +192,7 @@ class Attached(ABC):
         return self
 
     def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
 
@@ -251,9 +241,7 @@ class Attached(ABC):
         of 3 rows each. A last one stands still."""
 
     @abstractmethod
-    def _end(
-        self, start: tuple[Array, Array], place: Array, speed: Array, acceleration: Array
-    ) -> None:
+    def _end(self, start: tuple[Array, Array], place: Array, speed: Array, acceleration: Array) -> None:
         """The engine's own step from the state `start`, after which its places are `place`, and its
         velocities `speed` plus those of a step with this acceleration."""
 
@@ -328,9 +316,7 @@ class Attached(ABC):
         rows, rolling = np.zeros((2, *along.shape[:2], motions.shape[-1]))
         # from the centres to the point of contact, which both have in common while pressed
         radii = (-self._own, self._reach)
-        for body, middles, radius, sign in zip(
-            self._bodies, at.centres, radii, (1.0, -1.0), strict=True
-        ):
+        for body, middles, radius, sign in zip(self._bodies, at.centres, radii, (1.0, -1.0), strict=True):
             if body.max() < 0:
                 continue
             moves, turns = motions[body, 0], motions[body, 1]
@@ -355,9 +341,7 @@ class Attached(ABC):
         still = np.abs(away).max(axis=1) <= STILL * largest
         if still.any():
             away[still] = 0.0
-        return _Here(
-            at.gaps, tangents, pressed, away, rolling, self._dragged(self._solve(away)), still
-        )
+        return _Here(at.gaps, tangents, pressed, away, rolling, self._dragged(self._solve(away)), still)
 
     def _accelerate(self) -> Array:
         """The acceleration in this state by all but these contacts."""
@@ -565,9 +549,7 @@ class Attached(ABC):
                 again = True
         return there, again
 
-    def _response(
-        self, step: _Step, there: _Here, impulses: Array, moments: Array, time: float
-    ) -> Array:
+    def _response(self, step: _Step, there: _Here, impulses: Array, moments: Array, time: float) -> Array:
         """How the impulse of each row changes the velocities, each at its own mean time."""
         here, ahead, h, count = step.here, step.ahead, self._h, len(self.gaps)
         if there is here or ahead is None:
@@ -579,9 +561,7 @@ class Attached(ABC):
         turning = (ahead.response - here.response) / h
         return np.asarray(there.response + later[:, None] * turning)
 
-    def _motion(
-        self, here: _Here, speed: Array, pull: Array, ahead: _Here | None, fast: Array
-    ) -> tuple[Array, Array]:
+    def _motion(self, here: _Here, speed: Array, pull: Array, ahead: _Here | None, fast: Array) -> tuple[Array, Array]:
         """The rate of each row at the start of a step, and its acceleration to the end, which is
         without contacts."""
         h, count, rates = self._h, len(self.gaps), -(here.away @ speed)
@@ -595,9 +575,7 @@ class Attached(ABC):
         accelerations[:count] += 2.0 / h**2 * short
         return rates, accelerations
 
-    def _follow(
-        self, gaps: Array, rates: Array, accelerations: Array, pressed: NDArray[np.bool_]
-    ) -> Array:
+    def _follow(self, gaps: Array, rates: Array, accelerations: Array, pressed: NDArray[np.bool_]) -> Array:
         """Contacts that can't touch within the step end it where the bodies do: a rate that differs
         by what they have drifted takes them there."""
         h, count = self._h, len(gaps)
@@ -667,10 +645,7 @@ class Attached(ABC):
             return h * self.forces, moments
         tangential = [contact.tangential_force, contact["tangential_impulse_moment"]]
         forces, more = (np.reshape(values, (count, directions)).T for values in tangential)
-        return (
-            h * np.concatenate((self.forces, forces.ravel())),
-            np.concatenate((moments, more.ravel())),
-        )
+        return (h * np.concatenate((self.forces, forces.ravel())), np.concatenate((moments, more.ravel())))
 
     def _run_alone(self, rates: Array, accelerations: Array) -> tuple[Array, Array]:
         """The same with an FMU that moves each pair of bodies by its effective mass."""

@@ -16,9 +16,7 @@ from .library import Instance, Library
 from .stepping import Force, Stepping
 from .variables import Gaps, Numbers, Parameters, Texts, Variables, number
 
-AFTER_REFUSAL = (
-    "; the contact steps again after contact.reset(), or after contact.restore() with a saved state"
-)
+AFTER_REFUSAL = "; the contact steps again after contact.reset(), or after contact.restore() with a saved state"
 
 
 @dataclass(frozen=True)
@@ -145,11 +143,7 @@ class Contact:
         self._tell()
 
     def reset(
-        self,
-        *,
-        initial_gap: Gaps | None = None,
-        parameters: Parameters | None = None,
-        **keywords: Numbers | Texts,
+        self, *, initial_gap: Gaps | None = None, parameters: Parameters | None = None, **keywords: Numbers | Texts
     ) -> None:
         """Return to the start, at time 0. Parameters that are given replace the previous ones; the
         others keep their values. Warnings are logged again."""
@@ -181,10 +175,7 @@ class Contact:
         return self
 
     def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
 

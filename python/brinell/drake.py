@@ -76,9 +76,7 @@ def attach(
     if not plant.is_finalized():
         raise ContactError("the plant is not finalized: call plant.Finalize() before attach")
     if plant.time_step() == 0.0:
-        raise ContactError(
-            "time_step = 0: attach needs a discrete plant, MultibodyPlant(time_step)"
-        )
+        raise ContactError("time_step = 0: attach needs a discrete plant, MultibodyPlant(time_step)")
     is_one = len(pairs) == 2 and isinstance(pairs[0], Sphere | Plane)
     several: Any = [pairs] if is_one else pairs
     for index, pair in enumerate(several):
@@ -236,16 +234,14 @@ class Attached(attached.Attached):
         motions = np.zeros((len(points), 2, 3, plant.num_velocities()))
         for point, motion, body in zip(points, motions, self._moving.values(), strict=False):
             frame = body.body_frame()
-            turns, moves = plant.CalcJacobianSpatialVelocity(
-                context, by, frame, np.zeros(3), world, world
-            ).reshape(2, 3, -1)
+            turns, moves = plant.CalcJacobianSpatialVelocity(context, by, frame, np.zeros(3), world, world).reshape(
+                2, 3, -1
+            )
             motion[:] = moves, turns
             point[:] = plant.EvalBodyPoseInWorld(context, body).translation()
         return points, motions
 
-    def _end(
-        self, start: tuple[Array, Array], place: Array, speed: Array, acceleration: Array
-    ) -> None:
+    def _end(self, start: tuple[Array, Array], place: Array, speed: Array, acceleration: Array) -> None:
         # the other systems of a diagram see the bodies at the start of the step, then at its end
         self._put(*start)
         self.simulator.AdvancePendingEvents()

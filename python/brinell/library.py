@@ -45,9 +45,7 @@ class Library:
                     libraryPath=str(folder / found["library"]),
                 )
             except Exception as error:
-                raise ContactError(
-                    f"{path} cannot be loaded on {fmpy.platform}: {error}"
-                ) from error
+                raise ContactError(f"{path} cannot be loaded on {fmpy.platform}: {error}") from error
             # a loaded library needs no file but on Windows
             kept = ExitStack() if os.name == "posix" else stack.pop_all()
         self.description = description

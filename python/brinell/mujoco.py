@@ -88,17 +88,14 @@ def _pairs_of(model: mujoco.MjModel, names: tuple[str, str], corner: float | Non
         if geom < 0:
             named = [model.geom(index).name for index in range(model.ngeom)]
             there = ", ".join(named)
-            raise UnknownName(
-                f"the model has no geom {name!r}{nearest(name, named)}; there are: {there}"
-            )
+            raise UnknownName(f"the model has no geom {name!r}{nearest(name, named)}; there are: {there}")
     geoms.sort(key=lambda geom: model.geom_type[geom] == PLANE)
     kinds = [mujoco.mjtGeom(model.geom_type[geom]) for geom in geoms]
     on_plane = kinds[0] in (SPHERE, CYLINDER, CAPSULE, BOX) and kinds[1] == PLANE
     if not on_plane and kinds != [SPHERE, SPHERE]:
         found = " and ".join(kind.name.removeprefix("mjGEOM_").lower() for kind in kinds)
         raise ContactError(
-            f"pair {shown}: {found}; allowed are a sphere, a cylinder, a capsule or a box and a "
-            "plane, or two spheres"
+            f"pair {shown}: {found}; allowed are a sphere, a cylinder, a capsule or a box and a plane, or two spheres"
         )
     if _collide(model, *geoms):
         raise ContactError(
@@ -218,9 +215,7 @@ class Attached(attached.Attached):
             mujoco.mj_jac(self.model, self.data, *motion, point, body)
         return self._points, self._motions
 
-    def _end(
-        self, start: tuple[Array, Array], place: Array, speed: Array, acceleration: Array
-    ) -> None:
+    def _end(self, start: tuple[Array, Array], place: Array, speed: Array, acceleration: Array) -> None:
         # the time, the activations of actuators, and what else a step of the engine changes
         self.data.qacc = acceleration
         mujoco.mj_Euler(self.model, self.data)

@@ -41,17 +41,11 @@ def ticks(low: float, high: float, room: float) -> list[float]:
     def fits(found: list[float]) -> bool:
         return all(after >= least * before for before, after in itertools.pairwise(found))
 
-    powers = (
-        inside(f"1e{power}" for power in decades if power % stride == 0)
-        for stride in itertools.count(1)
-    )
+    powers = (inside(f"1e{power}" for power in decades if power % stride == 0) for stride in itertools.count(1))
     tens = next(filter(fits, powers))
     if len(tens) >= 3:
         return tens
-    tries = [tens] + [
-        inside(f"{digit}e{power}" for power in decades for digit in digits)
-        for digits in ("13", "125")
-    ]
+    tries = [tens] + [inside(f"{digit}e{power}" for power in decades for digit in digits) for digits in ("13", "125")]
     for power, digit in itertools.product(reversed(decades), (5, 2, 1)):
         step = float(f"{digit}e{power - 1}")
         counts = range(math.ceil(low / step), min(99, math.floor(high / step)) + 1)

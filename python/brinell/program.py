@@ -67,9 +67,7 @@ def run(*arguments: str | Path, text: str | None = None) -> tuple[str, tuple[str
     command = [str(program()), *map(str, arguments), "--json"]
     try:
         with environment(arguments) as own:
-            result = subprocess.run(
-                command, capture_output=True, encoding="utf-8", check=False, input=text, env=own
-            )
+            result = subprocess.run(command, capture_output=True, encoding="utf-8", check=False, input=text, env=own)
     except OSError as error:
         raise ProgramError(f"{command[0]} cannot be run: {error}") from error
     if result.returncode != 0:
@@ -245,17 +243,14 @@ def predict(
     return predictions if laws is not None else predictions[0]
 
 
-def _oblique(
-    scene: str | Path, options: Sequence[str], alone: bool
-) -> ObliquePrediction | list[ObliquePrediction]:
+def _oblique(scene: str | Path, options: Sequence[str], alone: bool) -> ObliquePrediction | list[ObliquePrediction]:
     """The oblique impact with these options, by the scene's law alone or by several."""
     text, doubts = of_scene("predict", scene, *options)
     data = json.loads(text)
     names = [field.name for field in fields(ObliquePrediction) if field.name != "warnings"]
     said = (*doubts, *data["warnings"])
     predictions = [
-        ObliquePrediction(**{name: (data | law)[name] for name in names}, warnings=said)
-        for law in data["laws"]
+        ObliquePrediction(**{name: (data | law)[name] for name in names}, warnings=said) for law in data["laws"]
     ]
     return predictions[0] if alone else predictions
 

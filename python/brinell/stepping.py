@@ -120,9 +120,7 @@ class Stepping:
         if isinstance(values, str | bytes) or np.shape(values) != (self._count,):
             contacts = self._variables.contacts
             shown = ", ".join(contacts[:8]) + (", ..." if self._count > 8 else "")
-            raise TypeError(
-                f"{name} = {values!r}: {self._count} numbers are needed, one for each of {shown}"
-            )
+            raise TypeError(f"{name} = {values!r}: {self._count} numbers are needed, one for each of {shown}")
         array[first : first + self._count] = [number(name, value) for value in values]
 
     def _take_derivatives(self, acceleration: Numbers | None, jerk: Numbers | None) -> int:
@@ -144,9 +142,7 @@ class Stepping:
             )
         return orders
 
-    def _take_tangential(
-        self, rate: Numbers | None, acceleration: Numbers | None
-    ) -> list[tuple[str, tuple[Any, ...]]]:
+    def _take_tangential(self, rate: Numbers | None, acceleration: Numbers | None) -> list[tuple[str, tuple[Any, ...]]]:
         """Return the calls that set the tangential rates and their derivatives."""
         references = self._tangential
         count = len(references)
@@ -154,9 +150,7 @@ class Stepping:
             name, value = ("tangential_rate", rate)
             if rate is None:
                 name, value = ("tangential_acceleration", acceleration)
-            raise ContactError(
-                f"{name} = {value}: {self._path} has no friction; [friction] in its scene adds it"
-            )
+            raise ContactError(f"{name} = {value}: {self._path} has no friction; [friction] in its scene adds it")
         calls: list[tuple[str, tuple[Any, ...]]] = []
         if rate is not None:
             # the FMU keeps the values until they are set again
@@ -210,9 +204,7 @@ class Stepping:
     def _set_mass(self, instance: Instance, mass: Numbers) -> None:
         names, path = self._variables.masses, self._path
         if not names:
-            raise ContactError(
-                f"mass = {mass} kg: {path} has no effective_mass; [coupling] in its scene adds one"
-            )
+            raise ContactError(f"mass = {mass} kg: {path} has no effective_mass; [coupling] in its scene adds one")
         if not self._variables.mass_is_settable:
             raise ContactError(
                 f"mass = {mass} kg: effective_mass of {path} is fixed once a simulation "
@@ -236,8 +228,7 @@ class Stepping:
         if np.shape(matrix) != (count, count):
             raise TypeError(
                 f"inverse_masses = {matrix!r}: {count} x {count} numbers are needed, a row and a "
-                "column for each contact"
-                + (", and for each of its tangents" if variables.directions else "")
+                "column for each contact" + (", and for each of its tangents" if variables.directions else "")
             )
         values = matrix
         if type(matrix) is not np.ndarray or matrix.dtype != float:

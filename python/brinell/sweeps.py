@@ -58,9 +58,7 @@ def sweep(
     return _frame(pandas, of_scene("predict", scene, *options)[0])
 
 
-def curve(
-    scene: str | Path, *, laws: Sequence[str] | None = None, to: float | str | None = None
-) -> DataFrame:
+def curve(scene: str | Path, *, laws: Sequence[str] | None = None, to: float | str | None = None) -> DataFrame:
     """One cycle of loading, unloading and reloading up to the indentation `to` [m], row by row:
     `law`, `indentation`, `force`, `contact_radius`, `stiffness`, `work` ... in the SI units of
     `attrs["units"]`, for the scene's law or for each of `laws`."""
@@ -87,8 +85,7 @@ def _range(name: str, values: plan.Varied) -> str:
     listed = plan.axis(name, values)
     if len(listed) > LISTED:
         raise ValueError(
-            f"{name}: {len(listed)} values; a list has at most {LISTED}, 'FROM:TO:COUNT' and "
-            "brinell.study take more"
+            f"{name}: {len(listed)} values; a list has at most {LISTED}, 'FROM:TO:COUNT' and brinell.study take more"
         )
     # a single number has a comma behind it, too
     return ",".join(map(repr, listed.tolist())) + ("," if len(listed) == 1 else "")

@@ -58,10 +58,7 @@ def sweep(place: Path, is_named: Callable[[str], object], own: Path) -> None:
         for path in [Path(it) for it in os.scandir(place) if is_named(it.name)]:
             with suppress(OSError):
                 found = path.lstat()
-                same = (found.st_mode & 0o170000, found.st_uid) == (
-                    ours.st_mode & 0o170000,
-                    ours.st_uid,
-                )
+                same = (found.st_mode & 0o170000, found.st_uid) == (ours.st_mode & 0o170000, ours.st_uid)
                 if path == own or not same or not _is_left(path, time.time() - found.st_mtime):
                     continue
                 if path.is_dir():

@@ -113,9 +113,7 @@ def _drawn(
     )
 
 
-def centres(
-    library: Library, usual: Mapping[str, float], uncertainty: Mapping[str, Spread]
-) -> dict[str, float]:
+def centres(library: Library, usual: Mapping[str, float], uncertainty: Mapping[str, Spread]) -> dict[str, float]:
     """The values around which inputs spread: those of the scene."""
     variables = Variables(library)
     found = dict(usual)
@@ -128,13 +126,7 @@ def centres(
     return found
 
 
-def spread(
-    names: Sequence[str],
-    rows: Numbers,
-    uncertainty: Mapping[str, Spread],
-    draws: int,
-    seed: int,
-) -> Numbers:
+def spread(names: Sequence[str], rows: Numbers, uncertainty: Mapping[str, Spread], draws: int, seed: int) -> Numbers:
     """Each of the `rows` as often as there are draws, with the uncertain columns spread around its
     values."""
     from scipy.stats import qmc
@@ -216,11 +208,7 @@ def banded(table: impacts.Table, rows: Numbers, names: Sequence[str], draws: int
     bad = (errors != "").any(axis=1)
     for name in impacts.RESULTS:
         values = np.asarray(table[name], dtype=float).reshape(shape)
-        for column, part in (
-            (name, 0.5),
-            (f"{name}_low", 0.5 - 0.5 * LEVEL),
-            (f"{name}_high", 0.5 + 0.5 * LEVEL),
-        ):
+        for column, part in ((name, 0.5), (f"{name}_low", 0.5 - 0.5 * LEVEL), (f"{name}_high", 0.5 + 0.5 * LEVEL)):
             found[column] = np.where(bad, np.nan, np.quantile(values, part, axis=1))
     for name in ("error", "warning"):
         texts = table[name].reshape(shape)

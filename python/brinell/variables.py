@@ -62,11 +62,11 @@ class Variables:
         self.is_for_next_step = any("over the next step" in text for text in mean)
         # in the order of the contacts, if each has one
         self.masses = self.every("effective_mass") or self.owners("effective_mass")
+        self._gap_names = self.owners("initial_gap")
         # the upper triangle, row by row
         self.inverse_masses = [name for name in self._all if name.startswith("inverse_mass[")]
         self.mass_is_settable = bool(self.masses) and all(
-            self._all[name].causality == "input" or self._all[name].variability == "tunable"
-            for name in self.masses
+            self._all[name].causality == "input" or self._all[name].variability == "tunable" for name in self.masses
         )
 
     def __contains__(self, name: object) -> bool:
@@ -125,16 +125,9 @@ class Variables:
         names = tuple(self._all) if names is None else names
         shown = ", ".join(names[:40]) + (", ..." if len(names) > 40 else "")
         near = nearest(name, names)
-        return UnknownName(
-            f"{self._path.name} has no {kind} {name!r}{near}; there are: {shown or 'none'}"
-        )
+        return UnknownName(f"{self._path.name} has no {kind} {name!r}{near}; there are: {shown or 'none'}")
 
-    def given(
-        self,
-        gap: Gaps | None,
-        parameters: Parameters | None,
-        keywords: Parameters,
-    ) -> dict[str, float]:
+    def given(self, gap: Gaps | None, parameters: Parameters | None, keywords: Parameters) -> dict[str, float]:
         """The parameters that a caller passes in three ways, under their own names."""
         given: dict[str, Numbers | Texts] = dict(parameters or {})
         if keywords:
@@ -166,18 +159,16 @@ class Variables:
         if isinstance(value, str | bytes) or np.ndim(value) == 0:
             return [_parameter(name, value)] * count
         if np.shape(value) != (count,):
-            raise ContactError(
-                f"{name} = {value!r}: it takes one number, or {count}, one for each contact"
-            )
+            raise ContactError(f"{name} = {value!r}: it takes one number, or {count}, one for each contact")
         return [_parameter(name, one) for one in np.asarray(value).tolist()]
 
     def _gaps(self, gap: Gaps) -> Parameters:
-        names = self.owners("initial_gap")
+        names = self._gap_names
         if not names:
             raise self.unknown("parameter", "initial_gap", self.parameters)
         if isinstance(gap, Mapping):
             return {f"{contact}.initial_gap": value for contact, value in gap.items()}
-        if np.ndim(gap) == 0:
+        if isinstance(gap, float) or np.ndim(gap) == 0:
             return dict.fromkeys(names, _parameter("initial_gap", gap))
         own = self.every("initial_gap")
         if np.shape(gap) != (len(self.contacts),) or not own:
@@ -186,13 +177,7 @@ class Variables:
                 f"and the parameters {', '.join(names)}; "
                 'parameters_per_contact = ["initial_gap"] in its scene gives each its own'
             )
-        return dict(
-            zip(
-                own,
-                [_parameter("initial_gap", one) for one in np.asarray(gap).tolist()],
-                strict=True,
-            )
-        )
+        return dict(zip(own, [_parameter("initial_gap", one) for one in np.asarray(gap).tolist()], strict=True))
 
 
 def _parameter(name: str, value: Any) -> float:

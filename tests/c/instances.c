@@ -1,4 +1,4 @@
-/* Instances: what fmi2Instantiate accepts, and their independence of each other. */
+/* Instances: what they keep of their importer, and their independence of each other. */
 #include "unit.h"
 
 #include <math.h>
@@ -9,47 +9,6 @@
 
 enum { THREADS = 8, STEPS = 20000, MANY = 10000, STEPS_OF_MANY = 20 };
 
-static fmi2Component with(fmi2String name, fmi2Type type, fmi2String id, fmi2String resources,
-                          const fmi2CallbackFunctions *functions) {
-    last_message[0] = 0;
-    return fmi.Instantiate(name, type, id, resources, functions, fmi2False, fmi2True);
-}
-
-static bool made(fmi2Component c) {
-    fmi.FreeInstance(c);
-    return c != NULL;
-}
-
-static void arguments(void) {
-    const char *const resources[] = {NULL, "", "http:", "file:", "file:///no/such/folder", "%s%n"};
-    for (size_t i = 0; i < sizeof resources / sizeof *resources; i++) {
-        char name[100];
-        snprintf(name, sizeof name, "resource location %s is accepted", resources[i] ? resources[i] : "NULL");
-        check(name, made(with(instance_name, fmi2CoSimulation, guid, resources[i], &callbacks)));
-    }
-    check("NULL callbacks give no instance", with(instance_name, fmi2CoSimulation, guid, "", NULL) == NULL);
-    check("a NULL GUID gives no instance", with(instance_name, fmi2CoSimulation, NULL, "", &callbacks) == NULL);
-    check("and a message", strstr(last_message, "fmuGUID is null") != NULL);
-    check("another GUID gives no instance", with(instance_name, fmi2CoSimulation, "another", "", &callbacks) == NULL);
-    check("and a message", strstr(last_message, "fmuGUID") != NULL);
-    check("model exchange gives no instance", with(instance_name, fmi2ModelExchange, guid, "", &callbacks) == NULL);
-    check("and a message", strstr(last_message, "fmuType") != NULL);
-    /* the logger then gets no name, which differs from the one that it expects */
-    fmi2CallbackFunctions silent = callbacks;
-    silent.logger = NULL;
-    check("a NULL name gives no instance", with(NULL, fmi2CoSimulation, guid, "", &silent) == NULL);
-    check("an empty name gives no instance", with("", fmi2CoSimulation, guid, "", &silent) == NULL);
-
-    fmi2Component c = with(instance_name, fmi2CoSimulation, guid, "", &silent);
-    check("a NULL logger gives an instance", c != NULL);
-    if (c != NULL) {
-        check("and its errors don't crash", fmi.DoStep(c, 0, 1, fmi2True) == fmi2Error && set_rate(c, NAN) == fmi2Error);
-        fmi.FreeInstance(c);
-    }
-    fmi2CallbackFunctions sparse = {logger, NULL, NULL, NULL, &environment};
-    check("NULL memory functions are accepted", made(with(instance_name, fmi2CoSimulation, guid, "", &sparse)));
-}
-
 /* The importer may keep strings and callbacks on its stack. */
 static void copies(void) {
     char name[40], id[80], resources[] = "file:///resources";
@@ -57,7 +16,7 @@ static void copies(void) {
     snprintf(id, sizeof id, "%s", guid);
     fmi2CallbackFunctions *own = malloc(sizeof *own);
     *own = callbacks;
-    fmi2Component c = with(name, fmi2CoSimulation, id, resources, own);
+    fmi2Component c = fmi.Instantiate(name, fmi2CoSimulation, id, resources, own, fmi2False, fmi2True);
     memset(name, 'x', sizeof name - 1);
     memset(id, 'x', sizeof id - 1);
     memset(resources, 'x', sizeof resources - 1);
@@ -150,7 +109,6 @@ static void early_end(void) {
 }
 
 void check_instances(void) {
-    arguments();
     copies();
     many();
     threads();

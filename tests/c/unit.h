@@ -60,7 +60,6 @@ long releases(void);
 void use_up_memory(void);
 void have_memory(void);
 
-void check_null_pointers(void);
 void check_instances(void);
 void check_memory(void);
 

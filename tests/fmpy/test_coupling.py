@@ -53,17 +53,9 @@ def error(way, steps_per_contact, name="coupled"):
 )
 def test_each_way_has_its_error_and_its_order(way, largest, order):
     errors = {steps: error(way, steps) for steps in (16, 32, 64, 128, 256, 512)}
-    assert errors[32] <= largest
+    # the force one step late is far off where the others are not
+    assert (0.1 if way is coupling.parallel else 0.0) < errors[32] <= largest
     assert abs(coupling.order(errors) - order) < 0.2, errors
-
-
-def test_the_force_one_step_late_is_far_off_where_the_others_are_not():
-    assert error(coupling.parallel, 32) > 0.1
-
-
-@pytest.mark.parametrize("steps_per_contact", [0.5, 1, 2, 3, 7, 32, 1000])
-def test_a_unit_that_knows_the_mass_is_right_at_any_step(steps_per_contact):
-    assert error(coupling.mass_known, steps_per_contact, "mass_known") < 1e-12
 
 
 def test_input_derivatives_locate_the_contact_time():
@@ -117,20 +109,3 @@ def test_a_dropped_ball_rebounds_as_predicted_with_steps_of_a_millisecond():
     assert abs(rebound / expected - 1.0) <= 1e-6
     # gravity also acts during the contact; a prediction for the speed alone does not include it
     assert abs(rebound / met / impact().restitution - 1.0) < 1e-2
-
-
-def test_a_ball_bounces_many_times_as_a_chain_of_predictions():
-    mass, step = impact().mass, 1e-3
-    ball = unit("mass_known").ready(initial_gap=0.02)
-    speed, potential = 0.0, mass * GRAVITY * 0.02
-    for _ in range(400):
-        ball.set(indentation_rate=speed)
-        ball.set_derivatives(GRAVITY)
-        ball.step(step)
-        speed += step * (GRAVITY - ball.get("mean_force") / mass)
-    kinetic = 0.5 * mass * speed**2
-    lost = potential + mass * GRAVITY * ball.get("indentation") - kinetic - ball.get("dissipated_energy")
-    # if the ball lies in its dent, the rest is stored in the contact
-    assert -1e-12 * potential < lost < potential
-    if ball.get("force") == 0.0:
-        assert abs(lost) < 1e-10 * potential

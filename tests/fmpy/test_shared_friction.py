@@ -71,3 +71,7 @@ def test_a_crate_that_is_thrown_on_a_slope_keeps_its_energy_and_comes_to_rest(h)
         crate.step(h)
     assert crate.read("indentation") == pytest.approx(before[0], abs=1e-15)
     assert crate.place == pytest.approx(before[1], abs=1e-12)
+    # it wakes when something changes
+    crate.speed[2] = 0.05
+    crate.step(h)
+    assert np.all(crate.read("force") == 0.0) and np.all(crate.read("indentation") < 0.0)

@@ -5,7 +5,7 @@ import ctypes
 import json
 import os
 import shutil
-from ctypes import byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
+from ctypes import byref, c_char, c_double, c_int, c_size_t, c_void_p, create_string_buffer
 from functools import cache
 from weakref import WeakValueDictionary
 
@@ -47,9 +47,8 @@ class Unit:
 
     def moves_bodies(self):
         """Whether it moves the bodies itself within a step; it then reports the force to apply."""
-        masses = [name for name in self.variables if name.split(".")[-1] == "effective_mass"]
-        return bool(masses) and any(name.split(".")[-1] == "mean_force" for name in self.variables) and not any(
-            name.split(".")[-1] == "restitution" for name in self.variables)
+        names = {name.split(".")[-1] for name in self.variables}
+        return {"effective_mass", "mean_force"} <= names and "restitution" not in names
 
     def knows_mass(self):
         """Whether it moves the bodies itself within a step, so that the rate is not constant over it."""
@@ -90,29 +89,21 @@ addLoggerProxy(byref(_callbacks))
 class Instance:
     """One instance. `try_` calls return the status; the others raise `Refused` unless it is fmi2OK."""
 
-    def __init__(self, unit, name="instance", guid=None, kind=CO_SIMULATION, logging=False, logger=True, resources=""):
+    def __init__(self, unit, name="instance", logging=False):
         self.unit = unit
         self.time = 0.0
         # (instance name, status, category, message) as seen by the importer, with the printf format processed
         self.log = []
         self.callbacks = fmi2.fmi2CallbackFunctions()
-        if logger:
-            self.callbacks.logger = _callbacks.logger
-            self.callbacks.componentEnvironment = id(self)
-            _instances[id(self)] = self
-        self.component = unit.slave.fmi2Instantiate(
-            None if name is None else name.encode(),
-            kind,
-            (unit.description.guid if guid is None else guid).encode(),
-            resources.encode(),
-            byref(self.callbacks),
-            False,
-            logging,
-        )
+        self.callbacks.logger = _callbacks.logger
+        self.callbacks.componentEnvironment = id(self)
+        _instances[id(self)] = self
+        guid = unit.description.guid.encode()
+        callbacks = byref(self.callbacks)
+        self.component = unit.slave.fmi2Instantiate(name.encode(), CO_SIMULATION, guid, b"", callbacks, False, logging)
 
     def __del__(self):
-        if self.component is not None:
-            self.unit.slave.fmi2FreeInstance(self.component)
+        self.unit.slave.fmi2FreeInstance(self.component)
 
     def try_(self, function, *arguments):
         # not through fmpy's own method, which raises an exception for a status other than OK and Warning
@@ -176,21 +167,16 @@ class Instance:
         references = (fmi2.fmi2ValueReference * count)(*[self._reference(name)] * count)
         return self.try_("SetRealInputDerivatives", references, count, (c_int * count)(*orders), (c_double * count)(*values))
 
-    def set_derivatives(self, *values, name="indentation_rate"):
-        """First, second ... derivative of the input."""
-        if self.try_set_derivatives(name, range(1, len(values) + 1), values) != OK:
+    def set_derivatives(self, *values):
+        """First, second ... derivative of the rate."""
+        if self.try_set_derivatives("indentation_rate", range(1, len(values) + 1), values) != OK:
             raise Refused(f"SetRealInputDerivatives({values})", ERROR, self.log)
 
-    def try_derivative(self, name, order):
+    def derivative(self, order, name="force"):
         value = (c_double * 1)()
         references = (fmi2.fmi2ValueReference * 1)(self._reference(name))
-        return self.try_("GetRealOutputDerivatives", references, 1, (c_int * 1)(order), value), value[0]
-
-    def derivative(self, order, name="force"):
-        status, value = self.try_derivative(name, order)
-        if status != OK:
-            raise Refused(f"GetRealOutputDerivatives({name}, {order})", status, self.log)
-        return value
+        self.call("GetRealOutputDerivatives", references, 1, (c_int * 1)(order), value)
+        return value[0]
 
     # steps
 

@@ -3,7 +3,7 @@
 use brinell_exporter::scene::Scene;
 use brinell_testing::kinds::any_scene;
 use brinell_testing::physics::Random;
-use brinell_testing::{browser, places, prebuilt, python, refusal};
+use brinell_testing::{browser, long, places, prebuilt, python, refusal};
 use serde_json::json;
 use std::ffi::OsStr;
 use std::fs;
@@ -26,12 +26,13 @@ const FILES: [&str; 7] = [
 /// Those that depend on the browser.
 const IN_OTHERS: [&str; 4] = ["test_export.py", "test_form.py", "test_look.py", "test_predictions.py"];
 
-/// The page, with the libraries for this machine.
+/// The page, with the libraries for this machine; in a usual run, its module is compiled in a third of the time.
 fn page() -> PathBuf {
     let page = places::temporary().join("brinell.html");
     let build = |python: &Path| {
         let mut build = Command::new(python);
         build.current_dir(places::root()).arg("packaging/page.py").arg("-o").arg(&page);
+        build.args((!long::is_asked()).then_some("--quick"));
         build.arg("--prebuilt").arg(prebuilt::store()).output().expect("the first test looks for Python")
     };
     let mut output = build(Path::new(python::INSTALLED));

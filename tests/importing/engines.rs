@@ -10,9 +10,8 @@ use crate::unit;
 use brinell_testing::long;
 use brinell_testing::places::temporary;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
-use std::sync::LazyLock;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -210,32 +209,17 @@ fn read(page: &str) -> String {
     std::fs::read_to_string(root().join("docs/guide/tools").join(page)).expect("the page is there")
 }
 
-/// The unit of the page on MuJoCo, exported once.
-static BALL: LazyLock<PathBuf> =
-    LazyLock::new(|| unit::export(&unit::write_scene("ball", block(&read("mujoco.md"), "toml"))));
-
-/// What a page says below this heading.
+/// What a page says, below this heading if there is one.
 fn below(page: &str, heading: &str) -> String {
     let page = read(page);
+    if heading.is_empty() {
+        return page;
+    }
     let (_, section) = page.split_once(&format!("\n## {heading}\n")).expect("the page has this section");
     section.into()
 }
 
-/// What a page says of several contacts of one body.
-fn several(page: &str) -> String {
-    below(page, "Several contacts of one body")
-}
-
-/// The unit of the box on the page on MuJoCo.
-static FEET: LazyLock<PathBuf> =
-    LazyLock::new(|| unit::export(&unit::write_scene("feet", block(&several("mujoco.md"), "toml"))));
-
-/// What docs/guide/tools/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
-fn page(name: &str, packages: &[&str]) {
-    if have(packages, &format!("the page {name}")) {
-        prints(&read(&format!("{name}.md")), packages, &BALL);
-    }
-}
+const SEVERAL: &str = "Several contacts of one body";
 
 /// What this text shows is what its first script prints, with this unit.
 fn prints(page: &str, packages: &[&str], unit: &Path) {
@@ -249,29 +233,24 @@ fn prints(page: &str, packages: &[&str], unit: &Path) {
     assert_eq!(shown, block(page, "text").lines().collect::<Vec<_>>(), "{printed}");
 }
 
+/// What the pages on tools print is what their scripts print, with the units of the page on MuJoCo, or their own.
 #[test]
-fn the_page_on_mujoco_prints_what_it_shows() {
-    page("mujoco", &["mujoco"]);
-}
-
-#[test]
-fn the_ball_that_is_moved_by_hand_in_mujoco_prints_what_it_shows() {
-    if have(&["mujoco"], "the ball by hand of the page mujoco") {
-        prints(&below("mujoco.md", "By hand"), &["mujoco"], &BALL);
-    }
-}
-
-#[test]
-fn the_box_of_the_page_on_mujoco_prints_what_it_shows() {
-    if have(&["mujoco"], "the box of the page mujoco") {
-        prints(&several("mujoco.md"), &["mujoco"], &FEET);
-    }
-}
-
-#[test]
-fn the_box_of_the_page_on_drake_prints_what_it_shows() {
-    if have(&["pydrake.all"], "the box of the page drake") {
-        prints(&several("drake.md"), &["pydrake.all"], &FEET);
+fn the_pages_on_tools_print_what_they_show() {
+    let unit = |name: &str, page, heading| unit::export(&unit::write_scene(name, block(&below(page, heading), "toml")));
+    let (ball, feet) = (unit("ball", "mujoco.md", ""), unit("feet", "mujoco.md", SEVERAL));
+    let falling = unit("ball", "fmpy.md", "");
+    for (page, heading, packages, unit) in [
+        ("mujoco.md", "", "mujoco", &ball),
+        ("mujoco.md", "By hand", "mujoco", &ball),
+        ("mujoco.md", SEVERAL, "mujoco", &feet),
+        ("drake.md", "", "pydrake.all", &ball),
+        ("drake.md", SEVERAL, "pydrake.all", &feet),
+        ("exudyn.md", "", "exudyn", &ball),
+        ("fmpy.md", "", "fmpy", &falling),
+    ] {
+        if have(&[packages], &format!("the page {page} {heading}")) {
+            prints(&below(page, heading), &[packages], unit);
+        }
     }
 }
 
@@ -283,22 +262,6 @@ fn contacts_that_share_bodies_in_mujoco() {
 #[test]
 fn contacts_that_share_bodies_in_drake() {
     pytest(&["test_drake.py"], &["pydrake.all"], "attached contacts in drake");
-}
-
-#[test]
-fn the_page_on_exudyn_prints_what_it_shows() {
-    page("exudyn", &["exudyn"]);
-}
-
-#[test]
-fn the_page_on_drake_prints_what_it_shows() {
-    page("drake", &["pydrake.all"]);
-}
-
-#[test]
-fn the_page_on_fmpy_prints_what_it_shows() {
-    let page = read("fmpy.md");
-    prints(&page, &[], &unit::export(&unit::write_scene("ball", block(&page, "toml"))));
 }
 
 /// Runs these files of tests/python/, which need the packages.

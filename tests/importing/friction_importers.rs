@@ -1,10 +1,9 @@
-//! FMUs with friction in a C program, and in tools other than fmpy.
+//! FMUs with friction in tools other than fmpy.
 #![cfg(target_os = "linux")]
 
 use crate::every_importer;
 use crate::skips;
 use crate::unit;
-use brinell_testing::driver::{assert_good, attribute, headers};
 use brinell_testing::loaded::{OK, Unit};
 use brinell_testing::places::temporary;
 use std::fs;
@@ -20,38 +19,6 @@ fn history() -> Vec<[f64; 3]> {
         [0.2 * (0.21 * phase).sin() + 0.01, 0.3 * (0.13 * phase).cos(), 0.25 * (0.17 * phase).sin()]
     };
     (0..200).map(rates).collect()
-}
-
-/// The C program with the variables of this scene whose names have these endings.
-fn run_in_c(scene: &str, components: &[&str]) {
-    let program = temporary().join("friction");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c/friction.c");
-    let mut compiler = Command::new("cc");
-    compiler.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"]).arg(headers()).arg(source);
-    let output = compiler.arg("-o").arg(&program).args(["-ldl", "-lm"]).output().expect("there is a C compiler");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let library = unit::library(&unit::export(&unit::scene(scene)));
-    let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
-    let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
-    let reference = |name: &str| {
-        let mut elements = description.split("<ScalarVariable").skip(1);
-        let element = elements.find(|element| attribute(element, "name") == Some(name));
-        let element = element.unwrap_or_else(|| panic!("the unit has no {name}"));
-        attribute(element, "valueReference").expect("every variable has a reference").to_string()
-    };
-    let mut arguments = vec![attribute(&description, "guid").expect("a unit has a GUID").to_string()];
-    arguments.extend(["indentation_rate", "force", "friction.coefficient"].map(reference));
-    for component in components {
-        arguments.extend(["tangential_rate", "tangential_force"].map(|name| reference(&format!("{name}{component}"))));
-    }
-    let output = Command::new(&program).arg(&library).args(arguments).output().expect("the program was compiled");
-    assert!(assert_good(&output) >= 9, "{}", String::from_utf8_lossy(&output.stdout));
-}
-
-#[test]
-fn a_c_program_steps_saves_and_restores_units_with_friction() {
-    run_in_c("oblique", &[""]);
-    run_in_c("two_directions", &["[1]", "[2]"]);
 }
 
 /// The forces after each step through the C interface [N].

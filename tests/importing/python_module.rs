@@ -82,7 +82,6 @@ fn pytest(file: &str) {
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_SCENES", root.join("scenes"))
         .env("BRINELL_TEST_HOSTILE", hostile.path())
-        .env("BRINELL_TEST_TRUTH", root.join("data/truth"))
         .output()
         .expect("the virtual environment has an interpreter");
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);

@@ -170,8 +170,6 @@ class WebKit:
             return answer
         if command == "DeleteSession":
             return self._ask("DELETE", self.session)
-        if command == "TakeScreenshot":
-            return self._ask("GET", f"{self.session}/screenshot")
         return self._ask("POST", f"{self.session}/{self.COMMANDS[command].format(**parameters)}", parameters)
 
     def _ask(self, method: str, path: str, parameters: Any = None) -> Any:
@@ -299,9 +297,6 @@ class Tab:
             {"type": "keyUp", "value": code} for code in reversed(codes)
         ]
         self.driver.send("PerformActions", actions=[{"type": "key", "id": "keyboard", "actions": actions}])
-
-    def screenshot(self, *, path: Path) -> None:
-        path.write_bytes(base64.b64decode(self.driver.send("TakeScreenshot", full=False)))
 
     def expect_download(self) -> Download:
         return Download(self)
@@ -431,13 +426,8 @@ class Locator:
         self._of(script, file["name"], file["buffer"].decode())
 
 
-def installed(kind: str) -> str | None:
-    """The program that starts a kind of browser."""
-    return next(filter(None, map(shutil.which, KINDS[kind].PATHS)), None)
-
-
 @contextlib.contextmanager
 def started(kind: str) -> Iterator[Browser]:
-    program = installed(kind)
+    program = next(filter(None, map(shutil.which, KINDS[kind].PATHS)), None)
     assert program, f"there is no {kind}"
     yield Browser(kind, program)

@@ -94,9 +94,7 @@ def hertz(stiffness, restitution, mass):
 
     def force(x, w):
         slope = 1.5 * stiffness * np.sqrt(x)
-        return (
-            stiffness * x**1.5 + 2 * np.sqrt(5 / 6) * beta(restitution) * np.sqrt(mass * slope) * w
-        )
+        return stiffness * x**1.5 + 2 * np.sqrt(5 / 6) * beta(restitution) * np.sqrt(mass * slope) * w
 
     return force
 
@@ -136,18 +134,12 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
         case ("exudyn", _):
             e = get("impact_model_restitution")
             chi = 1.5 * (1 - e) * (11 - e) / (1 + 9 * e) if e > 1 / 3 else (1 - e * e) / e
-            return (
-                lambda x, w: get("stiffness") * x ** get("exponent") * (1 + chi * w / speed),
-                False,
-            )
+            return (lambda x, w: get("stiffness") * x ** get("exponent") * (1 + chi * w / speed), False)
         case ("recurdyn", _):
 
             def force(x, w):
                 n = get("exponent")
-                return (
-                    get("stiffness") * x**n
-                    + get("indentation_damping") * np.sign(w) * abs(w) * x**n
-                )
+                return get("stiffness") * x**n + get("indentation_damping") * np.sign(w) * abs(w) * x**n
 
             return force, False
         case ("chrono", "hooke"):
@@ -181,8 +173,7 @@ def law_of_tool(tool, name, numbers, radius, mass, speed):
 
             def force(x, w):
                 return (
-                    stiffness * x**1.5
-                    + 2 * get("damping_fraction") * np.sqrt(mass * 1.5 * stiffness * np.sqrt(x)) * w
+                    stiffness * x**1.5 + 2 * get("damping_fraction") * np.sqrt(mass * 1.5 * stiffness * np.sqrt(x)) * w
                 )
 
             return force, False
@@ -292,12 +283,7 @@ def stepped(tool, name, numbers, radius, mass, speed, step, phase):
         elif count and w <= 0.0:
             break
         depth = max(depth, x)
-    return {
-        "restitution": -w / speed,
-        "contact_time": count * step,
-        "depth": depth,
-        "largest_force": most,
-    }
+    return {"restitution": -w / speed, "contact_time": count * step, "depth": depth, "largest_force": most}
 
 
 def mover(tool, name, numbers, radius, mass, speed, step):
@@ -365,9 +351,7 @@ def mover(tool, name, numbers, radius, mass, speed, step):
         return late_mover(numbers, radius, mass, step)
     if name in ("plastic", "luding"):
         k1 = numbers["loading_stiffness"]
-        k2 = (
-            numbers["unloading_stiffness"] if name == "plastic" else k1 * numbers["stiffness_ratio"]
-        )
+        k2 = numbers["unloading_stiffness"] if name == "plastic" else k1 * numbers["stiffness_ratio"]
         limit = k2 / (k2 - k1) * numbers["penetration_depth"] * 2 * radius
 
         def move(x, w, deepest):
@@ -427,13 +411,7 @@ def plastic_mover(numbers, radius, mass, step, poisson=0.3):
 
     def indenter(depth, height, width):
         t = min(max(depth / height, 0.0), 1.0)
-        return (
-            plane
-            * height
-            * width
-            / 4
-            * (np.arccos(1 - 2 * t) - (1 - 2 * t) * np.sqrt(4 * t - 4 * t * t))
-        )
+        return plane * height * width / 4 * (np.arccos(1 - 2 * t) - (1 - 2 * t) * np.sqrt(4 * t - 4 * t * t))
 
     def law(x, deepest):
         mean = strength * (1 + 1.75 * np.exp(-4.4 * deepest / radius))

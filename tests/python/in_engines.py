@@ -55,12 +55,7 @@ def in_mujoco(block, radius, mass, speed, phases):
         mujoco.mj_resetData(model, data)
         data.qpos[2] = radius + phase * model.opt.timestep * speed
         data.qvel[2] = -speed
-        drops.follow(
-            lambda _: mujoco.mj_step(model, data),
-            lambda: (data.qvel[2], data.qpos[2] > radius),
-            speed,
-            5000,
-        )
+        drops.follow(lambda _: mujoco.mj_step(model, data), lambda: (data.qvel[2], data.qpos[2] > radius), speed, 5000)
     return drops
 
 
@@ -84,9 +79,7 @@ def in_drake(block, radius, mass, speed, phases):
         context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
         place = drake.RigidTransform([0, 0, radius + phase * step * speed])
         plant.SetFreeBodyPose(context, body, place)
-        plant.SetFreeBodySpatialVelocity(
-            context, body, drake.SpatialVelocity([0, 0, 0], [0, 0, -speed])
-        )
+        plant.SetFreeBodySpatialVelocity(context, body, drake.SpatialVelocity([0, 0, 0], [0, 0, -speed]))
         drops.follow(
             lambda count, go=simulator.AdvanceTo, h=step: go(count * h),
             lambda plant=plant, context=context, body=body: (
@@ -110,17 +103,12 @@ def in_bullet(block, radius, mass, speed, phases, step=1 / 240):
         p.setTimeStep(step)
         flat = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE))
         start = [0, 0, radius + phase * step * speed]
-        ball = p.createMultiBody(
-            mass, p.createCollisionShape(p.GEOM_SPHERE, radius=radius), basePosition=start
-        )
+        ball = p.createMultiBody(mass, p.createCollisionShape(p.GEOM_SPHERE, radius=radius), basePosition=start)
         p.resetBaseVelocity(ball, [0, 0, -speed])
         exec(block, {"p": p, "ball": ball, "flat": flat})
         drops.follow(
             lambda _: p.stepSimulation(),
-            lambda ball=ball: (
-                p.getBaseVelocity(ball)[0][2],
-                p.getBasePositionAndOrientation(ball)[0][2] > radius,
-            ),
+            lambda ball=ball: (p.getBaseVelocity(ball)[0][2], p.getBasePositionAndOrientation(ball)[0][2] > radius),
             speed,
             5000,
         )
@@ -146,9 +134,7 @@ def in_newton(block, radius, mass, speed, phases, step):
             shape.density = mass / (4 / 3 * np.pi * radius**3)
             body = builder.add_body(xform=warp.transform((0, 0, place), warp.quat_identity()))
             builder.add_shape_sphere(body, radius=radius, cfg=shape, **more)
-            builder.add_shape_plane(
-                plane=(0.0, 0.0, 1.0, radius), width=0.0, length=0.0, cfg=shape, **more
-            )
+            builder.add_shape_plane(plane=(0.0, 0.0, 1.0, radius), width=0.0, length=0.0, cfg=shape, **more)
             model = builder.finalize()
             line = re.search(r"# solver = (.*?); a step of", block)[1]
             solver = eval(line, {"newton": newton, "model": model})
@@ -165,10 +151,7 @@ def in_newton(block, radius, mass, speed, phases, step):
 
             drops.follow(
                 advance,
-                lambda states=states: (
-                    states[0].body_qd.numpy()[0, 2],
-                    states[0].body_q.numpy()[0, 2] > 0,
-                ),
+                lambda states=states: (states[0].body_qd.numpy()[0, 2], states[0].body_q.numpy()[0, 2] > 0),
                 speed,
                 200,
             )
@@ -183,15 +166,11 @@ def in_exudyn(block, radius, mass, speed, contact_time):
     mbs = exudyn.SystemContainer().AddSystem()
     gap = 1e-9
     node = mbs.AddNode(
-        utilities.NodePoint(
-            referenceCoordinates=[0, 0, 2 * radius + gap], initialVelocities=[0, 0, -speed]
-        )
+        utilities.NodePoint(referenceCoordinates=[0, 0, 2 * radius + gap], initialVelocities=[0, 0, -speed])
     )
     mbs.AddObject(utilities.MassPoint(mass=mass, nodeNumber=node))
     ground = mbs.AddNode(utilities.NodePointGround(referenceCoordinates=[0, 0, 0]))
-    data = mbs.AddNode(
-        utilities.NodeGenericData(initialCoordinates=[0.1, 0, 0, 0], numberOfDataCoordinates=4)
-    )
+    data = mbs.AddNode(utilities.NodeGenericData(initialCoordinates=[0.1, 0, 0, 0], numberOfDataCoordinates=4))
     made = {"mbs": mbs, "data": data, "end_time": contact_time * 1.5 + gap / speed}
     for name, at in (("ball", node), ("flat", ground)):
         made[name] = mbs.AddMarker(utilities.MarkerNodePosition(nodeNumber=at))
@@ -334,9 +313,6 @@ def in_sapien(material, radius, mass, speed, phases, step, **settings):
         ball.set_linear_velocity([0, 0, -speed])
         # with what comes after
         drops.follow(
-            lambda _, scene=scene: scene.step(),
-            lambda ball=ball: (ball.linear_velocity[2], False),
-            speed,
-            200,
+            lambda _, scene=scene: scene.step(), lambda ball=ball: (ball.linear_velocity[2], False), speed, 200
         )
     return drops

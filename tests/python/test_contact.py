@@ -129,8 +129,7 @@ def test_parameters_by_keyword_and_by_name():
 
 
 @pytest.mark.parametrize(
-    "arguments",
-    [{"yield_strength": 1.0}, {"parameters": {"target.hardness": 1.0}}, {"mass": 1.0}],
+    "arguments", [{"yield_strength": 1.0}, {"parameters": {"target.hardness": 1.0}}, {"mass": 1.0}]
 )
 def test_an_unknown_parameter_names_those_that_there_are(arguments):
     with pytest.raises(KeyError, match="target.yield_strength, initial_gap"):
@@ -155,31 +154,18 @@ def test_values_by_name():
         made.step(1e-6, 1.0)
         assert made["indentation"] == 1e-6 and isinstance(made["regime"], int)
         assert set(made.outputs) | set(made.parameters) | {"indentation_rate"} == {
-            name
-            for name in [*made.outputs, *made.parameters, "indentation_rate"]
-            if made[name] is not None
+            name for name in [*made.outputs, *made.parameters, "indentation_rate"] if made[name] is not None
         }
         for name in ("depth", "", 3, None):
             with pytest.raises(KeyError, match="there are: indentation_rate, force, indentation"):
                 made[name]
 
 
-@pytest.mark.parametrize(
-    "step",
-    [
-        ("1", 1.0),
-        (None, 1.0),
-        (1e-6, "1"),
-        (1e-6, None),
-        (1e-6, [1.0, 2.0]),
-        (1e-6, 1.0, "x"),
-        (1e-6, 1.0, 0.0, b"x"),
-        (1e-6, {}),
-        (1e-6, True),
-        (object(), 1.0),
-        (1e-6, 1j),
-    ],
-)
+STEPS = [("1", 1.0), (None, 1.0), (object(), 1.0)]
+STEPS += [(1e-6, rate) for rate in ("1", None, [1.0, 2.0], {}, True, 1j)] + [(1e-6, 1.0, "x"), (1e-6, 1.0, 0.0, b"x")]
+
+
+@pytest.mark.parametrize("step", STEPS)
 def test_wrong_types_are_refused_before_anything_happens(step):
     with contact("coupled") as made:
         with pytest.raises(TypeError, match="h|rate|acceleration|jerk"):
@@ -189,18 +175,11 @@ def test_wrong_types_are_refused_before_anything_happens(step):
         assert made["indentation"] == 1e-6
 
 
-@pytest.mark.parametrize(
-    ("step", "words"),
-    [
-        ((0.0, 1.0), "StepSize"),
-        ((-1.0, 1.0), "StepSize"),
-        ((float("nan"), 1.0), "StepSize"),
-        ((float("inf"), 1.0), "StepSize"),
-        ((1e-6, float("nan")), "indentation_rate"),
-        ((1e-6, float("inf")), "indentation_rate"),
-        ((1e-6, 1.0, float("nan")), "indentation_rate"),
-    ],
-)
+REFUSED = [((h, 1.0), "StepSize") for h in (0.0, -1.0, float("nan"), float("inf"))]
+REFUSED += [((1e-6, *more), "indentation_rate") for more in ((float("nan"),), (float("inf"),), (1.0, float("nan")))]
+
+
+@pytest.mark.parametrize(("step", "words"), REFUSED)
 def test_a_refused_step_is_told_in_the_words_of_the_unit_and_reset_mends_it(step, words):
     with contact("coupled") as made:
         with pytest.raises(ContactError, match=words) as refused:
@@ -289,10 +268,7 @@ def test_a_contact_that_cannot_touch_goes_where_the_bodies_are():
 
 @pytest.mark.parametrize("gap", [0.5e-3, 1e-3, 0.0, -1.0])
 def test_a_contact_that_may_touch_goes_its_own_way(gap):
-    with (
-        contact("mass_known", initial_gap=3e-4) as made,
-        contact("mass_known", initial_gap=3e-4) as plain,
-    ):
+    with contact("mass_known", initial_gap=3e-4) as made, contact("mass_known", initial_gap=3e-4) as plain:
         assert made.step(1e-3, 1.0, gap=gap) == plain.step(1e-3, 1.0) > 0.0
         assert made["indentation"] == plain["indentation"]
 

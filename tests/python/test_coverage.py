@@ -82,18 +82,13 @@ def simulated(path, case, count):
         near = problem.near(problem.solve(true))
         # without an interval, the fit says that the points determine nothing
         ends = [intervals.interval(near, it) or (-np.inf, np.inf) for it in range(len(true))]
-        inside["linearised"] += [
-            low <= it <= high for (low, high), it in zip(ends, true, strict=True)
-        ]
+        inside["linearised"] += [low <= it <= high for (low, high), it in zip(ends, true, strict=True)]
         if index < BOOTSTRAPS and near.freedom >= 8:
             for place, both in enumerate(_drawn(problem, near, DRAWS, 0, has_trend=False)):
                 if both is not None:
                     drawn[place] += 1
                     inside["bootstrap"][place] += both[0] <= true[place] <= both[1]
-    return {
-        "linearised": inside["linearised"] / count,
-        "bootstrap": inside["bootstrap"] / np.maximum(drawn, 1),
-    }, drawn
+    return {"linearised": inside["linearised"] / count, "bootstrap": inside["bootstrap"] / np.maximum(drawn, 1)}, drawn
 
 
 @pytest.mark.parametrize("case", CASES if COUNT else USUAL)
@@ -110,7 +105,5 @@ def test_intervals_contain_the_true_value_in_95_of_100_measurements(path, case):
     # deviations of the binomial distribution
     bounded = "near" in case or "at the" in case
     # (six for three of a loading alone, which hardly tells the compliance: the guide says so)
-    tolerance = max(
-        0.06 if "three" in case else 0.04 if bounded else 0.02, 3.0 * np.sqrt(0.95 * 0.05 / count)
-    )
+    tolerance = max(0.06 if "three" in case else 0.04 if bounded else 0.02, 3.0 * np.sqrt(0.95 * 0.05 / count))
     assert np.all(np.abs(found["linearised"] - 0.95) < tolerance), found

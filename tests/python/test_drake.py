@@ -111,7 +111,9 @@ def collide(path, step):
             attached.step()
         assert np.sum(attached.contact["dissipated_energy"]) > 0.1 * start and attached.gaps[0] > 0.0
         lost = abs(energy(plant, context, attached.contact) - start) / start
-    changes = [np.linalg.norm(end - first) / np.linalg.norm(first) for first, end in zip(before, momentum(), strict=True)]
+    changes = [
+        np.linalg.norm(end - first) / np.linalg.norm(first) for first, end in zip(before, momentum(), strict=True)
+    ]
     return [*changes, lost]
 
 
@@ -226,7 +228,11 @@ def test_dampings_and_controllers_of_the_plant_press_with_their_whole_force(rest
         motor.set_controller_gains(drake.PdControllerGains(p=500.0, d=gain))
     plant.Finalize()
     aim = builder.AddSystem(drake.ConstantVectorSource([-0.02, 0.0] if gain > 0.0 else [-10.0]))
-    port = plant.get_desired_state_input_port(drake.ModelInstanceIndex(1)) if gain > 0.0 else plant.get_actuation_input_port()
+    port = (
+        plant.get_desired_state_input_port(drake.ModelInstanceIndex(1))
+        if gain > 0.0
+        else plant.get_actuation_input_port()
+    )
     builder.Connect(aim.get_output_port(), port)
     simulator = drake.Simulator(builder.Build())
     context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
@@ -306,7 +312,9 @@ def test_what_is_refused_names_the_pair(unit):
     with pytest.raises(ContactError, match="the plant is not finalized: call plant.Finalize"):
         brinell.drake.attach(continuous, simulator, [], unit(2))
     continuous.Finalize()
-    with pytest.raises(ContactError, match=r"time_step = 0: attach needs a discrete plant, MultibodyPlant\(time_step\)"):
+    with pytest.raises(
+        ContactError, match=r"time_step = 0: attach needs a discrete plant, MultibodyPlant\(time_step\)"
+    ):
         brinell.drake.attach(continuous, simulator, [], unit(2))
 
 

@@ -71,9 +71,7 @@ def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(scen
         assert (estimate.scene, estimate.doubt) == (start, None)
         close(estimate.value, strength, 1e-6)
         low, high = estimate.interval
-        assert (
-            low <= strength * (1 + 1e-6) and high >= strength * (1 - 1e-6) and high / low < 1.0001
-        )
+        assert low <= strength * (1 + 1e-6) and high >= strength * (1 - 1e-6) and high / low < 1.0001
         assert found.rms["restitution"] < 1e-9 and found.count == 10
         assert found.values == {"target.yield_strength": estimate.value}
         # 8 m/s make too wide a dent in the softest target
@@ -91,10 +89,7 @@ def test_a_fit_finds_the_strength_of_a_loading_curve_and_its_hardening(scene):
     assert found.points["force, fitted"] == pytest.approx(points["force"], rel=1e-6)
     # the strength alone can't describe a target that hardens
     alone = brinell.fit(start, points)
-    assert (
-        alone.values["target.yield_strength"] > 410e6
-        and alone.rms["force"] > 100.0 * found.rms["force"]
-    )
+    assert alone.values["target.yield_strength"] > 410e6 and alone.rms["force"] > 100.0 * found.rms["force"]
     assert any("follow a trend" in note for note in alone.notes)
 
 
@@ -131,10 +126,7 @@ def test_the_unit_and_the_program_give_the_same_numbers(scene, model, name):
 def test_a_rate_constant_is_fitted_beside_a_power_law_and_beside_a_loss(scene):
     power = "power_law = { coefficient = 700e6, exponent = 0.2 }\n"
     steel = "youngs_modulus = 206e9\npoissons_ratio = 0.3\n"
-    for more, target in (
-        (power, steel),
-        ("plate_thickness = 0.01\ndensity = 7850.0\n", None),
-    ):
+    for more, target in ((power, steel), ("plate_thickness = 0.01\ndensity = 7850.0\n", None)):
         both = [scene(300e6, more + JOHNSON_COOK.format(c), target=target) for c in (0.04, 0.02)]
         found = brinell.fit(both[1], rebounds(both[0], (0.2, 1.0, 3.0)), "rate")
         close(found.values["target.rate.c"], 0.04, 1e-5)
@@ -179,14 +171,9 @@ def test_another_mass_takes_the_place_of_the_scenes(scene):
 # how sure it is
 
 
-def test_where_a_parameter_would_be_negative_the_others_are_fitted_again_with_zero(
-    scene,
-):
+def test_where_a_parameter_would_be_negative_the_others_are_fitted_again_with_zero(scene):
     """Once the strength, its interval and the rms were those of the negative optimum."""
-    points = {
-        "depth [um]": [5.0, 10.0, 15.0, 20.0],
-        "force": [114.40, 257.01, 404.79, 558.65],
-    }
+    points = {"depth [um]": [5.0, 10.0, 15.0, 20.0], "force": [114.40, 257.01, 404.79, 558.65]}
     both = brinell.fit(scene(300e6), points, BOTH)
     alone = brinell.fit(scene(300e6), points)
     strength, hardening = both.estimates
@@ -210,11 +197,7 @@ def test_a_rate_constant_that_would_be_negative_is_zero(scene):
     both = brinell.fit(rate, soft, ("yield_strength", "rate"))
     alone = brinell.fit(scene(300e6), soft)
     assert both.values["target.rate.c"] == 0.0
-    close(
-        both.values["target.yield_strength"],
-        alone.values["target.yield_strength"],
-        1e-5,
-    )
+    close(both.values["target.yield_strength"], alone.values["target.yield_strength"], 1e-5)
     close(both.rms["restitution"], alone.rms["restitution"], 1e-6)
 
 
@@ -226,11 +209,7 @@ def test_what_a_measurement_does_not_determine_is_said(scene):
     # impacts below yield
     slow = rebounds(hard, (0.01, 0.02, 0.05))
     says("not determined: no restitution depends on it", hard, slow)
-    says(
-        "without an interval: 1 points for 1 parameters",
-        normal,
-        rebounds(normal, (1.0,)),
-    )
+    says("without an interval: 1 points for 1 parameters", normal, rebounds(normal, (1.0,)))
     shallow = loading(hard, (1e-8, 2e-8, 3e-8, 4e-8))
     says("not determined: no force depends on it", hard, shallow)
     says("not determined: no force depends on it", hard, shallow, "hardening_modulus")
@@ -266,11 +245,7 @@ def test_points_that_repeat_each_other_give_no_interval(scene):
     ("kind", "at", "words"),
     [
         (loading, (1e-6, 1e-5, 5e-5), None),
-        (
-            loading,
-            (1e-5, 5e-5, 5e-4, 6e-4),
-            "at 2 of 4 points (depths from 500 um to 600 um)",
-        ),
+        (loading, (1e-5, 5e-5, 5e-4, 6e-4), "at 2 of 4 points (depths from 500 um to 600 um)"),
         (rebounds, SPEEDS, None),
         (rebounds, (1.0, 2.0, 100.0), "at 1 of 3 points (speeds from 100 m/s"),
     ],
@@ -297,37 +272,19 @@ def test_what_a_scene_cannot_fit_is_rejected_with_the_reason(scene):
     power = scene(0.0, "power_law = { coefficient = 700e6, exponent = 0.2 }", target=steel)
     fit = functools.partial
     for call, words in [
-        (
-            fit(brinell.fit, normal, speeds, "rate"),
-            "rate needs a rate model in the scene: give target.rate",
-        ),
+        (fit(brinell.fit, normal, speeds, "rate"), "rate needs a rate model in the scene: give target.rate"),
         (fit(brinell.fit, rate, forces, "rate"), "rate needs speeds"),
-        (
-            fit(brinell.fit, normal, speeds, ["yield_strength"] * 2),
-            "names yield_strength twice",
-        ),
+        (fit(brinell.fit, normal, speeds, ["yield_strength"] * 2), "names yield_strength twice"),
         (fit(brinell.fit, normal, speeds, []), "parameters is empty; expected"),
-        (
-            fit(brinell.fit, normal, speeds, "hardness"),
-            "'hardness' can't be fitted; expected",
-        ),
+        (fit(brinell.fit, normal, speeds, "hardness"), "'hardness' can't be fitted; expected"),
         (fit(brinell.fit, normal, forces, mass=1.0), "mass = 1.0 has no effect"),
-        (
-            fit(brinell.fit, scene(300e6, law="hertz"), speeds),
-            "the law hertz doesn't yield",
-        ),
+        (fit(brinell.fit, scene(300e6, law="hertz"), speeds), "the law hertz doesn't yield"),
         (
             fit(brinell.fit, scene(300e6, law="thornton"), speeds, "hardening_modulus"),
             'no effect on law.loading = "thornton"',
         ),
-        (
-            fit(brinell.fit, power, speeds),
-            "target.yield_strength follows from target.power_law",
-        ),
-        (
-            fit(brinell.fit, normal, {"depth [m]": [1e-6, 1e7], "force": [1.0, 2.0]}),
-            "can't be evaluated",
-        ),
+        (fit(brinell.fit, power, speeds), "target.yield_strength follows from target.power_law"),
+        (fit(brinell.fit, normal, {"depth [m]": [1e-6, 1e7], "force": [1.0, 2.0]}), "can't be evaluated"),
     ]:
         with pytest.raises(ValueError) as error:
             call()
@@ -347,9 +304,7 @@ def test_the_guide_shows_what_its_code_prints_and_draws(tmp_path):
     code, text = (page.split(f"```{it}\n")[1].split("```")[0] for it in ("python", "text"))
     for name in ("scenes", "data"):
         (tmp_path / name).symlink_to(SCENES.parent / name)
-    printed = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    printed = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (printed.stdout, printed.stderr, printed.returncode) == (text, "", 0)
     assert "measured</text>" in (tmp_path / "fit.svg").read_text(encoding="utf-8")
 
@@ -359,9 +314,7 @@ def test_a_result_is_drawn_with_its_differences(scene):
     found = brinell.fit(scene(300e6), points, BOTH)
     above, below = found.plot().get_axes()
     lines = {line.get_label(): line.get_xydata() for line in above.get_lines()}
-    assert lines["measured"] == pytest.approx(
-        np.column_stack([points["depth [um]"], points["force"]])
-    )
+    assert lines["measured"] == pytest.approx(np.column_stack([points["depth [um]"], points["force"]]))
     assert set(lines) == {"measured", "law, scene", "law, fitted"}
     assert (below.get_xlabel(), above.get_ylabel()) == ("depth [µm]", "force [N]")
     left = points["force"] - lines["law, fitted"][:, 1]

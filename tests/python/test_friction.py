@@ -1,58 +1,11 @@
-"""Contacts with friction: oblique impacts, and what the module says about the second rate."""
+"""Contacts with friction: what the module does and says with the second rate."""
 
-import csv
 import math
-import os
-from pathlib import Path
 
 import numpy as np
 import pytest
 from brinell import ContactError, UnknownName
 from units import bits, contact
-
-RADIUS, MASS, SPEED = 2.5e-3, 4.0 / 3.0 * math.pi * 2.5e-3**3 * 4000.0, 3.9
-TABLE = Path(os.environ["BRINELL_TEST_TRUTH"]) / "friction" / "tables.csv"
-
-
-def impacts():
-    """Impacts of Kharaz's ball, from another program."""
-    lines = [line for line in TABLE.read_text().splitlines() if line.startswith(("table", "impact"))]
-    start = next(number for number, line in enumerate(lines) if "angle_deg_or_psi1" in line)
-    rows = csv.DictReader(lines[start:])
-    return [row for row in rows if row["case"] == "kharaz" and row["limit"] == "0"]
-
-
-def fly(made, degrees, h, sign=1.0):
-    """Speeds [m/s] along the normal and in the tangential direction and spin [rad/s] after an impact: the leap-frog
-    method, contact first."""
-    normal, along = SPEED * math.cos(math.radians(degrees)), sign * SPEED * math.sin(math.radians(degrees))
-    spin, touched = 0.0, False
-    for _ in range(2000):
-        force = made.step(h, normal, tangential_rate=along + spin * RADIUS)
-        pull = made.tangential_force
-        if touched and force == 0.0:
-            return normal, along, spin
-        touched = touched or force > 0.0
-        normal -= h * force / MASS
-        along -= h * pull / MASS
-        spin -= h * pull * RADIUS / (0.4 * MASS * RADIUS**2)
-    raise AssertionError("the impact doesn't end")
-
-
-@pytest.mark.parametrize("row", impacts(), ids=lambda row: row["angle_deg_or_psi1"])
-def test_an_oblique_impact_ends_as_in_the_table_on_either_side(row):
-    degrees, h = float(row["angle_deg_or_psi1"]), float(row["h"])
-    with contact("oblique", force="end") as made:
-        normal, along, spin = fly(made, degrees, h)
-        assert -normal == pytest.approx(float(row["e_n"]) * SPEED * math.cos(math.radians(degrees)), rel=1e-9)
-        # the table has a list of springs without an end, the FMU one of sixteen segments
-        assert spin == pytest.approx(float(row["omega"]), rel=3e-5, abs=1e-6)
-        if degrees > 0.0:
-            assert along / (SPEED * math.sin(math.radians(degrees))) == pytest.approx(float(row["e_t"]), abs=2e-5)
-        made.reset()
-        mirrored = fly(made, degrees, h, -1.0)
-        # 0.0 + makes a negative zero positive
-        assert bits([mirrored[0], 0.0 - mirrored[1], 0.0 - mirrored[2]]) == bits([normal, 0.0 + along, 0.0 + spin])
 
 
 def test_the_impulse_of_mean_forces_is_that_of_the_contact():
@@ -109,16 +62,6 @@ def test_a_contact_without_friction_says_so():
                 made.step(1e-6, 1.0, **{name: 1.0})
         with pytest.raises(UnknownName, match="tangential_force"):
             _ = made.tangential_force
-
-
-def test_a_state_contains_the_friction():
-    with contact("oblique") as made, contact("oblique") as other:
-        made.step(1e-6, 1.0, tangential_rate=0.01)
-        other.restore(made.save())
-        for one in (made, other):
-            one.step(1e-6, -0.2)
-        assert made["tangential_force"] == other["tangential_force"] != 0.0
-        assert made["friction_work"] == other["friction_work"]
 
 
 def test_a_rate_that_is_no_number_is_refused():

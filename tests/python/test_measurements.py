@@ -73,18 +73,14 @@ def test_signs_of_a_country_in_its_old_encoding_are_read(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("numbers", "value"),
-    [("1.234,5", 1234.5), ("1 234,5", 1234.5), ("1'234.5", 1234.5), ("1.234.567", 1234567.0)],
+    ("numbers", "value"), [("1.234,5", 1234.5), ("1 234,5", 1234.5), ("1'234.5", 1234.5), ("1.234.567", 1234567.0)]
 )
 def test_separators_of_thousands_are_no_decimal_signs(tmp_path, numbers, value):
     found = read(tmp_path, f"depth [um];force\n1;{numbers}\n2;2{numbers[1:]}\n")
     assert found.results["force"][0] == pytest.approx(value)
 
 
-@pytest.mark.parametrize(
-    "rows",
-    ["1;1.082\n2;2.164", "1;1,082\n2;2,164", "5;950\n6;1.082", "1\t1.082\n2\t950"],
-)
+@pytest.mark.parametrize("rows", ["1;1.082\n2;2.164", "1;1,082\n2;2,164", "5;950\n6;1.082", "1\t1.082\n2\t950"])
 def test_a_number_that_may_be_thousands_is_asked_about(tmp_path, rows):
     separator = "\t" if "\t" in rows else ";"
     text = f"depth [um]{separator}force\n{rows}\n"
@@ -100,10 +96,7 @@ def test_two_decimal_signs_in_one_file_are_refused(tmp_path):
 
 
 def test_what_is_read_and_what_is_not_is_said(tmp_path):
-    found = read(
-        tmp_path,
-        "Report 7\nspeed [mm/s];drop height [m];e;operator;force\n1000;1;0,5;ann;3\n",
-    )
+    found = read(tmp_path, "Report 7\nspeed [mm/s];drop height [m];e;operator;force\n1000;1;0,5;ann;3\n")
     words = said(found)
     for expected in (
         "Before the heading in line 2, 1 line was passed over",
@@ -223,8 +216,7 @@ def test_a_given_name_makes_a_column_known(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "points",
-    ["1,2\n2,5\n3,9", "3,9\n2,5\n1,2", "2,5\n1,2\n3,9", "1,2\n2,5\n3,9\n1,2.1\n2,4.8\n3,8.9"],
+    "points", ["1,2\n2,5\n3,9", "3,9\n2,5\n1,2", "2,5\n1,2\n3,9", "1,2\n2,5\n3,9\n1,2.1\n2,4.8\n3,8.9"]
 )
 def test_a_first_loading_in_any_order_and_of_several_specimens_is_kept(tmp_path, points):
     found = read(tmp_path, f"depth [um],force\n{points}\n")

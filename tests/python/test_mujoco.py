@@ -225,13 +225,17 @@ def mechanism(rng, step, count):
     bodies = '<body pos="0 0 {}" euler="0 0 {}">' + BASES[base] + f'<geom size=".03" mass="1"/>{links}</body>'
     turn, height = 360.0 * rng.random(), 1.0
     model, data = world(FLOOR + bodies.format(height, turn), step)
-    bent = [model.jnt_qposadr[joint] for joint in range(model.njnt) if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE]
+    bent = [
+        model.jnt_qposadr[joint] for joint in range(model.njnt) if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE
+    ]
     data.qpos[bent] = 0.5 * rng.normal(size=len(bent))
     mujoco.mj_forward(model, data)
     kept, height = data.qpos.copy(), height + 5e-3 - min(data.geom(f"foot{i}").xpos[2] for i in range(count))
     height += 1e-4 * rng.random()
     rates = servos(model, step, rng.uniform(0.0, 1.9), rng)
-    motors = "".join(f'<position joint="{n}" kp="{kv * rng.uniform(5, 60)}" kv="{kv}"/>' for n, kv in rates.items() if kv)
+    motors = "".join(
+        f'<position joint="{n}" kp="{kv * rng.uniform(5, 60)}" kv="{kv}"/>' for n, kv in rates.items() if kv
+    )
     model, data = world(FLOOR + bodies.format(height, turn), step, more=f"<actuator>{motors}</actuator>")
     data.qpos[:] = kept
     if base == "free":
@@ -274,7 +278,9 @@ def test_bodies_stay_where_the_unit_says_in_any_mechanism(unit):
 PRESS = '<body pos="0 0 .006"><joint name="z" type="slide" axis="0 0 1" damping="{}"/><geom name="ball" size="5e-3" mass=".1"/></body>'
 
 
-@pytest.mark.parametrize("damping, share, allowed", [(0, 0, 1e-9), (0, 0.2, 1e-9), (0, 1.9, 1e-9), (5, 0.5, 1e-9), (300, 0, 2e-3)])
+@pytest.mark.parametrize(
+    "damping, share, allowed", [(0, 0, 1e-9), (0, 0.2, 1e-9), (0, 1.9, 1e-9), (5, 0.5, 1e-9), (300, 0, 2e-3)]
+)
 def test_a_servo_presses_with_its_whole_force(resting, damping, share, allowed):
     step = 1e-3
     motor = f'<actuator><position joint="z" kp="500" kv="{0.1 * share / step}"/></actuator>'
@@ -332,7 +338,9 @@ def test_bodies_that_can_slide_in_two_directions_are_warned_of_friction_in_one(u
     for body, pairs in ((BOX, PAIRS), (hinge, [("foot", "floor")])):
         model, data = world(FLOOR + body)
         data.qpos[:] = model.qpos0
-        with pytest.warns(brinell.ContactWarning, match=r"friction in one direction, but the bodies of foot.* directions = 2"):
+        with pytest.warns(
+            brinell.ContactWarning, match=r"friction in one direction, but the bodies of foot.* directions = 2"
+        ):
             brinell.mujoco.attach(model, data, pairs, unit(len(pairs), 1)).close()
 
 
@@ -386,7 +394,11 @@ def test_what_is_refused_names_the_pair(unit):
     model, data = world(FLOOR + BOX + '<geom name="block" type="box" size=".1 .1 .1"/>')
     for pairs, error, text in (
         ([("foot0", "roof")], UnknownName, r"no geom 'roof'; there are: floor, block, foot0"),
-        ([("foot0", "block")], ContactError, r"pair 'foot0' and 'block': sphere and box; allowed are a sphere, a cylinder, a capsule or a box and a plane"),
+        (
+            [("foot0", "block")],
+            ContactError,
+            r"pair 'foot0' and 'block': sphere and box; allowed are a sphere, a cylinder, a capsule or a box and a plane",
+        ),
         (["foot0"], ContactError, r"pair 'foot0': two names of geoms are needed"),
         ([("block", "floor")], ContactError, r"pair 'block' and 'floor': corner = None: a box needs the radius"),
         ([("foot0", "flor")], UnknownName, r"no geom 'flor' \(did you mean 'floor'\?\); there are"),
@@ -394,7 +406,9 @@ def test_what_is_refused_names_the_pair(unit):
     ):
         with pytest.raises(error, match=text):
             brinell.mujoco.attach(model, data, pairs, unit(4))
-    with pytest.raises(ContactError, match=r"moves each contact alone, but these contacts share bodies: inverse_masses"):
+    with pytest.raises(
+        ContactError, match=r"moves each contact alone, but these contacts share bodies: inverse_masses"
+    ):
         brinell.mujoco.attach(model, data, PAIRS, unit(4, coupling="[coupling]\neffective_mass = 0.1")).step()
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
     with pytest.raises(ContactError, match="integrator = rk4: attach needs MuJoCo's default, Euler"):
@@ -423,6 +437,7 @@ def slide(path, step, end=0.03):
     mujoco.mju_normalize4(data.qpos[3:])
     data.qvel[:] = [0.4, -0.2, -0.1, 0.0, 0.0, 1.0]
     with brinell.mujoco.attach(model, data, PAIRS, path) as attached:
+
         def total():
             mujoco.mj_forward(model, data)
             mujoco.mj_energyPos(model, data)
@@ -482,9 +497,7 @@ def test_ends_of_capsules_and_corners_of_boxes_are_spheres(unit):
         ),
     }
     for count, (shape, places) in shapes.items():
-        spheres = "".join(
-            f'<geom name="s{i}" size="5e-3" pos="{x} {y} {z}"/>' for i, (x, y, z) in enumerate(places)
-        )
+        spheres = "".join(f'<geom name="s{i}" size="5e-3" pos="{x} {y} {z}"/>' for i, (x, y, z) in enumerate(places))
         ends = []
         for geoms, pairs in ((shape, [("shape", "floor")]), (spheres, [(f"s{i}", "floor") for i in range(count)])):
             body = f'<body name="body" pos="0 0 .045" euler="20 35 0"><freejoint/>{inertial}{geoms}</body>'
@@ -503,7 +516,9 @@ def test_ends_of_capsules_and_corners_of_boxes_are_spheres(unit):
 
 def dropped(path, mass=4e-3, height=0.01, steps=100, **arguments):
     """A ball of this mass [kg] that falls from a height [m], with the lost energy [J]."""
-    ball = f'<body name="ball" pos="0 0 {0.005 + height}"><freejoint/><geom name="ball" size="5e-3" mass="{mass}"/></body>'
+    ball = (
+        f'<body name="ball" pos="0 0 {0.005 + height}"><freejoint/><geom name="ball" size="5e-3" mass="{mass}"/></body>'
+    )
     model, data = world(FLOOR + ball)
     with brinell.mujoco.attach(model, data, ("ball", "floor"), path, **arguments) as attached:
         for _ in range(steps):

@@ -15,8 +15,7 @@ def shown(cells):
     """What each cell shows as text or a table; the bytes of a picture depend on its fonts."""
     return [
         [
-            output.get("text")
-            or {kind: text for kind, text in output["data"].items() if kind.startswith("text/")}
+            output.get("text") or {kind: text for kind, text in output["data"].items() if kind.startswith("text/")}
             for output in cell.get("outputs", [])
         ]
         for cell in cells
@@ -39,10 +38,7 @@ def test_a_notebook_shows_what_it_prints(path, tmp_path, monkeypatch):
     else:
         assert shown(notebook.cells) == before
     pictures = [
-        output
-        for cell in notebook.cells
-        for output in cell.get("outputs", [])
-        if "image/png" in output.get("data", {})
+        output for cell in notebook.cells for output in cell.get("outputs", []) if "image/png" in output.get("data", {})
     ]
     assert len(pictures) == 1
 

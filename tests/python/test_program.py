@@ -256,9 +256,7 @@ def test_a_picture_of_a_third_of_the_size_shows_what_matplotlib_draws(tmp_path):
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "brinell"}):
         axes.figure.savefig(tmp_path / "drawn.svg")
     drawn = (tmp_path / "drawn.svg").read_text(encoding="utf-8")
-    for (*expected, places), (*found, rounded) in zip(
-        seen(drawn), seen(compact(drawn)), strict=True
-    ):
+    for (*expected, places), (*found, rounded) in zip(seen(drawn), seen(compact(drawn)), strict=True):
         assert found == expected
         assert rounded == pytest.approx(places, abs=0.005001)
     large, small = (len((tmp_path / f"{name}.svg").read_bytes()) for name in ("large", "small"))
@@ -285,9 +283,7 @@ def test_angles_are_drawn_over_the_speed(tmp_path):
     table = brinell.sweep(SCENES / "oblique.toml", vary, friction=0.1)
     results = ["rebound_angle", "tangential_restitution", "rebound_spin"]
     brinell.draw(path, table, ["speed", "angle"], results)
-    assert {"speed [m/s]", "angle [deg]", "rebound_angle [deg]", "rebound_spin [rad/s]"} <= set(
-        texts(path)
-    )
+    assert {"speed [m/s]", "angle [deg]", "rebound_angle [deg]", "rebound_spin [rad/s]"} <= set(texts(path))
     brinell.draw(path, table, ["angle"], results)
     brinell.draw(path, table, ["angle", "speed", "rebound_speed"], results)
 
@@ -295,11 +291,7 @@ def test_angles_are_drawn_over_the_speed(tmp_path):
 @pytest.mark.parametrize(
     ("names", "results", "words"),
     [
-        (
-            ["sped"],
-            ["dent"],
-            "'sped' is no column .did you mean 'speed'.*allowed are speed, .*dent",
-        ),
+        (["sped"], ["dent"], "'sped' is no column .did you mean 'speed'.*allowed are speed, .*dent"),
         (["speed"], ["force"], "'force' is no column"),
         (["speed"], [], "at least one name and one result"),
         (["speed"], ["regime"], "the column 'regime' has texts"),

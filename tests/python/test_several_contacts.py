@@ -78,9 +78,7 @@ def test_parameters_of_one_contact():
         assert made["left.initial_gap"] == 1e-4
 
 
-@pytest.mark.parametrize(
-    "rates", [1.0, [1.0], [1.0] * 3, [[1.0, 2.0]], "ab", b"ab", None, [1.0, "2"], {1.0, 2.0}]
-)
+@pytest.mark.parametrize("rates", [1.0, [1.0], [1.0] * 3, [[1.0, 2.0]], "ab", b"ab", None, [1.0, "2"], {1.0, 2.0}])
 def test_wrong_numbers_of_rates_are_refused(rates):
     with contact("two") as made:
         with pytest.raises(TypeError, match="rate"):
@@ -209,7 +207,10 @@ def test_inverse_masses_that_are_refused():
         with pytest.raises(ContactError, match=r"entry \[1,2\] = -9.0 and \[2,1\] = -10.0 1/kg must be equal"):
             feet.step(H, rates, inverse_masses=skew)
         assert feet.time == 0.0
-    for matrix, text in ((weak, r"inverse_mass\[2,2\] = 0 1/kg: it isn't known yet"), (nan, r"inverse_mass\[1,1\] = NaN is out of range")):
+    for matrix, text in (
+        (weak, r"inverse_mass\[2,2\] = 0 1/kg: it isn't known yet"),
+        (nan, r"inverse_mass\[1,1\] = NaN is out of range"),
+    ):
         with contact("feet") as feet, pytest.raises(ContactError, match=text):
             feet.step(H, rates, inverse_masses=matrix)
     with contact("two") as two, pytest.raises(ContactError, match='no such inputs; inverse_masses = "input"'):

@@ -19,10 +19,11 @@ def course(made, steps=40):
     return bits(forces) + bits([made["indentation"], made.time])
 
 
-@pytest.mark.parametrize("name", ["steel_ball", "coupled", "mass_known", "damped"])
+@pytest.mark.parametrize("name", ["steel_ball", "coupled", "mass_known", "damped", "oblique"])
 def test_a_restored_state_goes_on_with_the_same_bits(name):
     accelerated = name in ("coupled", "mass_known")
-    go = course if accelerated else lambda made: bits([made.step(3e-7, 1.0) for _ in range(40)])
+    slips = {"tangential_rate": 0.01} if name == "oblique" else {}
+    go = course if accelerated else lambda made: bits([made.step(3e-7, 1.0, **slips) for _ in range(40)])
     with contact(name) as made, contact(name) as other:
         go(made)
         state = made.save()

@@ -7,16 +7,7 @@ import brinell
 import numpy as np
 import pytest
 from brinell import ProgramError
-from drops import (
-    PHASES,
-    SCENE,
-    law_of_tool,
-    outcome_of,
-    promised_at,
-    stepped,
-    touched,
-    two_spheres,
-)
+from drops import PHASES, SCENE, law_of_tool, outcome_of, promised_at, stepped, touched, two_spheres
 from in_engines import in_mujoco
 from scipy.integrate import solve_ivp
 
@@ -106,10 +97,7 @@ def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
     for step in (None,) if name == "mdr" else (None, "1e-4"):
         way = translated(SCENE, tool, step=step)[name]
         for speed in (0.1, 1.0, 3.0):
-            outcomes = [
-                stepped(tool, name, way.numbers, RADIUS, MASS, speed, way.step, phase)
-                for phase in PHASES
-            ]
+            outcomes = [stepped(tool, name, way.numbers, RADIUS, MASS, speed, way.step, phase) for phase in PHASES]
             promise = promised_at(way, speed)
             for quantity in ("restitution", "contact_time", "depth", "largest_force"):
                 mean = np.mean([outcome[quantity] for outcome in outcomes])
@@ -123,10 +111,7 @@ def test_between_two_spheres_the_published_recursion_gives_what_is_promised(tool
     way = translation[name]
     # a recursion between equal spheres has the radius of one, the others the effective one
     radius = balls.radius if tool == "yade" else balls.radius / 2
-    outcomes = [
-        stepped(tool, name, way.numbers, radius, balls.mass / 2, 1.0, way.step, phase)
-        for phase in PHASES
-    ]
+    outcomes = [stepped(tool, name, way.numbers, radius, balls.mass / 2, 1.0, way.step, phase) for phase in PHASES]
     promise = promised_at(way, 1.0)
     for quantity in ("restitution", "contact_time", "depth", "largest_force"):
         mean = np.mean([outcome[quantity] for outcome in outcomes])
@@ -136,17 +121,13 @@ def test_between_two_spheres_the_published_recursion_gives_what_is_promised(tool
         assert density * 4 / 3 * np.pi * balls.radius**3 == pytest.approx(balls.mass, rel=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("tool", "name"), [("lammps", "hooke"), ("mercurydpm", "linear"), ("newton", "semi-implicit")]
-)
+@pytest.mark.parametrize(("tool", "name"), [("lammps", "hooke"), ("mercurydpm", "linear"), ("newton", "semi-implicit")])
 def test_what_numbers_for_one_mass_do_with_another_is_said(tool, name):
     way = translated(SCENE, tool)[name]
     said = next(note for note in way.notes if "one effective mass" in note)
     for part, words in ((0.5, "half of it"), (2.0, "twice of it")):
         rebounds = [
-            stepped(tool, name, way.numbers, RADIUS, part * MASS, 1.0, way.step, phase)[
-                "restitution"
-            ]
+            stepped(tool, name, way.numbers, RADIUS, part * MASS, 1.0, way.step, phase)["restitution"]
             for phase in PHASES
         ]
         law = brinell.predict(SCENE, mass=part * MASS).restitution
@@ -157,8 +138,7 @@ def test_what_numbers_for_one_mass_do_with_another_is_said(tool, name):
         line = next(line for line in way.block.splitlines() if line.startswith("pair_coeff"))
         numbers = dict(zip(("stiffness", "damping"), map(float, line.split()[4:6]), strict=True))
         rebounds = [
-            stepped(tool, name, numbers, RADIUS / 2, MASS / 2, 1.0, way.step / 2**0.5, phase)
-            for phase in PHASES
+            stepped(tool, name, numbers, RADIUS / 2, MASS / 2, 1.0, way.step / 2**0.5, phase) for phase in PHASES
         ]
         promise = promised_at(way, 1.0)["restitution"]
         assert np.mean([one["restitution"] for one in rebounds]) == pytest.approx(promise, abs=1e-6)
@@ -169,13 +149,9 @@ def test_at_the_speed_of_the_fit_restitution_and_contact_time_are_the_scenes():
         translation = translated(SCENE, tool, speed=SLOW.get(name))
         promise = promised_at(translation[name], translation.speed)
         at = list(translation.wanted["speed"]).index(translation.speed)
-        assert promise["restitution"] == pytest.approx(
-            translation.wanted["restitution"][at], abs=1e-3
-        )
+        assert promise["restitution"] == pytest.approx(translation.wanted["restitution"][at], abs=1e-3)
         # in steps, a contact lasts a whole number of them
-        assert promise["contact_time"] == pytest.approx(
-            translation.wanted["contact_time"][at], rel=1.2e-2
-        )
+        assert promise["contact_time"] == pytest.approx(translation.wanted["contact_time"][at], rel=1.2e-2)
 
 
 def test_what_is_wanted_is_the_prediction_of_the_scene():
@@ -207,9 +183,7 @@ def test_no_phase_gains_energy_up_to_the_largest_step_and_some_does_beyond(tool)
     phases = (np.arange(50) + 0.5) / 50
 
     def most(step):
-        runs = (
-            stepped(tool, way.name, way.numbers, RADIUS, MASS, 3.0, step, phase) for phase in phases
-        )
+        runs = (stepped(tool, way.name, way.numbers, RADIUS, MASS, 3.0, step, phase) for phase in phases)
         return max(run["restitution"] for run in runs)
 
     assert most(0.98 * way.largest_step) <= 1.0
@@ -220,9 +194,7 @@ def test_millimetres_are_the_same_contact():
     si, mm = (translated(SCENE, "adams", units=units)["impact"] for units in ("si", "mm-t-s"))
     exponent = si.numbers["exponent"]
     assert mm.units["stiffness"] == "N/mm^n" and mm.numbers["exponent"] == exponent
-    assert mm.numbers["stiffness"] == pytest.approx(
-        si.numbers["stiffness"] * 1e3**-exponent, rel=1e-6
-    )
+    assert mm.numbers["stiffness"] == pytest.approx(si.numbers["stiffness"] * 1e3**-exponent, rel=1e-6)
     assert mm.numbers["damping"] == pytest.approx(si.numbers["damping"] * 1e-3, rel=1e-6)
     assert mm.numbers["ramp"] == pytest.approx(si.numbers["ramp"] * 1e3, rel=1e-6)
     with pytest.raises(ProgramError, match="MuJoCo computes in SI units"):
@@ -230,12 +202,9 @@ def test_millimetres_are_the_same_contact():
 
 
 @pytest.mark.parametrize(
-    ("units", "stiffness", "damping", "length"),
-    [("si", "N/m", "N.s/m", "m"), ("mm-t-s", "N/mm", "N.s/mm", "mm")],
+    ("units", "stiffness", "damping", "length"), [("si", "N/m", "N.s/m", "m"), ("mm-t-s", "N/mm", "N.s/mm", "mm")]
 )
-def test_a_scene_takes_the_four_numbers_as_they_stand_in_adams(
-    units, stiffness, damping, length, tmp_path
-):
+def test_a_scene_takes_the_four_numbers_as_they_stand_in_adams(units, stiffness, damping, length, tmp_path):
     way = translated(SCENE, "adams", units=units)["impact"]
     k, e, c, d = (way.numbers[name] for name in ("stiffness", "exponent", "damping", "ramp"))
     scene = tmp_path / "adams.toml"
@@ -264,10 +233,7 @@ def test_a_scene_takes_the_four_numbers_as_they_stand_in_adams(
         ({"tool": "mujocco"}, "did you mean `mujoco`"),
         ({"tool": "rubber"}, "`drake`, `bullet`"),
         ({"tool": "adams", "speed": "3:0.1"}, "FROM is above TO"),
-        (
-            {"tool": "adams", "speed": "0:1"},
-            "0 m/s is out of range: allowed is 0.000001 to 10000 m/s",
-        ),
+        ({"tool": "adams", "speed": "0:1"}, "0 m/s is out of range: allowed is 0.000001 to 10000 m/s"),
         ({"tool": "adams", "speed": "1:1e9"}, "1e9 m/s is out of range"),
         ({"tool": "adams", "speed": "1:fast"}, "`fast`"),
         ({"tool": "ode", "step": 0.0}, "step = 0 s must be positive"),
@@ -330,9 +296,7 @@ def test_smoothing_that_is_not_published_is_told_as_a_range():
 def test_scipy_and_the_closed_form_agree_on_a_spring_and_a_damper():
     z, k = 0.25, 1e7
     c = 2 * z * np.sqrt(k * MASS)
-    end = solve_ivp(lambda t, y: [y[1], -(k * y[0] + c * y[1]) / MASS], (0, 1e-6), [0, 1.0]).y[
-        1, -1
-    ]
+    end = solve_ivp(lambda t, y: [y[1], -(k * y[0] + c * y[1]) / MASS], (0, 1e-6), [0, 1.0]).y[1, -1]
     assert end < 1.0
     s = np.sqrt(1 - z * z)
     phase = np.arctan2(2 * z * s, 2 * z * z - 1)

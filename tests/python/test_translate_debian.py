@@ -21,9 +21,7 @@ LIBRARIES = [
 
 
 Real, Vector = ctypes.c_double, ctypes.c_double * 4
-SURFACE = (
-    "mu mu2 rho rho2 rhoN bounce bounce_vel soft_erp soft_cfm motion1 motion2 motionN slip1 slip2"
-)
+SURFACE = "mu mu2 rho rho2 rhoN bounce bounce_vel soft_erp soft_cfm motion1 motion2 motionN slip1 slip2"
 # ode/contact.h
 MODES = {"dContactBounce": 0x004, "dContactSoftERP": 0x008, "dContactSoftCFM": 0x010}
 
@@ -58,12 +56,7 @@ def ode():
         getattr(library, name).restype = ctypes.POINTER(Real)
         getattr(library, name).argtypes = [pointer]
     library.dBodyCreate.argtypes = [pointer]
-    library.dBodySetPosition.argtypes = library.dBodySetLinearVel.argtypes = [
-        pointer,
-        Real,
-        Real,
-        Real,
-    ]
+    library.dBodySetPosition.argtypes = library.dBodySetLinearVel.argtypes = [pointer, Real, Real, Real]
     library.dMassSetSphereTotal.argtypes = [pointer, Real, Real]
     library.dBodySetMass.argtypes = [pointer, pointer]
     library.dJointCreateContact.argtypes = [pointer, pointer, ctypes.POINTER(Contact)]
@@ -149,13 +142,7 @@ def test_liggghts(name, step, tmp_path):
     rebounds = []
     for phase in PHASES:
         height = RADIUS + phase * way.step * SPEED
-        script = SCRIPT.format(
-            block=way.block,
-            height=height,
-            diameter=2 * RADIUS,
-            density=density,
-            speed=SPEED,
-        )
+        script = SCRIPT.format(block=way.block, height=height, diameter=2 * RADIUS, density=density, speed=SPEED)
         (tmp_path / "in").write_text(script, encoding="utf-8")
         run = subprocess.run(
             [ROOT / "usr/bin/liggghts", "-in", "in"],

@@ -7,17 +7,7 @@ from pathlib import Path
 import brinell
 import numpy as np
 import pytest
-from drops import (
-    BALLS,
-    BALLS_AND_STEPS,
-    PHASES,
-    SCENE,
-    ball_of,
-    compare,
-    promised_at,
-    stepped,
-    two_spheres,
-)
+from drops import BALLS, BALLS_AND_STEPS, PHASES, SCENE, ball_of, compare, promised_at, stepped, two_spheres
 from in_engines import (
     in_bullet,
     in_drake,
@@ -58,8 +48,7 @@ def test_pybullet(name, which, step, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "step", "tolerance"),
-    [("semi-implicit", "1e-4", 1e-3), ("mujoco-solver", "1e-4", 1e-3)],
+    ("name", "step", "tolerance"), [("semi-implicit", "1e-4", 1e-3), ("mujoco-solver", "1e-4", 1e-3)]
 )
 def test_newton(name, step, tolerance):
     pytest.importorskip("newton")
@@ -157,10 +146,7 @@ def test_sapien_has_the_compliant_contact_of_physx(step):
     made = sapien.physx.PhysxMaterial(0.0, 0.0, -numbers["stiffness"])
     drops = in_sapien(made, RADIUS, MASS, SPEED, PHASES, way.step, enable_tgs=False)
     rebounds = drops.rebounds
-    impacts = [
-        stepped("physx", "compliant", numbers, RADIUS, MASS, SPEED, way.step, phase)
-        for phase in PHASES
-    ]
+    impacts = [stepped("physx", "compliant", numbers, RADIUS, MASS, SPEED, way.step, phase) for phase in PHASES]
     expected = [impact["restitution"] for impact in impacts]
     assert rebounds == pytest.approx(expected, abs=5e-4)
     assert np.mean(rebounds) == pytest.approx(np.mean(expected), abs=1e-4)

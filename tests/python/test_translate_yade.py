@@ -52,13 +52,7 @@ print("rebounds", json.dumps(rebounds))
 
 
 def rebounds_in_yade(block, on_wall=True, radius=5e-3, speed=1.0):
-    asked = {
-        "block": block,
-        "on_wall": on_wall,
-        "phases": list(PHASES),
-        "radius": radius,
-        "speed": speed,
-    }
+    asked = {"block": block, "on_wall": on_wall, "phases": list(PHASES), "radius": radius, "speed": speed}
     # the interpreter of Debian, for which its modules are
     own = ROOT / "usr/bin/python3.11"
     python = own if own.exists() else Path("/usr/bin/python3.11")

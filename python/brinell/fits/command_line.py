@@ -12,7 +12,8 @@ from .parameters import PARAMETERS
 PICTURES = (".svg", ".png", ".pdf")
 
 
-def _pair(text: str) -> tuple[str, str]:
+def pair(text: str) -> tuple[str, str]:
+    """The name and the value of `NAME=VALUE`."""
     name, equals, value = text.partition("=")
     if not (name and equals and value):
         raise argparse.ArgumentTypeError(f"{text!r} is not of the form NAME=VALUE")
@@ -20,7 +21,7 @@ def _pair(text: str) -> tuple[str, str]:
 
 
 def _ends(text: str) -> tuple[str, tuple[str, str]]:
-    name, value = _pair(text)
+    name, value = pair(text)
     first, colon, second = value.partition(":")
     if not (colon and first and second):
         raise argparse.ArgumentTypeError(f"{text!r} is not of the form NAME=A:B")
@@ -31,9 +32,7 @@ def _column(text: str) -> tuple[str, str]:
     # a heading may have `=` in it
     heading, equals, name = text.rpartition("=")
     if not (heading and equals and name):
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is not of the form HEADING=NAME [UNIT], such as 'E2=depth [mm]'"
-        )
+        raise argparse.ArgumentTypeError(f"{text!r} is not of the form HEADING=NAME [UNIT], such as 'E2=depth [mm]'")
     return heading, name
 
 
@@ -50,13 +49,13 @@ def add_arguments(commands: Any) -> None:
         metavar="NAME,NAME",
         help=f"what is fitted, of {', '.join(PARAMETERS)} [default: yield_strength]",
     )
-    add("--fix", type=_pair, action="append", default=[], metavar="NAME=VALUE",
+    add("--fix", type=pair, action="append", default=[], metavar="NAME=VALUE",
         help="a value that is held, such as compliance='5 nm/N'")  # fmt: skip
     add("--bound", type=_ends, action="append", default=[], metavar="NAME=LOW:HIGH",
         help="the lowest and the largest value of a free parameter")  # fmt: skip
     add("--prior", type=_ends, action="append", default=[], metavar="NAME=MEAN:DEVIATION",
         help="what is known of a free parameter beforehand")  # fmt: skip
-    add("--accuracy", type=_pair, action="append", default=[], metavar="NAME=DEVIATION",
+    add("--accuracy", type=pair, action="append", default=[], metavar="NAME=DEVIATION",
         help="standard deviation of a result, such as restitution=0.01")  # fmt: skip
     add("--column", type=_column, action="append", default=[], metavar="HEADING=NAME [UNIT]",
         help="what a column of the file is, such as 'E2=depth [mm]'; an unknown name is answered with those that exist")  # fmt: skip

@@ -77,9 +77,7 @@ def fit(
         if name in names:
             raise ValueError(f"{name} is free and fixed: leave it out of one of them")
     for name in {*(bounds or {}), *(priors or {})} - {*names}:
-        raise ValueError(
-            f"{name} has bounds or a prior, but it is not fitted: add it to parameters"
-        )
+        raise ValueError(f"{name} has bounds or a prior, but it is not fitted: add it to parameters")
     if outside not in ("mark", "leave out"):
         raise ValueError(f"outside = {outside!r}; allowed are 'mark' and 'leave out'")
     if not unloading and points.kind == "record":
@@ -90,9 +88,7 @@ def fit(
         own = points
         if points.kind == "hardness":
             values = strengths_of(points.readings, scene_file, law)
-            own = Measured(
-                "hardness", {}, {"flow_stress": values}, points.part, points.notes, points.readings
-            )
+            own = Measured("hardness", {}, {"flow_stress": values}, points.part, points.notes, points.readings)
         _check_scene(law, [*names, *(fixed or {})])
         problem = Problem(
             law,
@@ -112,9 +108,7 @@ def _check(points: Measured, names: list[str], mass: float | None, others: list[
         raise ValueError(f"parameters is empty; expected some of {', '.join(PARAMETERS)}")
     for index, name in enumerate([*names, *others]):
         if name not in PARAMETERS:
-            raise ValueError(
-                f"parameters: {name!r} can't be fitted; expected {', '.join(PARAMETERS)}"
-            )
+            raise ValueError(f"parameters: {name!r} can't be fitted; expected {', '.join(PARAMETERS)}")
         if name in names[:index] and index < len(names):
             raise ValueError(f"parameters names {name} twice")
         if points.kind not in PARAMETERS[name].kinds:
@@ -145,9 +139,7 @@ def _check_scene(law: Law, names: Sequence[str]) -> None:
         if name == "rate" and law.model is None:
             raise ValueError(f"rate needs a rate model in the scene: give {law.body}.rate")
         if name in ("yield_strength", "hardening_modulus") and law.is_power_law:
-            raise ValueError(
-                f"{law.name(name)} follows from {law.body}.power_law: there is nothing to fit"
-            )
+            raise ValueError(f"{law.name(name)} follows from {law.body}.power_law: there is nothing to fit")
 
 
 def _number(name: str, value: Value, model: str | None) -> float:
@@ -174,9 +166,7 @@ def _accuracy(accuracy: Mapping[str, Value] | None, points: Measured) -> dict[st
     found = {}
     for name, value in (accuracy or {}).items():
         if name not in points.results:
-            raise ValueError(
-                f"accuracy: {name!r} was not measured; expected {one_of(points.results)}"
-            )
+            raise ValueError(f"accuracy: {name!r} was not measured; expected {one_of(points.results)}")
         found[name] = number_of(value, UNITS[name], name)
         if not found[name] > 0.0:
             raise ValueError(f"accuracy: {name} = {value!r} must be positive")

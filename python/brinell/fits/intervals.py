@@ -160,10 +160,7 @@ def _profiled(near: Linear, index: int) -> tuple[float, float] | None:
     far = np.sqrt(whole[index, index]) * np.sqrt(most + least)
     far += abs(float((whole @ (near.root.T @ near.rest))[index]))
     try:
-        first, last = (
-            sign * brentq(lambda it, s=sign: excess(s * it), 0.0, 1.01 * far)
-            for sign in (-1.0, 1.0)
-        )
+        first, last = (sign * brentq(lambda it, s=sign: excess(s * it), 0.0, 1.01 * far) for sign in (-1.0, 1.0))
     except (ValueError, RuntimeError):
         # parameters that can't be told apart: the interval has no end
         return None
@@ -280,13 +277,7 @@ def expansion(function: Function, near: Linear) -> Expansion:
 
 
 def bootstrap(
-    expanded: Expansion,
-    near: Linear,
-    groups: Sequence[NDArray[np.int_]],
-    *,
-    draws: int,
-    block: int,
-    seed: int,
+    expanded: Expansion, near: Linear, groups: Sequence[NDArray[np.int_]], *, draws: int, block: int, seed: int
 ) -> list[tuple[float, float] | None]:
     """The interval of each parameter.
 
@@ -324,14 +315,9 @@ def bootstrap(
         known = found[np.isfinite(found[:, row]), row]
         if len(known) < 0.9 * draws or not np.isfinite(widths[row]):
             continue
-        first, last = np.quantile(
-            known, [0.5 + 0.5 * CONFIDENCE, 0.5 - 0.5 * CONFIDENCE], method="weibull"
-        )
+        first, last = np.quantile(known, [0.5 + 0.5 * CONFIDENCE, 0.5 - 0.5 * CONFIDENCE], method="weibull")
         ends = near.at[index] - widths[row] * np.array([first, last])
-        intervals[index] = (
-            max(float(ends[0]), near.low[index]),
-            min(float(ends[1]), near.high[index]),
-        )
+        intervals[index] = (max(float(ends[0]), near.low[index]), min(float(ends[1]), near.high[index]))
     return intervals
 
 

@@ -11,6 +11,7 @@ import json
 import warnings
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -51,12 +52,7 @@ class Law:
     """
 
     def __init__(
-        self,
-        path: str | Path,
-        points: Measured,
-        mass: float | None,
-        fitted: set[str],
-        loading: str | None = None,
+        self, path: str | Path, points: Measured, mass: float | None, fitted: set[str], loading: str | None = None
     ) -> None:
         self.points = points
         self._path = path
@@ -153,9 +149,7 @@ class Law:
             self._harder: list[str] = []
             if fitted <= {"friction", "elastic_restitution", *INSTRUMENT}:
                 return "target"
-            raise ValueError(
-                f"{path}: the law {self.law} doesn't yield: it has no parameter to fit"
-            )
+            raise ValueError(f"{path}: the law {self.law} doesn't yield: it has no parameter to fit")
         # at equal strengths the target, as in an FMU
         softer = min(strengths, key=lambda body: strengths[body])
         self._harder = [body for body in strengths if body != softer]
@@ -195,9 +189,7 @@ class Law:
             for body in ("impactor", "target")
             if f"{body}.youngs_modulus" in self._starts
         }
-        return 1.0 / sum(
-            (1.0 - self._starts[f"{body}.poissons_ratio"] ** 2) / it for body, it in moduli.items()
-        )
+        return 1.0 / sum((1.0 - self._starts[f"{body}.poissons_ratio"] ** 2) / it for body, it in moduli.items())
 
     @property
     def radius(self) -> float:
@@ -260,14 +252,12 @@ class Law:
         own, count = self._own(flow), len(depth)
         found, radius = np.full(count, np.nan), np.full(count, np.nan)
         stiffness = np.zeros(count)
-        contact, deepest, at, before = self._contact, -np.inf, 0.0, 0
-        for index, (part, now) in enumerate(
-            zip(points.part.tolist(), pressed.tolist(), strict=True)
-        ):
+        contact, deepest, at, before, deep = self._contact, -np.inf, 0.0, -1, self.radius
+        for index, (part, now) in enumerate(zip(points.part.tolist(), pressed.tolist(), strict=True)):
             try:
                 if part == 0:
-                    # bodies that start pressed in are on the loading curve
-                    contact.reset(initial_gap=-now, parameters=own)
+                    # beyond its radius, the FMU says what it takes
+                    self._load(at if before == 0 and now < deep else np.inf, now, own)
                     deepest = max(deepest, now)
                 else:
                     if before != part:
@@ -275,7 +265,7 @@ class Law:
                         at = max(deepest, now)
                     # each step of a second is one of the record
                     contact.step(1.0, now - at)
-                    at = now
+                at = now
                 before = part
                 found[index] = contact["force"]
                 radius[index] = contact["contact_radius"]
@@ -285,6 +275,15 @@ class Law:
                 before = -1
         recorded = force + (found - force - preload) / (1.0 + stiffness * compliance)
         return recorded, radius
+
+    def _load(self, at: float, now: float, own: Mapping[str, float]) -> None:
+        """Press the bodies in to the depth `now`, on the loading curve: from `at`, if they are there."""
+        if now > at:
+            with suppress(ContactError):
+                self._contact.step(1.0, now - at)
+                return
+        # bodies that start pressed in are on it, too
+        self._contact.reset(initial_gap=-now, parameters=own)
 
     def depths(self, forces: Numbers, flow: Flow) -> Numbers:
         """The depths [m] of a first loading at these forces [N], by interpolation: a start."""
@@ -352,11 +351,7 @@ class Law:
         return data
 
     def _each(
-        self,
-        data: Mapping[str, Any],
-        one: Callable[[Path, int], list[float]],
-        count: int,
-        width: int,
+        self, data: Mapping[str, Any], one: Callable[[Path, int], list[float]], count: int, width: int
     ) -> Numbers:
         """A row of numbers for each impact of a scene, by the program; NaN beyond the law."""
         with temporary.folder() as folder, warnings.catch_warnings():
@@ -445,18 +440,14 @@ def _slow(data: Mapping[str, Any]) -> dict[str, Any]:
     made["fmu"] = {"outputs": ["contact_radius", "stiffness"]}
     for key in ("coupling", "impact"):
         made.pop(key, None)
-    made["law"] = {
-        key: it for key, it in made.get("law", {}).items() if key != "elastic_restitution"
-    }
+    made["law"] = {key: it for key, it in made.get("law", {}).items() if key != "elastic_restitution"}
     made["target"].pop("plate_thickness", None)
     return _without_rates(made)
 
 
 def _without_rates(data: Mapping[str, Any]) -> dict[str, Any]:
     bodies = ("impactor", "target")
-    return {**data} | {
-        body: {key: it for key, it in data[body].items() if key != "rate"} for body in bodies
-    }
+    return {**data} | {body: {key: it for key, it in data[body].items() if key != "rate"} for body in bodies}
 
 
 def strengths_of(readings: tuple[str, ...], path: str | Path, law: Law) -> Numbers:

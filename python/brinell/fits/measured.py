@@ -93,10 +93,7 @@ class Measured:
 
 
 def measured(
-    source: str | Path | Table,
-    *,
-    decimal: Decimal | None = None,
-    columns: Mapping[str, str] | None = None,
+    source: str | Path | Table, *, decimal: Decimal | None = None, columns: Mapping[str, str] | None = None
 ) -> Measured:
     """The measurement in a file (CSV, Excel, Parquet) or a table.
 
@@ -116,11 +113,7 @@ def measured(
     else:
         used = _used(rows, found)
         make = _impacts
-    notes += [
-        f"The column `{one['heading']}` was not used."
-        for one in found.values()
-        if one["quantity"] not in used
-    ]
+    notes += [f"The column `{one['heading']}` was not used." for one in found.values() if one["quantity"] not in used]
     values = {name: _numbers(rows, found[name]) for name in used}
     for name in used:
         _check(rows, found[name], values[name], make is _record)
@@ -218,15 +211,9 @@ def _impacts(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measur
         if np.all(np.isnan(point)):
             where = rows.place(int(at_row[at]))
             raise ValueError(f"{where}: no result is given: {one_of(results)}")
-    arguments = {"speed": speed} | {
-        name: values[name] for name in ("mass", "angle") if name in values
-    }
-    if (
-        "tangential_restitution" in results or "rebound_angle" in results
-    ) and "angle" not in values:
-        raise ValueError(
-            f"{rows.place()}: oblique impacts need a column `angle [deg]`, from the normal"
-        )
+    arguments = {"speed": speed} | {name: values[name] for name in ("mass", "angle") if name in values}
+    if ("tangential_restitution" in results or "rebound_angle" in results) and "angle" not in values:
+        raise ValueError(f"{rows.place()}: oblique impacts need a column `angle [deg]`, from the normal")
     order = np.lexsort((arguments.get("angle", speed), speed))
     return Measured(
         "impacts",
@@ -277,23 +264,15 @@ def _record(rows: Rows, values: dict[str, Numbers], notes: list[str]) -> Measure
     if not np.any(pressed):
         raise ValueError(f"{rows.name}: no force is positive; compression counts positive")
     if not np.all(pressed):
-        notes.append(
-            f"{np.count_nonzero(~pressed)} of {len(force)} points have no positive force and were left "
-            "out."
-        )
+        notes.append(f"{np.count_nonzero(~pressed)} of {len(force)} points have no positive force and were left out.")
     depth, force = depth[pressed], force[pressed]
     part = parts(depth, force)
     order = np.arange(len(depth)) if part.any() else np.argsort(depth, kind="stable")
     if part.any():
         unloadings = f"{part.max()} unloading" + ("s" if part.max() > 1 else "")
-        notes.append(
-            f"The record has {unloadings}: {np.count_nonzero(part)} of {len(part)} points are used as "
-            "such."
-        )
+        notes.append(f"The record has {unloadings}: {np.count_nonzero(part)} of {len(part)} points are used as such.")
     depth, force = depth[order], force[order]
-    return Measured(
-        "record", {"depth": depth, "force": force}, {"force": force}, part[order], tuple(notes)
-    )
+    return Measured("record", {"depth": depth, "force": force}, {"force": force}, part[order], tuple(notes))
 
 
 def parts(depth: Numbers, force: Numbers) -> NDArray[np.int_]:

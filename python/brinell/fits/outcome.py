@@ -141,14 +141,7 @@ def _drawn(
         return [None] * len(near.at)
     # blocks as long as the cube root of the number of points, longer under a trend
     block = max(1, round(problem.points.count ** (0.5 if has_trend else 0.0)))
-    return intervals.bootstrap(
-        expanded,
-        near,
-        problem.groups(),
-        draws=draws,
-        block=block,
-        seed=seed,
-    )
+    return intervals.bootstrap(expanded, near, problem.groups(), draws=draws, block=block, seed=seed)
 
 
 def _estimates(
@@ -181,9 +174,7 @@ def _estimates(
     return estimates
 
 
-def _of_variables(
-    problem: Problem, index: int, ends: tuple[float, float] | None
-) -> tuple[float, float] | None:
+def _of_variables(problem: Problem, index: int, ends: tuple[float, float] | None) -> tuple[float, float] | None:
     if ends is None:
         return None
     both = [np.where(np.arange(len(problem.names)) == index, end, 0.0) for end in ends]
@@ -192,11 +183,7 @@ def _of_variables(
 
 
 def _doubt(
-    problem: Problem,
-    near: Linear,
-    index: int,
-    effect: float,
-    interval: tuple[float, float] | None,
+    problem: Problem, near: Linear, index: int, effect: float, interval: tuple[float, float] | None
 ) -> str | None:
     """The reason why the parameter at `index` is not determined."""
     name = problem.names[index]
@@ -208,20 +195,11 @@ def _doubt(
         if bound < 0 and end == 0.0:
             return "not distinguishable from 0: the best value would be negative"
         side = "below" if bound < 0 else "above"
-        of = (
-            "the bound"
-            if own
-            else "the smallest of a scene"
-            if bound < 0
-            else "the largest of a scene"
-        )
+        of = "the bound" if own else "the smallest of a scene" if bound < 0 else "the largest of a scene"
         return f"not determined: the best value would be {side} {shown}, {of}"
     if not effect > NO_EFFECT:
         if problem.points.kind == "record":
-            return (
-                "not determined: no force depends on it; contacts that do not yield, for example, "
-                "are elastic"
-            )
+            return "not determined: no force depends on it; contacts that do not yield, for example, are elastic"
         what = " or ".join(it.replace("_", " ") for it in problem.points.results)
         return (
             f"not determined: no {what} depends on it; impacts that do not yield, for example, "
@@ -231,21 +209,14 @@ def _doubt(
     if near.freedom <= 0:
         different = problem.points.different
         word = "different " if different < problem.points.count else ""
-        return (
-            f"without an interval: {different} {word}points for {count} parameters leave nothing to "
-            "judge it by"
-        )
+        return f"without an interval: {different} {word}points for {count} parameters leave nothing to judge it by"
     if interval is None:
         return None
     low, high = interval
     if problem.logarithmic[index]:
         with np.errstate(over="ignore"):
             factor = float(np.exp(high - low))
-        return (
-            f"hardly determined: its interval spans a factor of {factor:.2e}"
-            if factor > 4.0
-            else None
-        )
+        return f"hardly determined: its interval spans a factor of {factor:.2e}" if factor > 4.0 else None
     if low <= 0.0 <= high and name not in ("zero_point", "preload"):
         return "not distinguishable from 0"
     return None

@@ -55,19 +55,11 @@ class Problem:
             force = float(np.max(self.points.arguments["force"]))
             scale |= {"zero_point": depth, "preload": force, "compliance": depth / force}
         self.scales = np.array([scale.get(name, 1.0) for name in self.names])
-        low = [
-            max(one.low, self.bounds.get(it, (-np.inf,))[0])
-            for it, one in zip(self.names, ones, strict=True)
-        ]
-        high = [
-            min(one.high, self.bounds.get(it, (0.0, np.inf))[1])
-            for it, one in zip(self.names, ones, strict=True)
-        ]
+        low = [max(one.low, self.bounds.get(it, (-np.inf,))[0]) for it, one in zip(self.names, ones, strict=True)]
+        high = [min(one.high, self.bounds.get(it, (0.0, np.inf))[1]) for it, one in zip(self.names, ones, strict=True)]
         # those of a scene are far away, unless the user gives them
         self.low = np.where(
-            self.logarithmic & (np.array([it not in self.bounds for it in self.names])),
-            -np.inf,
-            self.variables(low),
+            self.logarithmic & (np.array([it not in self.bounds for it in self.names])), -np.inf, self.variables(low)
         )
         self.high = np.where(np.array(high) >= 1e18, np.inf, self.variables(high))
         self.ends = np.array(low), np.array(high)
@@ -143,9 +135,7 @@ class Problem:
                 if part > 0.0:
                     start[place["compliance"]] = part
                 if "zero_point" in place:
-                    start[place["zero_point"]] = (
-                        self._zero(start) / self.scales[place["zero_point"]]
-                    )
+                    start[place["zero_point"]] = self._zero(start) / self.scales[place["zero_point"]]
             groups.append([np.clip(it, self.low, self.high) for it in group])
         return groups
 
@@ -167,9 +157,7 @@ class Problem:
         def squares(start: Numbers) -> float:
             found = self.of(self.flow(start), few)
             sum_ = sum(float(np.nansum((it / self.sizes[name]) ** 2)) for name, it in found.items())
-            bad = any(
-                np.any(np.isnan(it) & np.isfinite(few.results[name])) for name, it in found.items()
-            )
+            bad = any(np.any(np.isnan(it) & np.isfinite(few.results[name])) for name, it in found.items())
             return np.inf if bad else sum_
 
         return [min(group, key=squares) for group in self.starts()]
@@ -178,10 +166,7 @@ class Problem:
         """The optimum within the bounds, by scipy: first with derivatives of one side from each start,
         then of both from the best."""
         try:
-            rough = [
-                self._least("2-point", 1e-6, it)
-                for it in (self.start() if start is None else [start])
-            ]
+            rough = [self._least("2-point", 1e-6, it) for it in (self.start() if start is None else [start])]
             best = min(rough, key=lambda it: float(it.cost))
             found = self._least("3-point", TOLERANCE, self._snapped(best.x))
         except (ValueError, np.linalg.LinAlgError) as error:

@@ -58,9 +58,7 @@ def _place(name: str, of: str, before: int, line: int | None, column: int | None
     return where if column is None else f"{where}, column {column}"
 
 
-def rows_of(
-    source: Any, decimal: Decimal | None = None, renamed: Mapping[str, str] | None = None
-) -> Rows:
+def rows_of(source: Any, decimal: Decimal | None = None, renamed: Mapping[str, str] | None = None) -> Rows:
     """The rows of a file or a table."""
     if decimal not in (None, ".", ","):
         raise ValueError(f"decimal = {decimal!r}; allowed are '.' and ','")
@@ -91,9 +89,7 @@ def _check_size(path: Path, ending: str) -> None:
 
     def check(size: int, what: str) -> None:
         if size > LARGEST:
-            raise ValueError(
-                f"{path}: {what} {size / 1e6:.0f} MB; allowed for a measurement is {LARGEST / 1e6:.0f} MB"
-            )
+            raise ValueError(f"{path}: {what} {size / 1e6:.0f} MB; allowed for a measurement is {LARGEST / 1e6:.0f} MB")
 
     check(path.stat().st_size, "the file has")
     if ending in (".xlsx", ".xlsm", ".ods") and zipfile.is_zipfile(path):
@@ -109,9 +105,7 @@ def _check_size(path: Path, ending: str) -> None:
             raise ValueError(f"{path}: it has {rows} rows; allowed is 1 to {MOST}")
 
 
-def _read(
-    place: tuple[str, str, int], arguments: Sequence[str | Path], text: str | None = None
-) -> Rows:
+def _read(place: tuple[str, str, int], arguments: Sequence[str | Path], text: str | None = None) -> Rows:
     found = json.loads(run("table", *arguments, text=text)[0])
     if wrong := found.get("wrong"):
         where = _place(*place, wrong["line"], wrong["column"])

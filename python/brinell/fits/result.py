@@ -113,8 +113,7 @@ class Fit:
     def _differences(rms: Mapping[str, float]) -> str:
         named = len(rms) > 1
         return ", ".join(
-            quantity(it, UNITS[name]) + (f" ({name.replace('_', ' ')})" if named else "")
-            for name, it in rms.items()
+            quantity(it, UNITS[name]) + (f" ({name.replace('_', ' ')})" if named else "") for name, it in rms.items()
         )
 
     def __str__(self) -> str:
@@ -131,9 +130,7 @@ class Fit:
         first = data.get("contact", [{}])[0]
         # a contact may have a body of its own
         of_contact = first.get(self.body, {})
-        if {"yield_strength", "hardness", "tensile_strength", "tensile_test", "material"} & {
-            *of_contact
-        }:
+        if {"yield_strength", "hardness", "tensile_strength", "tensile_test", "material"} & {*of_contact}:
             own = {**first, self.body: self._body(of_contact)}
             data["contact"] = [own, *data["contact"][1:]]
         else:

@@ -23,10 +23,7 @@ RESULTS = ("restitution", "dent")
 
 
 def draw(
-    path: str | Path,
-    table: pandas.DataFrame | Table,
-    names: Sequence[str],
-    results: Sequence[str] = RESULTS,
+    path: str | Path, table: pandas.DataFrame | Table, names: Sequence[str], results: Sequence[str] = RESULTS
 ) -> None:
     """Draw `results` over the varied quantities `names`, all of them columns of the table of
     `study` or `sweep`; the extension of `path` selects the format.
@@ -72,9 +69,7 @@ def _by_law(table: pandas.DataFrame | Table) -> dict[str, dict[str, NDArray[Any]
         return {"": columns}
     laws = columns.pop("law")
     every = {law: laws == law for law in dict.fromkeys(laws.tolist())}
-    return {
-        law: {name: column[rows] for name, column in columns.items()} for law, rows in every.items()
-    }
+    return {law: {name: column[rows] for name, column in columns.items()} for law, rows in every.items()}
 
 
 def _check(tables: Mapping[str, Table], names: Sequence[str], results: Sequence[str]) -> None:
@@ -101,14 +96,7 @@ def _values(table: Table, name: str) -> NDArray[Any]:
     return np.asarray((1e6 if name.startswith("dent") else 1.0) * table[name])
 
 
-def _map(
-    figure: Figure,
-    axes: Any,
-    table: Table,
-    names: Sequence[str],
-    result: str,
-    units: Mapping[str, str],
-) -> None:
+def _map(figure: Figure, axes: Any, table: Table, names: Sequence[str], result: str, units: Mapping[str, str]) -> None:
     x, y = (table[name] for name in names)
     values = _values(table, result)
     columns, rows = np.unique(x), np.unique(y)
@@ -123,15 +111,7 @@ def _map(
     _axes(axes, table, names[1], units, "", vertical=True)
 
 
-def _axes(
-    axes: Any,
-    table: Table,
-    name: str,
-    units: Mapping[str, str],
-    label: str,
-    *,
-    vertical: bool = False,
-) -> None:
+def _axes(axes: Any, table: Table, name: str, units: Mapping[str, str], label: str, *, vertical: bool = False) -> None:
     """Label an axis, and make it logarithmic if the values are spread logarithmically."""
     values = np.unique(table[name])
     middle = values[len(values) // 2]

@@ -84,9 +84,7 @@ def runs(vary: Mapping[str, Varied], sample: str = "grid", seed: int = 0) -> dic
     """
     if not vary:
         raise ValueError("nothing is varied; for example, vary={'speed': '0.1:10:50log'}")
-    given = {
-        name: read(value, name) if isinstance(value, str) else value for name, value in vary.items()
-    }
+    given = {name: read(value, name) if isinstance(value, str) else value for name, value in vary.items()}
     if sample == "grid":
         axes = [axis(name, value) for name, value in given.items()]
         grids = np.meshgrid(*axes, indexing="ij")

@@ -37,8 +37,7 @@ def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str,
         impact |= {"speed": predicted.speed} if impact else {}
     if known is None:
         raise ValueError(
-            f"{scene} has no [impact] with a mass, and no density of [impactor]: pass mass= (--mass), or "
-            "vary it"
+            f"{scene} has no [impact] with a mass, and no density of [impactor]: pass mass= (--mass), or vary it"
         )
     path = folder / "scene.toml"
     path.write_text(toml(of_impacts(data, float(known))), encoding="utf-8")

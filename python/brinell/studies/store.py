@@ -40,9 +40,7 @@ class Parts:
         """Number of runs in a chunk of these parts."""
         known = self._known()
         if any(plan != self._key for plan, _ in known):
-            raise ValueError(
-                f"{self.folder} has parts of another study: finish that one, or delete the folder"
-            )
+            raise ValueError(f"{self.folder} has parts of another study: finish that one, or delete the folder")
         if known:
             self.size = known[0][1]
         text = json.dumps({"plan": self._key, "chunk": self.size})
@@ -72,10 +70,7 @@ class Parts:
         """Save a chunk; its file is complete, or does not exist."""
         arrow = pyarrow.table(table)
         arrow = arrow.replace_schema_metadata({"plan": self._key, "chunk": str(self.size)})
-        self._put(
-            f"{chunk:06}.parquet",
-            lambda draft: parquet.write_table(arrow, draft, write_page_checksum=True),
-        )
+        self._put(f"{chunk:06}.parquet", lambda draft: parquet.write_table(arrow, draft, write_page_checksum=True))
 
     def _put(self, name: str, write: Callable[[Path], object]) -> None:
         """Write a file of the folder, again if an equal study finishes and removes it meanwhile."""

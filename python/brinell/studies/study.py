@@ -84,8 +84,7 @@ def study(
     dataframe = pandas_of("brinell.study").DataFrame
     values = plan.runs(vary, sample, seed)
     mass, speed = (
-        None if number is None else in_si(name, number)
-        for name, number in (("mass", mass), ("speed", speed))
+        None if number is None else in_si(name, number) for name, number in (("mass", mass), ("speed", speed))
     )
     fixed = {name: in_si(name, number) for name, number in (parameters or {}).items()}
     with temporary.folder() as folder:
@@ -174,9 +173,7 @@ def _workers(runs: int, scheduler: str | None) -> int:
 def _check(library: Library, columns: Mapping[str, Rows]) -> None:
     variables = Variables(library)
     if not variables.knows_mass or len(variables.contacts) != 1:
-        raise ContactError(
-            f"{library.path}: a study needs an FMU with one contact that knows the mass"
-        )
+        raise ContactError(f"{library.path}: a study needs an FMU with one contact that knows the mass")
     for name in ("effective_mass", "initial_gap", *(set(columns) - {"speed", "mass"})):
         if name not in variables.parameters:
             raise variables.unknown("parameter", name, ("speed", "mass", *variables.parameters))
@@ -203,11 +200,7 @@ def _run(
         parts = store.Parts(tables[0], key, size)
     size = parts.size if parts else size
     chunks = {at: rows[at : at + size] for at in range(0, len(rows), size)}
-    done = {
-        at: part
-        for at, chunk in chunks.items()
-        if parts and (part := parts.load(at, len(chunk))) is not None
-    }
+    done = {at: part for at, chunk in chunks.items() if parts and (part := parts.load(at, len(chunk))) is not None}
     before = sum(len(chunks[at]) for at in done)
     with _bar(len(rows), before, progress) as done_more:
         left = {at: chunk for at, chunk in chunks.items() if at not in done}
@@ -284,9 +277,7 @@ def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
 
 
 @contextmanager
-def _pool(
-    unit: Path, workers: int, scheduler: str | None
-) -> Iterator[tuple[Callable[..., Any], Callable[..., Any]]]:
+def _pool(unit: Path, workers: int, scheduler: str | None) -> Iterator[tuple[Callable[..., Any], Callable[..., Any]]]:
     """A function to start a chunk, and one to wait for chunks."""
     if scheduler is None:
         pool = ProcessPoolExecutor(workers, initializer=_end_with_parent)
@@ -305,7 +296,4 @@ def _pool(
     with client:
         # other machines do not have the file
         data = client.scatter(unit.read_bytes(), broadcast=True)
-        yield (
-            lambda names, rows: client.submit(impacts.run, data, names, rows, pure=False),
-            distributed.as_completed,
-        )
+        yield (lambda names, rows: client.submit(impacts.run, data, names, rows, pure=False), distributed.as_completed)
