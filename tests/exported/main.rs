@@ -30,7 +30,6 @@ mod library;
 mod long_messages;
 mod loss_parameters;
 mod own_curve;
-mod parameters_per_contact;
 mod prebuilt_libraries;
 mod prebuilt_refusals;
 mod rebounds;
