@@ -21,7 +21,6 @@ mod friction_plastic;
 mod friction_properties;
 mod friction_tables;
 mod friction_two;
-mod friction_two_growth;
 mod friction_two_steps;
 mod guard;
 mod hardening;
