@@ -74,38 +74,54 @@ fn a_missing_file_is_named_once() {
     assert_eq!(message.matches("unit.fmu").count(), 1, "{message}");
 }
 
-#[test]
-fn a_text_file_is_no_archive() {
+/// A folder with a file of these bytes as `unit.fmu`.
+fn with_file(bytes: impl AsRef<[u8]>) -> TempDir {
     let folder = empty_folder();
-    fs::write(folder.path().join("unit.fmu"), "a text").unwrap();
-    contains(&message(&folder), &["no zip archive"]);
+    fs::write(folder.path().join("unit.fmu"), bytes).unwrap();
+    folder
 }
 
 #[test]
-fn an_empty_file_is_no_archive() {
-    let folder = empty_folder();
-    fs::write(folder.path().join("unit.fmu"), "").unwrap();
-    contains(&message(&folder), &["no zip archive"]);
+fn what_is_no_fmu_of_this_kind_is_refused_with_the_reason() {
+    let good = fs::read(unit::export(&unit::scene("steel_ball"))).unwrap();
+    let many = empty_folder();
+    // each empty file takes a place in the file system
+    archive::write(&many.path().join("unit.fmu"), (0..=100_000).map(|number| (format!("resources/{number}"), [])));
+    let garbage = |name: &str, bytes| Some(if is_library(name) { b"garbage".repeat(1000) } else { bytes });
+    let library = format!("steel_ball{DLL_SUFFIX}");
+    let name = "modelIdentifier=\"steel_ball\"";
+    for (folder, parts) in [
+        (with_file("a text"), &["no zip archive"][..]),
+        (with_file(""), &["no zip archive"]),
+        (with_file(&good[..good.len() / 2]), &["no zip archive"]),
+        (many, &["more than 100000 files"]),
+        (changed(|name, bytes| (name == "model.png").then_some(bytes)), &["modelDescription.xml"]),
+        (with_text("modelDescription.xml", "<fmiModelDescription"), &["modelDescription.xml can't be read"]),
+        (with(XML, "fmiVersion=\"2.0\"", "fmiVersion=\"3.0\""), &["fmiVersion", "3.0"]),
+        (with(XML, "CoSimulation", "ModelExchange"), &["CoSimulation", "co-simulation"]),
+        (with(XML, name, "modelIdentifier=\"other\""), &["binaries", &format!("other{DLL_SUFFIX}")]),
+        (with(XML, name, "modelIdentifier=\"/tmp/steel_ball\""), &["/tmp/steel_ball", "no name"]),
+        (with(XML, name, "modelIdentifier=\"../linux64/steel_ball\""), &["no name of a library"]),
+        (changed(garbage), &[&library, " can't be loaded: "]),
+        (with(DLL_SUFFIX, "fmi2DoStep", "fmi2DoStop"), &["fmi2DoStep"]),
+        (with(SCENE, "name", b"\xe4"), &["scene.toml", "UTF-8"]),
+        (changed(|name, bytes| (name != SCENE).then_some(bytes)), &["resources/scene.toml"]),
+        (with_text(SCENE, "name = 1"), &["resources/scene.toml:1:8", "text in quotes"]),
+    ] {
+        contains(&message(&folder), parts);
+    }
 }
 
+/// The start values are compiled into the library: a change in the XML does not change the simulation.
 #[test]
-fn half_an_fmu_is_not_an_archive() {
-    let folder = changed(|_, bytes| Some(bytes));
-    let path = folder.path().join("unit.fmu");
-    let bytes = fs::read(&path).unwrap();
-    fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
-    contains(&message(&folder), &["no zip archive"]);
-}
-
-#[test]
-fn an_archive_without_model_description_is_not_an_fmu() {
-    contains(&message(&changed(|name, bytes| (name == "model.png").then_some(bytes))), &["modelDescription.xml"]);
-}
-
-#[test]
-fn a_model_description_that_is_not_xml_is_refused() {
-    let folder = with_text("modelDescription.xml", "<fmiModelDescription");
-    contains(&message(&folder), &["modelDescription.xml can't be read"]);
+fn a_start_value_changed_in_the_xml_is_reported_with_both_numbers() {
+    let folder = with(XML, "start=\"0.005\"", "start=\"0.006\"");
+    contains(&refused(folder.path()).out, &["impactor.radius", "0.006 in the XML", "0.005 in the binary"]);
+    let outcome = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(1).json();
+    assert_eq!((&outcome["passed"], outcome["wrong_starts"].as_array().map(Vec::len)), (&false.into(), Some(1)));
+    // by its last bit
+    let folder = with(XML, "start=\"0.005\"", "start=\"0.0050000000000000010\"");
+    contains(&refused(folder.path()).out, &["impactor.radius", "0.005 in the binary"]);
 }
 
 /// Control characters and the two non-characters, literally and as references: other XML parsers reject them.
@@ -145,20 +161,6 @@ fn an_fmu_for_another_platform_says_for_which() {
     contains(&message(&folder), &["no binary for this platform", "commodore64"]);
 }
 
-/// What the model description says of an FMU that this program can't load.
-#[test]
-fn a_model_description_of_another_kind_of_unit_is_refused_with_the_reason() {
-    for (from, to, said) in [
-        ("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\"", &["fmiVersion", "3.0"][..]),
-        ("CoSimulation", "ModelExchange", &["CoSimulation", "co-simulation"]),
-        ("modelIdentifier=\"steel_ball\"", "modelIdentifier=\"other\"", &["binaries", &format!("other{DLL_SUFFIX}")]),
-        ("modelIdentifier=\"steel_ball\"", "modelIdentifier=\"/tmp/steel_ball\"", &["/tmp/steel_ball", "no name"]),
-        ("modelIdentifier=\"steel_ball\"", "modelIdentifier=\"../linux64/steel_ball\"", &["no name of a library"]),
-    ] {
-        contains(&message(&with(XML, from, to)), said);
-    }
-}
-
 #[test]
 fn a_wrong_number_in_the_model_description_is_told_with_its_variable() {
     for (from, to, said) in [
@@ -169,11 +171,6 @@ fn a_wrong_number_in_the_model_description_is_told_with_its_variable() {
     }
     // white space around a number is allowed
     run(with(XML, "start=\"0.005\"", "start=\" 0.005 \"").path(), ["check", "unit.fmu"]).with_status(0);
-}
-
-#[test]
-fn a_scene_that_is_not_utf_8_is_not_a_missing_one() {
-    contains(&message(&with(SCENE, "name", b"\xe4")), &["scene.toml", "UTF-8"]);
 }
 
 /// Nothing is written outside, nothing grows beyond what is allowed, and each command that sees what is wrong says it.
@@ -216,26 +213,6 @@ fn a_file_that_is_larger_than_any_fmu_is_not_read() {
     }
 }
 
-/// Each empty file takes a place in the file system.
-#[test]
-fn an_archive_with_a_million_files_is_not_unpacked() {
-    let folder = empty_folder();
-    let files = (0..=100_000).map(|number| (format!("resources/{number}"), []));
-    archive::write(&folder.path().join("unit.fmu"), files);
-    contains(&message(&folder), &["more than 100000 files"]);
-}
-
-#[test]
-fn a_library_of_garbage_is_refused() {
-    let garbage = |name: &str, bytes| Some(if is_library(name) { b"garbage".repeat(1000) } else { bytes });
-    contains(&message(&changed(garbage)), &[&format!("the library steel_ball{DLL_SUFFIX} can't be loaded: ")]);
-}
-
-#[test]
-fn a_library_without_the_functions_is_refused_with_the_missing_name() {
-    contains(&message(&with(DLL_SUFFIX, "fmi2DoStep", "fmi2DoStop")), &["fmi2DoStep"]);
-}
-
 #[test]
 fn a_guid_other_than_the_librarys_is_refused() {
     let source = unit::export(&unit::scene("steel_ball"));
@@ -245,40 +222,9 @@ fn a_guid_other_than_the_librarys_is_refused() {
     contains(&message(&folder), &["fmi2Instantiate", "fmuGUID", "modelDescription.xml"]);
 }
 
-/// The start values are compiled into the library: a change in the XML does not change the simulation.
-#[test]
-fn a_start_value_changed_in_the_xml_is_reported_with_both_numbers() {
-    let run = refused(with(XML, "start=\"0.005\"", "start=\"0.006\"").path());
-    contains(&run.out, &["impactor.radius", "0.006 in the XML", "0.005 in the binary"]);
-}
-
-#[test]
-fn a_start_value_changed_by_its_last_bit_is_reported() {
-    let folder = with(XML, "start=\"0.005\"", "start=\"0.0050000000000000010\"");
-    contains(&refused(folder.path()).out, &["impactor.radius", "0.005 in the binary"]);
-}
-
-#[test]
-fn a_wrong_start_value_is_in_the_json_too() {
-    let folder = with(XML, "start=\"0.005\"", "start=\"0.006\"");
-    let outcome = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(1).json();
-    assert_eq!(outcome["passed"], false);
-    assert_eq!(outcome["wrong_starts"].as_array().map(Vec::len), Some(1), "{outcome}");
-}
-
 /// The numbers of the impact come from the scene, those of the simulation from the library.
 #[test]
 fn a_scene_other_than_the_librarys_does_not_agree() {
     let run = refused(with(SCENE, "unloading = \"contact-radius\"", "unloading = \"hertz-shift\"").path());
     contains(&run.out, &["NO AGREEMENT"]);
-}
-
-#[test]
-fn an_fmu_without_scene_says_that_there_is_no_impact_to_run() {
-    contains(&message(&changed(|name, bytes| (name != SCENE).then_some(bytes))), &["resources/scene.toml"]);
-}
-
-#[test]
-fn a_scene_damaged_in_the_archive_is_refused_with_its_place() {
-    contains(&message(&with_text(SCENE, "name = 1")), &["resources/scene.toml:1:8", "text in quotes"]);
 }

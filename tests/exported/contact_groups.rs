@@ -67,54 +67,6 @@ fn the_impact_meets_the_first_contact_of_every_group() {
     assert!(contacts.iter().all(|contact| contact["rows"].as_array().unwrap().len() == 5), "{check}");
 }
 
-/// Each contact has its own bodies: the largest force is that of the plain scene with the numbers of the contact.
-#[test]
-fn the_contacts_of_an_fmu_have_their_own_bodies() {
-    let (_, check) = exported(&scene("two_contacts"));
-    assert_eq!(check["passed"], true, "{check}");
-    let ball = "[impactor]\nradius = 5e-3\nyoungs_modulus = 210e9\npoissons_ratio = 0.3\n[target]\nmaterial = ";
-    let impact = "[impact]\nmass = 4.11e-3\nspeed = 1.0\n";
-    let folder = empty_folder();
-    for (index, material) in ["mild steel", "aluminium 6061-T6"].iter().enumerate() {
-        fs::write(folder.path().join("plain.toml"), format!("name = \"plain\"\n{ball}\"{material}\"\n{impact}"))
-            .unwrap();
-        let plain = run(folder.path(), ["predict", "plain.toml", "--json"]).with_status(0).json();
-        let row = &check["contacts"][index]["rows"][0];
-        assert_eq!(row["predicted"], plain["laws"][0]["largest_force"], "{material}");
-        let simulated = row["simulated"].as_f64().unwrap() / row["predicted"].as_f64().unwrap();
-        assert!((simulated - 1.0).abs() < 1e-6, "{check}");
-    }
-    assert_ne!(check["contacts"][0]["rows"], check["contacts"][1]["rows"]);
-}
-
-/// Waves take energy that depends on the density. The rebound of each contact is that of a plain scene with its density.
-#[test]
-fn the_contacts_of_an_fmu_have_their_own_densities() {
-    let folder = empty_folder();
-    let law = "[law]\nelastic_restitution = \"waves\"\n";
-    let densities = [2000.0, 8000.0, 16000.0];
-    let contacts: String = densities
-        .iter()
-        .enumerate()
-        .map(|(index, density)| format!("[[contact]]\nname = \"c{index}\"\ntarget = {{ density = {density:?} }}\n"))
-        .collect();
-    fs::write(folder.path().join("scene.toml"), format!("{STEEL}{law}{contacts}{IMPACT}")).unwrap();
-    let (_, check) = exported(&folder.path().join("scene.toml"));
-    assert_eq!(check["passed"], true, "{check}");
-    let mut rebounds = Vec::new();
-    for (index, density) in densities.iter().enumerate() {
-        fs::write(folder.path().join("plain.toml"), format!("{STEEL}density = {density:?}\n{law}{IMPACT}")).unwrap();
-        let plain = run(folder.path(), ["predict", "plain.toml", "--json"]).with_status(0).json();
-        let rows = check["contacts"][index]["rows"].as_array().unwrap();
-        let row = rows.iter().find(|row| row["quantity"] == "restitution").expect("a rebound is checked");
-        let predicted = plain["laws"][0]["restitution"].as_f64().unwrap();
-        let simulated = row["simulated"].as_f64().unwrap();
-        assert!((simulated / predicted - 1.0).abs() < 1e-4, "{density}: {simulated} instead of {predicted}");
-        rebounds.push(simulated);
-    }
-    assert!(rebounds.windows(2).all(|pair| (pair[0] / pair[1] - 1.0).abs() > 1e-3), "{rebounds:?}");
-}
-
 /// A gap that cannot be set is crossed first; a contact that starts indented is not moved.
 #[test]
 fn contacts_with_constant_gaps_are_checked_too() {

@@ -74,12 +74,6 @@ fn an_elastic_fmu_has_no_constant_of_a_plastic_law() {
     }
 }
 
-#[test]
-fn an_elastic_fmu_is_smaller_by_the_omitted_code() {
-    let [plastic, elastic] = [true, false].map(|yields| library(&scene(yields)).len());
-    assert!(elastic + 3000 < plastic, "{elastic} against {plastic} bytes");
-}
-
 /// The library of a scene, compiled like in an export, but with the names of its functions and of the source file of each piece
 /// of its code, inlined or not.
 fn with_names(sources: &Sources, scene: &Path) -> Vec<u8> {

@@ -1,7 +1,6 @@
 //! Derivatives of the inputs and outputs of FMUs with friction, and states with them.
 
 use crate::loaded::{ERROR, Instance, OK, Unit};
-use crate::physics::Random;
 use crate::unit;
 
 const STEP: f64 = 1e-6;
@@ -153,78 +152,6 @@ fn curved_motions_of_both_rates_are_exact_in_slip_and_of_second_order_in_stick()
         // a factor of 16 each, down to the error of merged segments
         assert!(errors[2] < 0.15 * errors[1] && errors[3] < 0.15 * errors[2], "{errors:?}");
     }
-}
-
-#[test]
-fn derivatives_apply_to_one_step() {
-    let unit = oblique();
-    let (mut instance, time) = worked(&unit, (0.3, 0.1));
-    let (mut other, _) = worked(&unit, (0.3, 0.1));
-    // the derivative of the tangential rate alone
-    let reference = instance.real_of("tangential_rate");
-    for instance in [&mut instance, &mut other] {
-        assert_eq!(instance.set_derivatives(&[reference], 1, &[2e5]), OK);
-        assert_eq!(instance.step(time, STEP), OK);
-        assert_eq!(instance.real("tangential_rate"), 0.1);
-    }
-    // the state knows the end of the step with derivatives
-    let state = instance.save();
-    let bytes = instance.bytes(state);
-    instance.free(state);
-    let state = instance.deserialize(&bytes).expect("its own state");
-    instance.restore(state);
-    instance.free(state);
-    let predicted = [&instance, &other].map(|instance| instance.real("predicted_tangential_force").to_bits());
-    assert_eq!(predicted[0], predicted[1]);
-    assert_eq!((instance.step(time + STEP, STEP), other.step(time + STEP, STEP)), (OK, OK));
-    let names = ["tangential_force", "friction_work", "tangential_impulse"];
-    for name in names {
-        assert_eq!(instance.real(name).to_bits(), other.real(name).to_bits(), "{name}");
-    }
-    // it was not for nothing
-    let (held, _) = worked(&unit, (0.3, 0.1));
-    assert_eq!(held.step(time, STEP), OK);
-    assert!((held.real("friction_work") / other.real("friction_work") - 1.0).abs() > 1e-3);
-}
-
-#[test]
-fn a_saved_course_continues_with_the_same_bits() {
-    let unit = oblique();
-    let mut random = Random(4);
-    let (mut instance, mut time) = worked(&unit, (0.3, 0.1));
-    let mut copy = unit.ready();
-    for _ in 0..100 {
-        let mut number = |size: f64| size * (2.0 * random.next() - 1.0);
-        instance
-            .set_one("indentation_rate", number(0.4) + if instance.real("indentation") < 1e-6 { 0.5 } else { -0.2 });
-        instance.set_one("tangential_rate", number(0.3));
-        bend(&mut instance, [number(1e5), number(1e5)], [number(1e11), number(1e11)]);
-        let state = instance.save();
-        let bytes = instance.bytes(state);
-        instance.free(state);
-        let state = copy.deserialize(&bytes).expect("its own state");
-        copy.restore(state);
-        copy.free(state);
-        assert_eq!((instance.step(time, STEP), copy.step(time, STEP)), (OK, OK), "{}", instance.message());
-        time += STEP;
-        for name in ["force", "tangential_force", "mean_tangential_force", "friction_work", "stick_radius"] {
-            assert_eq!(instance.real(name).to_bits(), copy.real(name).to_bits(), "{name}");
-        }
-    }
-}
-
-#[test]
-fn a_refused_step_changes_nothing() {
-    let unit = oblique();
-    let (mut instance, time) = worked(&unit, (0.3, 0.1));
-    let names = ["force", "tangential_force", "mean_tangential_force", "tangential_impulse", "friction_work"];
-    let before = names.map(|name| instance.real(name).to_bits());
-    bend(&mut instance, [1e5, 1e40], [1e11, 0.0]);
-    instance.take_message();
-    assert_eq!(instance.step(time, 2.0), ERROR);
-    let message = instance.take_message();
-    assert!(message.contains("allowed is -1e40 to 1e40 m/s, also within a step"), "{message}");
-    assert_eq!(names.map(|name| instance.real(name).to_bits()), before);
 }
 
 #[test]

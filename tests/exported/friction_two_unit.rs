@@ -1,6 +1,6 @@
 //! FMUs with friction in two directions, through the C interface.
 
-use crate::loaded::{ERROR, Instance, OK, Unit};
+use crate::loaded::{Instance, OK, Unit};
 use crate::physics::Random;
 use crate::unit;
 use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
@@ -34,11 +34,6 @@ fn unit_of(name: &str, more: &str) -> Unit {
          directions = 2\n[fmu]\noutputs = [{outputs}]\n[impact]\nmass = 2.6e-4\nspeed = 3.9\n{more}"
     );
     Unit::load(&unit::write_scene(name, &text))
-}
-
-/// The FMU of the scene `two_directions`, which yields.
-fn plastic() -> Unit {
-    Unit::load(&unit::scene("two_directions"))
 }
 
 /// The contact of [`unit_of`].
@@ -120,110 +115,5 @@ fn motion_along_one_line_has_the_forces_of_one_direction() {
             assert!(energy.abs() <= 1e-12 * limit * 1e-5, "{turn}: {energy:e}");
             assert_eq!(instance.integer("sliding"), line.sliding() as i32);
         }
-    }
-}
-
-#[test]
-fn coulombs_bound_holds_and_parts_of_a_step_change_little() {
-    for (name, unit, tolerance) in
-        [("elastic", unit_of("two_elastic", ""), 2e-3), ("big-alabo with contact-radius", plastic(), 1e-2)]
-    {
-        let coefficient = unit.ready().real("friction.coefficient");
-        for parts in [1_u32, 8, 100, 1000] {
-            let (mut whole, mut cut, [mut time, mut same]) = (unit.ready(), unit.ready(), [0.0; 2]);
-            let mut worst = 0.0_f64;
-            for pair in rates(8, 12) {
-                go(&mut whole, &mut time, pair, STEP);
-                for _ in 0..parts {
-                    go(&mut cut, &mut same, pair, STEP / f64::from(parts));
-                }
-                let limit = coefficient * whole.real("force");
-                for instance in [&whole, &cut] {
-                    let [x, y] = both(instance, "tangential_force");
-                    assert!(x.hypot(y) <= limit * (1.0 + 1e-9), "{name}: {:e} N, {limit:e} N", x.hypot(y));
-                }
-                let ([x, y], [u, v]) = (both(&whole, "tangential_force"), both(&cut, "tangential_force"));
-                worst = worst.max(if limit > 0.0 { (x - u).hypot(y - v) / limit } else { 0.0 });
-            }
-            println!("{name}, {parts} parts: {worst:.1e}");
-            assert!(worst <= tolerance, "{name}, {parts} parts: {worst:e}");
-        }
-    }
-}
-
-#[test]
-fn a_restored_contact_continues_with_the_same_bits() {
-    let unit = plastic();
-    let (mut one, mut other, [mut time, mut same]) = (unit.ready(), unit.ready(), [0.0; 2]);
-    for (index, pair) in rates(9, 40).into_iter().enumerate() {
-        go(&mut one, &mut time, pair, STEP);
-        go(&mut other, &mut same, pair, STEP);
-        assert_eq!(bits(&one), bits(&other), "{index}");
-        // through the bytes, after a step that the other instance does not make
-        let mut state = one.save();
-        let bytes = one.bytes(state);
-        let mut later = time;
-        go(&mut one, &mut later, (-1.0, [3.0, -2.0]), STEP);
-        assert_eq!(one.overwrite(&mut state, &bytes), OK);
-        one.restore(state);
-        one.free(state);
-        assert_eq!(bits(&one), bits(&other), "{index}");
-    }
-}
-
-#[test]
-fn hostile_rates_are_refused_or_give_finite_forces() {
-    let unit = unit_of("two_elastic", "");
-    for (value, said) in [
-        (f64::NAN, "tangential_rate = NaN is not finite"),
-        (-2e40, "tangential_rate = -2e40 is out of range: allowed is -1e40 to 1e40 m/s"),
-    ] {
-        let instance = unit.ready();
-        let references = ["indentation_rate", "tangential_rate[2]"].map(|name| instance.real_of(name));
-        instance.take_message();
-        assert_eq!(instance.set(&references, &[1.0, value]), ERROR);
-        let message = instance.take_message();
-        assert!(message.contains(said), "{message}");
-        assert_eq!(instance.real("indentation_rate"), 0.0);
-    }
-    let sizes = [0.0, 5e-324, 1e-200, 1e-30, 1e-9, 1.0, 1e9, 1e30, 1e40];
-    let mut random = Random(4);
-    for _ in 0..40 {
-        let (mut instance, mut time) = (unit.ready(), 0.0);
-        for (normal, _) in rates(13, 20) {
-            let mut any = || {
-                let size = sizes[(random.next() * sizes.len() as f64) as usize];
-                if random.next() < 0.5 { size } else { -size }
-            };
-            go(&mut instance, &mut time, (normal, [any(), any()]), STEP);
-            let limit = 0.092 * instance.real("force");
-            let [x, y] = both(&instance, "tangential_force");
-            assert!(x.hypot(y) <= limit * (1.0 + 1e-9), "{x:e} {y:e} {limit:e}");
-            for name in FRICTION.iter().filter(|name| !name.contains("work")) {
-                assert!(instance.real(name).is_finite(), "{name}");
-            }
-        }
-    }
-}
-
-#[test]
-fn contacts_have_their_own_components() {
-    let contacts = "[[contact]]\nname = \"left\"\n[[contact]]\nname = \"right\"\nfriction = { coefficient = 0.5 }\n";
-    let unit = unit_of("two_contacts_two", contacts);
-    let alone = unit_of("two_elastic", "");
-    let (mut instance, mut left, [mut time, mut same]) = (unit.ready(), alone.ready(), [0.0; 2]);
-    for (normal, [one, two]) in rates(11, 40) {
-        for (contact, sign) in [("left", 1.0), ("right", -1.0)] {
-            instance.set_one(&format!("{contact}.indentation_rate"), normal);
-            instance.set_one(&format!("{contact}.tangential_rate[1]"), sign * one);
-            instance.set_one(&format!("{contact}.tangential_rate[2]"), sign * two);
-        }
-        assert_eq!(instance.step(time, STEP), OK, "{}", instance.message());
-        time += STEP;
-        go(&mut left, &mut same, (normal, [one, two]), STEP);
-        let found = both(&instance, "left.tangential_force");
-        assert_eq!(found.map(f64::to_bits), both(&left, "tangential_force").map(f64::to_bits));
-        let [x, y] = both(&instance, "right.tangential_force");
-        assert!(x * found[0] + y * found[1] <= 0.0 || found == [0.0; 2] || x.hypot(y) > 0.0);
     }
 }

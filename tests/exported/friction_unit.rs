@@ -101,40 +101,6 @@ fn the_unit_gives_the_same_bits_as_the_library() {
 }
 
 #[test]
-fn coulombs_bound_holds_and_friction_work_never_falls() {
-    for unit in [project("oblique"), steel("thornton_rough", PLASTIC)] {
-        let coefficient = unit.ready().real("friction.coefficient");
-        let (mut instance, mut time, mut lost) = (unit.ready(), 0.0, 0.0);
-        for pair in rates(6, 1000) {
-            go(&mut instance, &mut time, pair, STEP);
-            let (force, pull) = (instance.real("force"), instance.real("tangential_force"));
-            assert!(pull.abs() <= coefficient * force * (1.0 + 1e-12), "{pull:e} N at {force:e} N");
-            let now = instance.real("friction_work");
-            // merged segments may store slightly more or less energy
-            assert!(now >= lost - 1e-4 * now.abs() - 1e-15, "{now:e} after {lost:e}");
-            lost = now;
-        }
-        assert!(lost > 0.0);
-    }
-}
-
-#[test]
-fn both_signs_are_mirror_images_to_the_bit() {
-    for unit in [project("oblique"), steel("thornton_rough", PLASTIC)] {
-        let (mut one, mut other, [mut time, mut same]) = (unit.ready(), unit.ready(), [0.0; 2]);
-        for (normal, tangential) in rates(7, 300) {
-            go(&mut one, &mut time, (normal, tangential), STEP);
-            go(&mut other, &mut same, (normal, -tangential), STEP);
-            for (name, sign) in [("tangential_force", -1.0), ("mean_tangential_force", -1.0), ("friction_work", 1.0)] {
-                assert_eq!(one.real(name), sign * other.real(name), "{name}");
-            }
-            assert_eq!(one.integer("sliding"), other.integer("sliding"));
-            assert_eq!(bits(&one, &["force", "indentation"]), bits(&other, &["force", "indentation"]));
-        }
-    }
-}
-
-#[test]
 fn a_step_is_that_of_its_parts() {
     // an elastic contact exactly; a dent that grows, as far as its law is exact
     for (unit, tolerance, of_mean) in [
@@ -163,44 +129,6 @@ fn a_step_is_that_of_its_parts() {
             assert!(worst <= tolerance && worst_mean <= of_mean, "{parts} parts: {worst:e} {worst_mean:e}");
         }
     }
-}
-
-#[test]
-fn nothing_happens_without_normal_contact() {
-    let unit = project("oblique");
-    let mut instance = unit.ready_with(&[("initial_gap", 1e-3)]);
-    let mut time = 0.0;
-    for tangential in [1.0, -1e3, 1e40, 0.0] {
-        go(&mut instance, &mut time, (0.0, tangential), STEP);
-        for name in FRICTION {
-            assert_eq!(instance.real(name), 0.0, "{name}");
-        }
-        assert_eq!(instance.integer("sliding"), 0);
-    }
-}
-
-#[test]
-fn a_tangential_motion_alone_slips_from_the_edge_until_the_contact_slides() {
-    let unit = project("oblique");
-    let model = oblique();
-    let mut instance = unit.ready_with(&[("initial_gap", -2e-6)]);
-    let (force, mut time, mut before) = (instance.real("force"), 0.0, 0.0);
-    let limit = 0.092 * force;
-    // Cattaneo and Mindlin: the displacement at which the contact slides is 3 mu F/(16 G* a)
-    let radius = (2.5e-3_f64 * 2e-6).sqrt();
-    let shear = model.friction.stiffness_ratio * model.normal.pair.modulus / 4.0;
-    let slide = 3.0 * limit / (16.0 * shear * radius);
-    for part in 1..=20 {
-        go(&mut instance, &mut time, (0.0, 0.1 * slide / STEP), STEP);
-        let pull = instance.real("tangential_force");
-        let part = 0.1 * f64::from(part);
-        let expected = limit * if part < 1.0 { 1.0 - (1.0 - part).powf(1.5) } else { 1.0 };
-        assert!((pull - expected).abs() <= 1e-12 * limit, "{part}: {pull:e} N, not {expected:e} N");
-        assert_eq!(instance.integer("sliding"), if part < 0.999 { 2 } else { 3 });
-        assert!(pull >= before && instance.real("force") == force);
-        before = pull;
-    }
-    assert_eq!(instance.real("stick_radius"), 0.0);
 }
 
 #[test]
@@ -254,65 +182,5 @@ fn a_rejected_set_changes_nothing() {
         assert_eq!(instance.set(&[reference], &[value]), ERROR);
         let message = instance.take_message();
         assert!(message.contains(said), "{message}");
-    }
-}
-
-#[test]
-fn any_coefficient_gives_a_force_within_its_bound() {
-    let unit = project("oblique");
-    for coefficient in [0.0, 5e-324, 1e-200, 1e-100, 1e-50, 1e-12, 1e-3, 1.0, 10.0] {
-        let mut instance = unit.ready_with(&[("friction.coefficient", coefficient)]);
-        let mut time = 0.0;
-        for pair in rates(9, 200) {
-            go(&mut instance, &mut time, pair, STEP);
-            let (force, pull) = (instance.real("force"), instance.real("tangential_force"));
-            assert!(pull.abs() <= coefficient * force * (1.0 + 1e-12), "{coefficient:e}: {pull:e} N at {force:e} N");
-            for name in FRICTION {
-                assert!(instance.real(name).is_finite(), "{coefficient:e}: {name}");
-            }
-        }
-        if coefficient == 0.0 {
-            for name in FRICTION.into_iter().filter(|name| *name != "stick_radius") {
-                assert_eq!(instance.real(name), 0.0, "{name}");
-            }
-        } else if coefficient == 10.0 {
-            assert!(instance.integer("sliding") < 3, "a contact this rough does not slide here");
-        }
-    }
-}
-
-#[test]
-fn contacts_have_friction_of_their_own() {
-    let unit = project("rough_contacts");
-    let mut instance = unit.ready();
-    let alone = |coefficient: f64| {
-        let text = std::fs::read_to_string(unit::scene("rough_contacts")).expect("a scene file");
-        let text = text
-            .split("[[contact]]")
-            .next()
-            .expect("a first part")
-            .replace("coefficient = 0.4", &format!("coefficient = {coefficient:?}"));
-        Unit::load(&unit::write_scene(&format!("alone_{}", (100.0 * coefficient) as u32), &text))
-    };
-    let (rough, smooth) = (alone(0.4), alone(0.05));
-    let (mut one, mut two, mut time, mut others) = (rough.ready(), smooth.ready(), 0.0, [0.0; 2]);
-    for (step, (normal, tangential)) in rates(11, 60).into_iter().enumerate() {
-        let back = -tangential;
-        instance.set_one("rough.indentation_rate", normal);
-        instance.set_one("smooth.tangential_rate", back);
-        instance.set_one("smooth.indentation_rate", normal);
-        instance.set_one("rough.tangential_rate", tangential);
-        instance.set_one("frictionless.indentation_rate", if step == 0 { 101.0 } else { normal });
-        instance.set_one("frictionless.tangential_rate", tangential);
-        assert_eq!(instance.step(time, STEP), OK, "{}", instance.message());
-        time += STEP;
-        go(&mut one, &mut others[0], (normal, tangential), STEP);
-        go(&mut two, &mut others[1], (normal, back), STEP);
-        for name in ["force", "tangential_force", "friction_work", "mean_force"] {
-            assert_eq!(instance.real(&format!("rough.{name}")).to_bits(), one.real(name).to_bits(), "rough.{name}");
-            assert_eq!(instance.real(&format!("smooth.{name}")).to_bits(), two.real(name).to_bits(), "smooth.{name}");
-        }
-        assert_eq!(instance.real("frictionless.tangential_force"), 0.0);
-        assert_eq!(instance.real("frictionless.friction_work"), 0.0);
     }
 }

@@ -163,21 +163,6 @@ fn it_holds_no_path_of_the_machine_that_built_it() {
     }
 }
 
-/// Features that a scene does not request are neither in the XML nor in the binary.
-#[test]
-fn an_elastic_fmu_has_nothing_plastic() {
-    let [elastic, plastic] = ["elastic", "steel_ball"].map(|name| unit::library(&unit::export(&unit::scene(name))));
-    let size = |library: &Path| fs::metadata(library).unwrap().len() as f64;
-    assert!(size(&elastic) < 0.9 * size(&plastic), "{} against {} bytes", size(&elastic), size(&plastic));
-    let description = |library: &Path| {
-        let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
-        fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library")
-    };
-    assert!(description(&plastic).contains("yield_strength"));
-    assert!(!description(&elastic).contains("yield_strength"));
-    assert!(!contains(&fs::read(&elastic).unwrap(), "yield_strength"));
-}
-
 /// The library of a scene whose parameters are all constants contains no name of a parameter.
 #[test]
 fn a_parameter_that_is_a_constant_is_not_in_the_library() {

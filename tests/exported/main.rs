@@ -3,8 +3,8 @@
 //! `cargo test --release --test exported every_law` runs one of them.
 
 use brinell_testing::{
-    archive, both_ways, command, courses, hostile, hosts, kinds, loaded, physics, prebuilt, pytest, refusal, skips,
-    unit, written,
+    archive, both_ways, command, courses, hostile, hosts, kinds, loaded, physics, prebuilt, pytest, skips, unit,
+    written,
 };
 
 /// Cargo builds the program before these tests; without its feature they do not compile.
@@ -30,7 +30,6 @@ mod library;
 mod long_messages;
 mod loss_parameters;
 mod own_curve;
-mod parameters_per_contact;
 mod prebuilt_libraries;
 mod prebuilt_refusals;
 mod rebounds;

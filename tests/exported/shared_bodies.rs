@@ -1,10 +1,7 @@
-//! FMUs whose contacts share bodies, called like by an importer: they move as the library moves them, all of them or none.
+//! FMUs whose contacts share bodies, called like by an importer: the bodies move as their forces say, all of them or none.
 
 use crate::loaded::{ERROR, Instance, OK, Unit};
-use crate::physics::{AnyModel, Random, model, pair_of};
 use crate::unit::write_scene;
-use brinell_contact::shared::{InverseMasses, Work, follow};
-use brinell_contact::{History, Surface};
 
 /// Mass of a ball [kg].
 const MASS: f64 = 0.033;
@@ -27,41 +24,6 @@ fn cradle(name: &str, balls: usize, gap: f64, law: &str, more: &str) -> String {
     text
 }
 
-/// The upper triangle of the inverse masses of balls in a row \[1/kg\].
-fn row_of_balls(contacts: usize) -> Vec<f64> {
-    let entry = |apart: usize| [2.0 / MASS, -1.0 / MASS].get(apart).copied().unwrap_or(0.0);
-    (0..contacts).flat_map(|row| (0..contacts - row).map(entry)).collect()
-}
-
-/// The same balls in the library.
-struct Balls {
-    model: AnyModel,
-    contacts: Vec<History>,
-    entries: Vec<f64>,
-    rates: Vec<f64>,
-    impulses: Vec<f64>,
-}
-
-impl Balls {
-    fn new(balls: usize, gap: f64, law: (&str, &str)) -> Balls {
-        let pair = pair_of(5e-3, 206e9 / 0.91 / 2.0, 300e6);
-        let model = AnyModel { pair, surface: Surface::Dented, ..model(law.0, law.1) };
-        let contacts = vec![History::start(&model, gap).expect("within range"); balls - 1];
-        let (entries, impulses) = (row_of_balls(balls - 1), vec![0.0; balls - 1]);
-        let rates = (1..balls).map(|contact| if contact == 1 { 1.0 } else { 0.0 }).collect();
-        Balls { model, contacts, entries, rates, impulses }
-    }
-
-    fn step(&mut self, step: f64) {
-        let count = self.contacts.len();
-        let masses = InverseMasses::new(count, &self.entries).expect("a triangle");
-        let mut work: Vec<_> = self.contacts.iter().map(|contact| Work::new(*contact)).collect();
-        let (model, still) = (&self.model, vec![0.0; count]);
-        follow(&mut self.contacts, |_| model, &masses, &still, &mut self.rates, &mut work, step).expect("a motion");
-        self.impulses.iter_mut().zip(&work).for_each(|(sum, work)| *sum += work.impulse());
-    }
-}
-
 /// A step of the FMU with these rates \[m/s\].
 fn step(instance: &mut Instance, rates: &[f64], time: f64, length: f64) {
     for (contact, rate) in rates.iter().enumerate() {
@@ -72,62 +34,6 @@ fn step(instance: &mut Instance, rates: &[f64], time: f64, length: f64) {
 
 fn values(instance: &Instance, name: &str, contacts: usize) -> Vec<f64> {
     (1..=contacts).map(|contact| instance.real(&format!("c{contact}.{name}"))).collect()
-}
-
-#[test]
-fn a_cradle_moves_as_the_library_moves_it_in_any_steps() {
-    for (balls, gap, law) in [
-        (2, 0.0, ("big-alabo", "contact-radius")),
-        (5, 5e-6, ("thornton", "thornton")),
-        (9, 0.0, ("thornton", "thornton")),
-    ] {
-        let name = format!("cradle_{balls}");
-        let unit = Unit::load(&write_scene(&name, &cradle(&name, balls, gap, law.0, "")));
-        for steps in [1, 3, 17] {
-            let (mut instance, mut library, mut random) = (unit.ready(), Balls::new(balls, gap, law), Random(7));
-            let mut time = 0.0;
-            for _ in 0..steps {
-                let length = 6e-4 / f64::from(steps) * (0.5 + random.next());
-                step(&mut instance, &library.rates.clone(), time, length);
-                library.step(length);
-                time += length;
-                let (rates, depths) =
-                    (values(&instance, "closing_speed", balls - 1), values(&instance, "indentation", balls - 1));
-                for (contact, history) in library.contacts.iter().enumerate() {
-                    let expected = (library.rates[contact], history.indentation());
-                    assert!((rates[contact] - expected.0).abs() < 1e-12, "{name}, {steps}, c{contact}: {rates:?}");
-                    assert!((depths[contact] - expected.1).abs() < 1e-17, "{name}, {steps}, c{contact}: {depths:?}");
-                }
-            }
-            let impulses = values(&instance, "impulse", balls - 1);
-            let near = |(one, other): (&f64, &f64)| (one - other).abs() < 1e-12 * MASS;
-            assert!(impulses.iter().zip(&library.impulses).all(near), "{impulses:?} {:?}", library.impulses);
-        }
-    }
-}
-
-#[test]
-fn the_balls_lose_what_the_contacts_take_up() {
-    let unit = Unit::load(&write_scene("cradle_four", &cradle("cradle_four", 4, 2e-6, "brinell", "")));
-    let mut instance = unit.ready();
-    let mut speeds = [1.0, 0.0, 0.0, -0.3];
-    let energy = |speeds: &[f64; 4]| 0.5 * MASS * speeds.iter().map(|speed| speed * speed).sum::<f64>();
-    let (begin, mut time) = (energy(&speeds), 0.0);
-    for length in [1e-5, 3e-5, 1e-4, 1e-6, 1e-3, 2e-3] {
-        let rates: Vec<_> = speeds.windows(2).map(|pair| pair[0] - pair[1]).collect();
-        step(&mut instance, &rates, time, length);
-        time += length;
-        for (contact, force) in values(&instance, "mean_force", 3).into_iter().enumerate() {
-            speeds[contact] -= force * length / MASS;
-            speeds[contact + 1] += force * length / MASS;
-        }
-        let taken: f64 =
-            ["elastic_energy", "dissipated_energy"].iter().flat_map(|name| values(&instance, name, 3)).sum();
-        assert!((begin - energy(&speeds) - taken).abs() < 1e-11 * begin, "after {time}: {taken}");
-        let shown = values(&instance, "closing_speed", 3);
-        let expected = speeds.windows(2).map(|pair| pair[0] - pair[1]);
-        assert!(shown.iter().zip(expected).all(|(shown, expected)| (shown - expected).abs() < 1e-12));
-    }
 }
 
 #[test]

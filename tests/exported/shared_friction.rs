@@ -198,28 +198,3 @@ fn an_importer_that_applies_the_forces_one_step_late_ends_with_the_same_speeds()
         }
     }
 }
-
-#[test]
-fn a_saved_crate_goes_on_with_the_same_bits() {
-    for (index, (directions, law)) in KINDS.into_iter().enumerate() {
-        let name = format!("saved{index}");
-        let unit = Unit::load(&write_scene(&name, &crate_on_feet(&name, directions, law, "")));
-        let (mut instance, mut body) = (unit.ready(), Crate::new(directions));
-        for _ in 0..30 {
-            body.step(&mut instance, 7e-6, &[]);
-        }
-        let state = instance.save();
-        let bytes = instance.bytes(state);
-        let on = |instance: &mut Instance, mut body: Crate| {
-            body.step(instance, 5e-5, &[]);
-            body.step(instance, 1e-3, &[]);
-            let all = body.read(instance, "impulse", "tangential_impulse");
-            all.into_iter().map(f64::to_bits).collect::<Vec<_>>()
-        };
-        let expected = on(&mut instance, body.clone());
-        let mut other = unit.ready();
-        let state = other.deserialize(&bytes).expect("a state");
-        other.restore(state);
-        assert_eq!(on(&mut other, body), expected, "{name}");
-    }
-}

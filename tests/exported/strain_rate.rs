@@ -2,7 +2,6 @@
 
 use crate::command::{empty_folder, run};
 use crate::prebuilt;
-use crate::refusal::refused_text;
 use crate::written::Written;
 use serde_json::Value;
 use std::fs;
@@ -105,26 +104,4 @@ fn contacts_with_other_bodies_have_their_own_factor() {
         prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
     let strength = |index: usize| number(&exported["contacts"][index]["own"]["target.yield_strength"]);
     assert!(strength(0) > 1.05 * strength(1) && strength(1) > 2.0 * 300e6, "{exported}");
-}
-
-#[test]
-fn contradictory_settings_are_rejected() {
-    let refused = |target: &str, law: &str, parts: &[&str]| refused_text(&scene(target, law, ""), parts);
-    refused("rate = { model = §\"jonson\", c = 1.0 }", "brinell", &["target.rate.model", "`jonson`", "johnson-cook"]);
-    refused("rate = §{ model = \"johnson-cook\", c = 0.01 }", "brinell", &["needs reference_rate"]);
-    refused(
-        "rate = { model = \"johnson-cook\", c = §-1.0, reference_rate = 1.0 }",
-        "brinell",
-        &["target.rate.c = -1 is out of range", "0 to 1"],
-    );
-    refused(
-        "rate = { model = \"cowper-symonds\", d = 40.4, q = 5, c = §0.1 }",
-        "brinell",
-        &["target.rate.c doesn't belong to model = \"cowper-symonds\"", "d and q"],
-    );
-    refused(
-        "rate = §{ model = \"cowper-symonds\", d = 40.4, q = 5 }",
-        "hertz",
-        &["target.rate has no effect: the law has no yield strength"],
-    );
 }

@@ -4,7 +4,6 @@ use crate::command::{empty_folder, run};
 use crate::loaded::{Instance, OK, Unit};
 use crate::physics::{Random, brinell};
 use crate::prebuilt;
-use crate::refusal::refused_text;
 use crate::unit;
 use crate::written::Written;
 use brinell_contact::{Body, Loading, OtherBody, Pair, TwoBodies};
@@ -79,37 +78,6 @@ fn scenes_with_exchanged_materials_have_the_same_force() {
     }
 }
 
-#[test]
-fn two_equal_balls_that_harden_have_the_force_of_one_on_a_rigid_plane() {
-    let ball = format!("radius = 10e-3\n{STEEL}hardening_modulus = 10e9\n");
-    let text = |impactor: &str, target: &str| {
-        format!("name = \"unit\"\n[impactor]\n{impactor}[target]\n{target}[law]\nloading = \"brinell\"\n")
-    };
-    let two = load("two_equal_balls", &text(&ball, &ball));
-    // a rigid plane, nearly
-    let one = load("one_ball", &text("radius = 1e9\n", &ball));
-    let mut random = Random(3);
-    for _ in 0..20 {
-        let (strength, hardening) = (between(&mut random, 5e7, 5e9), between(&mut random, 1e6, 4e10));
-        let target = [("target.yield_strength", strength), ("target.hardening_modulus", hardening)];
-        let impactor = [("impactor.yield_strength", strength), ("impactor.hardening_modulus", hardening)];
-        let (two, one) = (two.ready_with(&[impactor, target].concat()), one.ready_with(&target));
-        let rates = [two.real_of("indentation_rate"), one.real_of("indentation_rate")];
-        let places = [two.real_of("force"), one.real_of("force")];
-        let mut time = 0.0;
-        for _ in 0..100 {
-            let (rate, step) = (between(&mut random, 1e-3, 10.0) * (1.4 * random.next() - 0.4).signum(), 1e-7);
-            assert_eq!((two.set(&rates[..1], &[rate]), one.set(&rates[1..], &[0.5 * rate])), (OK, OK));
-            assert_eq!((two.step(time, step), one.step(time, step)), (OK, OK));
-            time += step;
-            let mut forces = [0.0; 2];
-            two.get(&places[..1], &mut forces[..1]);
-            one.get(&places[1..], &mut forces[1..]);
-            assert!((forces[0] - forces[1]).abs() <= 1e-9 * forces[0].max(1.0), "{strength} {hardening}: {forces:?}");
-        }
-    }
-}
-
 /// Young's modulus, Poisson's ratio, yield strength and hardening modulus of any metal.
 fn any_metal(random: &mut Random) -> [f64; 4] {
     let modulus = between(random, 2e10, 6e11);
@@ -162,27 +130,6 @@ fn an_fmu_has_the_force_of_the_law_for_any_two_bodies_that_are_set() {
 }
 
 #[test]
-fn a_parameter_may_make_the_other_body_the_softer_one() {
-    let hard = format!("{STEEL}hardening_modulus = 5e9\n");
-    let soft = format!("{ALUMINIUM}hardening_modulus = 2e9\n");
-    let one = load("soft_ball", &scene(&soft, &hard, "brinell", ""));
-    let other = load("soft_plate", &scene(&hard, &soft, "brinell", ""));
-    let mut random = Random(7);
-    for seed in 0..40 {
-        let (ball, plate) = (between(&mut random, 5e7, 1e9), between(&mut random, 5e7, 1e9));
-        let histories = [
-            one.ready_with(&[("impactor.yield_strength", ball), ("target.yield_strength", plate)]),
-            other.ready_with(&[("impactor.yield_strength", plate), ("target.yield_strength", ball)]),
-        ]
-        .map(|instance| history(instance, seed));
-        assert_eq!(histories[0], histories[1], "{ball} and {plate} Pa");
-        let stronger = one.ready_with(&[("impactor.yield_strength", 1e3 * plate), ("target.yield_strength", plate)]);
-        let elastic = one.ready_with(&[("impactor.yield_strength", 1e8 * plate), ("target.yield_strength", plate)]);
-        assert_eq!(history(stronger, seed), history(elastic, seed), "the strength of the harder body has no effect");
-    }
-}
-
-#[test]
 fn the_prediction_is_that_of_exchanged_bodies_and_the_fmu_agrees_with_it() {
     let folder = empty_folder();
     let rate = "rate = { model = \"johnson-cook\", c = 0.014, reference_rate = 1.0 }\n";
@@ -229,38 +176,4 @@ fn the_strength_of_a_material_is_a_parameter_only_if_it_is_below_that_of_the_tar
         let written = Written::of(&scene(impactor, STEEL, "big-alabo", ""));
         assert_eq!(written.has_text("impactor.yield_strength"), is_parameter, "{impactor}");
     }
-}
-
-#[test]
-fn each_contact_has_its_own_softer_body() {
-    let contacts = "[[contact]]\nname = \"ball\"\nimpactor = { material = \"aluminium 6061-T6\" }\n\
-                    [[contact]]\nname = \"plate\"\nimpactor = { yield_strength = 900e6 }\n";
-    let text = scene("material = \"titanium Ti-6Al-4V\"\n", STEEL, "big-alabo", contacts);
-    let unit = load("two_contacts", &text);
-    let alone = load("alone", &scene("material = \"aluminium 6061-T6\"\n", STEEL, "big-alabo", ""));
-    let (both, one) = (unit.ready(), alone.ready());
-    let rates = ["ball.indentation_rate", "plate.indentation_rate"].map(|name| both.real_of(name));
-    let forces = ["ball.force", "plate.force"].map(|name| both.real_of(name));
-    let (rate, force) = (one.real_of("indentation_rate"), one.real_of("force"));
-    let (mut values, mut value) = ([0.0; 2], [0.0]);
-    for step in 0..100 {
-        assert_eq!(both.set(&rates, &[1.0, 1.0]), OK);
-        assert_eq!(one.set(&[rate], &[1.0]), OK);
-        let time = f64::from(step) * 1e-6;
-        assert_eq!((both.step(time, 1e-6), one.step(time, 1e-6)), (OK, OK));
-        both.get(&forces, &mut values);
-        one.get(&[force], &mut value);
-        assert_eq!(values[0], value[0]);
-    }
-    assert!(values[1] > 1.1 * values[0], "the target is stronger than the ball: {values:?}");
-}
-
-#[test]
-fn a_rate_that_exchanges_the_bodies_is_refused() {
-    let rate = "rate = §{ model = \"cowper-symonds\", d = 40.4, q = 5 }\n";
-    let text = scene(&format!("{ALUMINIUM}{rate}"), STEEL, "big-alabo", "").replace("[impact]", "§[impact]");
-    refused_text(
-        &text.replacen('§', "", 1),
-        &["under a slow load the impactor is the softer body", "in the scene's impact the target", "yield_strength"],
-    );
 }

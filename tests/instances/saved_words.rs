@@ -386,6 +386,10 @@ fn a_saved_state_comes_back_to_the_bit() {
     every_rough_kind(&ComesBack);
     every_lossy_kind(&ComesBack);
     every_damped_kind(&ComesBack);
+    for (name, choice) in pairings() {
+        choose(choice);
+        ComesBack.of::<Chosen<Rated, 1, Present>>(&format!("{name}, dented, rated"), &[]);
+    }
 }
 
 #[test]

@@ -16,36 +16,6 @@ fn default_choice(gap: f64) -> Choice {
     choice(&model, Surface::Dented, gap)
 }
 
-/// Lets `master` run for so many steps: whether the unit noticed anything.
-fn notices<S: Scene>(master: &mut Master<S>, count: usize, mut step: impl FnMut(usize) -> f64) -> Option<Warning> {
-    (0..count).find_map(|index| {
-        master.step(step(index));
-        master.instance.take_miswired()
-    })
-}
-
-#[test]
-fn a_master_of_the_other_order_of_execution_is_noticed_in_the_first_contact() {
-    for (name, model) in all_models(mild()) {
-        for size in [1e-6, 7e-6, 1e-4, 2e-3] {
-            for pattern in PATTERNS {
-                let choice = choice(&model, Surface::Dented, 0.4 * size);
-                let mut random = Random(3);
-                let mut steps = |index: usize| size * pattern.factor(index, &mut random);
-                let what = format!("{name}, {size} s, {pattern:?}");
-                let found = notices(&mut Master::<Serial>::new(choice, true, false, 1.0, 0.0), 1000, &mut steps);
-                let Some(Warning::Miswired { cause: Cause::Order { parallel: false }, .. }) = found else {
-                    panic!("{what}: a serial unit in a parallel master: {found:?}")
-                };
-                let found = notices(&mut Master::<Parallel>::new(choice, false, false, 1.0, 0.0), 1000, &mut steps);
-                let Some(Warning::Miswired { cause: Cause::Order { parallel: true }, .. }) = found else {
-                    panic!("{what}: a parallel unit in a serial master: {found:?}")
-                };
-            }
-        }
-    }
-}
-
 /// How an importer tells the FMU of gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Told {
@@ -264,38 +234,6 @@ fn follows<S: Scene>(motion: &dyn Fn(f64) -> f64, size: f64) -> Option<Cause> {
     })
 }
 
-/// An importer with forces that the FMU does not know: constant and arbitrary, large and small.
-fn with_untold_forces<S: Scene>(parallel: bool) {
-    let mut random = Random(17);
-    for size in [1e-6, 1e-5, 1e-4, 2e-3] {
-        for other in [9.81, -30.0, 1e3, 1e5] {
-            for varies in [false, true] {
-                let mut master = Master::<S>::new(default_choice(0.0), parallel, false, 0.3, 0.0);
-                for count in 0..3000 {
-                    master.step(size);
-                    let factor = if varies { 2.0 * random.next() - 1.0 } else { 1.0 };
-                    master.speed += size * other * factor;
-                    // it may be driven out of all range
-                    if master.speed.abs() > 100.0 {
-                        break;
-                    }
-                    let found = master.instance.take_miswired();
-                    assert_eq!(
-                        found, None,
-                        "parallel {parallel}, {size} s, {other} m/s^2, varies {varies}, step {count}"
-                    );
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn forces_unknown_to_the_fmu_raise_no_false_alarm() {
-    with_untold_forces::<Serial>(false);
-    with_untold_forces::<Parallel>(true);
-}
-
 /// Reset, and states of another moment, in the middle of contacts.
 fn with_resets_and_states<S: Scene>(parallel: bool, wired: bool) {
     for size in [1e-6, 5e-6, 2e-3] {
@@ -455,22 +393,6 @@ fn inputs_are_checked_by_name_and_derivatives_are_refused_with_them() {
     let plain: Instance<Serial> = ready();
     for input in [Real::EffectiveMass, Real::ExternalAcceleration] {
         assert_eq!(plain.check_real((input, 0), 1.0), Err(Fault::NotSettable));
-    }
-}
-
-#[test]
-fn steps_of_any_length_in_any_order_leave_numbers() {
-    let mut random = Random(23);
-    for trial in 0..200 {
-        let mut master = Master::<WiredParallel>::new(default_choice(1e-6), true, true, 1.0, 50.0);
-        for _ in 0..60 {
-            let exponent = if trial % 2 == 0 { -9.0 + 9.0 * random.next() } else { -50.0 + 51.0 * random.next() };
-            let step = 10f64.powf(exponent);
-            master.step(step);
-            for output in KEPT {
-                assert!(master.get(output).is_finite(), "trial {trial}, {step:e} s: {output:?}");
-            }
-        }
     }
 }
 

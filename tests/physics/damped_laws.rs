@@ -325,26 +325,6 @@ fn indentations_out_of_range_are_refused_and_change_nothing() {
 }
 
 #[test]
-fn a_stored_history_goes_on_as_before() {
-    for (name, law) in every_law() {
-        let model = model_of(law, 0.5);
-        let mut history = History::start(&model, 0.0).unwrap();
-        history.advance(&model, 1.0, 1e-5).unwrap();
-        history.advance(&model, -0.5, 1e-6).unwrap();
-        let mut words = Vec::new();
-        Contact::<Model>::save(&history, &mut |word| words.push(word));
-        let load = |words: &[u64]| <History<Damper> as Contact<Model>>::load(&mut words.iter().copied(), &model);
-        let mut restored = load(&words).expect("whole");
-        for contact in [&mut history, &mut restored] {
-            contact.advance(&model, -2.0, 1e-6).unwrap();
-        }
-        assert_eq!(history, restored, "{name}");
-        words[3] = f64::NAN.to_bits();
-        assert_eq!(load(&words), None, "{name}");
-    }
-}
-
-#[test]
 fn factors_follow_the_bodies() {
     // twice the modulus: twice the stiffness; K_h chi and the C of the others change with their own powers
     let pair = mild();

@@ -132,26 +132,6 @@ fn a_course_is_followed_to_second_order_of_the_step() {
 }
 
 #[test]
-fn a_restored_contact_continues_with_the_same_bits() {
-    let model = plastic();
-    let mut contact = Rough::start(&model, 0.0).expect("within range");
-    for (rate, slip) in rates(3, 100) {
-        let mut words = Vec::new();
-        Contact::<Plastic>::save(&contact, &mut |word| words.push(word));
-        assert_eq!(words.len(), <Rough as Contact<Plastic>>::WORDS);
-        let mut other = <Rough as Contact<Plastic>>::load(&mut words.iter().copied(), &model).expect("a contact");
-        for contact in [&mut contact, &mut other] {
-            contact.set_tangential_rate(slip);
-            Contact::step(contact, &Course::held(rate), STEP, || model).expect("within range");
-        }
-        assert_eq!(contact.tangential_force(&model).to_bits(), other.tangential_force(&model).to_bits());
-        assert_eq!(contact.friction_work(&model).to_bits(), other.friction_work(&model).to_bits());
-        words.pop();
-        assert!(<Rough as Contact<Plastic>>::load(&mut words.into_iter(), &model).is_none(), "a word is missing");
-    }
-}
-
-#[test]
 fn a_rejected_step_leaves_the_contact_unchanged() {
     let model = plastic();
     let mut contact = Rough::start(&model, -1e-6).expect("within range");

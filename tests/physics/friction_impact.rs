@@ -1,5 +1,6 @@
 //! Oblique impacts of a free ball: the limit of full sliding, energies, signs, the order of the method, and other methods.
 
+use super::friction_growth::allowed;
 use crate::friction::assert_close;
 use crate::physics::{self, mild, some_models};
 use brinell_contact::loading::AnyLoading;
@@ -93,14 +94,6 @@ fn friction_takes_exactly_the_kinetic_energy_that_it_reports_and_never_returns_a
             }
         }
     }
-}
-
-/// The error of friction with the pair of laws called `name`, relative to Coulomb's limit.
-fn allowed(name: &str) -> f64 {
-    let (loading, unloading) = name.split_once(" with ").expect("two laws");
-    let entry = laws::entry("unloading", unloading);
-    let of_pair = entry.get("friction_error_of").and_then(|errors| errors.get(loading));
-    of_pair.or(entry.get("friction_error")).and_then(|error| error.as_float()).expect("an error of friction")
 }
 
 #[test]

@@ -172,39 +172,3 @@ fn no_history_of_any_pairing_breaks_coulombs_bound_or_makes_energy() {
         }
     }
 }
-
-/// A free ball that hits the target: the worst of each bound over its contact, in about `steps` steps.
-fn impact(normal: &AnyModel, seed: u64, steps: f64) -> Broken {
-    let mut random = Random(seed);
-    let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
-    let coefficient = decades(-1.5, 0.0);
-    let mut rate = decades(-2.0, 1.0);
-    let mut slip = rate * decades(-2.0, 1.5);
-    let mass = 4.1e-3;
-    let mut run = Run::new(rough(*normal, coefficient, false));
-    // Hertz's contact time
-    let stiffness = normal.pair.hertz_stiffness();
-    let time = 2.94 * (1.25 * mass / stiffness).powf(0.4) * rate.powf(-0.2);
-    let mut worst = Broken::default();
-    for _ in 0..3 * steps as u32 {
-        let step = time / steps;
-        let Some(broken) = run.step((rate, slip), step) else { break };
-        worst = worst.or(broken);
-        rate -= run.contact.normal().force() / mass * step;
-        slip -= 3.5 * run.contact.tangential_force(&run.model) / mass * step;
-        if run.contact.normal().force() == 0.0 {
-            break;
-        }
-    }
-    worst
-}
-
-#[test]
-fn no_free_impact_breaks_coulombs_bound_or_makes_energy() {
-    for (name, model) in pairings(false) {
-        for (steps, seeds) in [(20.0, 40), (200.0, 12), (1000.0, 4)] {
-            let worst = (0..seeds).fold(Broken::default(), |worst, seed| worst.or(impact(&model, seed, steps)));
-            worst.assert_bounds(&format!("{name}, {steps} steps"));
-        }
-    }
-}

@@ -1,13 +1,12 @@
-//! Steps along a course: number of evaluations of the law, exactness, and independence of the division into steps.
+//! Steps along a course: exactness, and independence of the division into steps.
 
 use crate::physics::{Random, mild, model, unit};
 use brinell_contact::momentum::impulse;
 use brinell_contact::path::Course;
-use brinell_contact::{Contact, History, Loading, Model, Regime, Surface, Unloading, loading, unloading};
+use brinell_contact::{Contact, History, Loading, Model, Surface, Unloading, loading, unloading};
 use brinell_fmu::instance::Instance;
 use brinell_fmu::scene::Real;
 use brinell_unit::known::Exported;
-use std::cell::Cell;
 
 /// A claim about every law made of segments.
 trait Claim {
@@ -47,31 +46,9 @@ fn part_of(course: &Course, time: f64) -> Course {
     Course { rate: course.rate_after(time), slope: course.slope + course.bend * time, bend: course.bend }
 }
 
-/// A step along `course` by `contact`, its mean force, and the number of times that the model was requested.
-fn stepped<L: Loading, U: Unloading>(
-    contact: &mut History,
-    model: &Model<L, U>,
-    course: &Course,
-    step: f64,
-) -> (f64, u32) {
-    let asked = Cell::new(0);
-    let model = || {
-        asked.set(asked.get() + 1);
-        model
-    };
-    let (_, mean) = contact.step_with_mean_force(course, step, model).expect("within range");
-    (mean, asked.get())
-}
-
-/// The same without the mean force.
-fn asked<L: Loading, U: Unloading>(contact: &mut History, model: &Model<L, U>, course: &Course, step: f64) -> u32 {
-    let asked = Cell::new(0);
-    let model = || {
-        asked.set(asked.get() + 1);
-        model
-    };
-    contact.step(course, step, model).expect("within range");
-    asked.get()
+/// A step along `course` by `contact`, and its mean force.
+fn stepped<L: Loading, U: Unloading>(contact: &mut History, model: &Model<L, U>, course: &Course, step: f64) -> f64 {
+    contact.step_with_mean_force(course, step, || model).expect("within range").1
 }
 
 #[test]
@@ -95,37 +72,6 @@ fn a_course_that_keeps_its_direction_has_one_motion() {
         }
     }
     assert!(kept > 5000, "{kept} only");
-}
-
-/// A measure of the work without a clock: the law is evaluated only where a branch is left.
-#[test]
-fn the_law_is_evaluated_only_where_a_branch_is_left() {
-    let (loading, unloading) = (loading::BigAlabo::REFERENCE, unloading::ContactRadius);
-    let model = Model { pair: mild(), loading, unloading, surface: Surface::Dented };
-    let d_y = unit(&mild()).indentation;
-    let course = |way: f64| Course { rate: 1.25 * way, slope: -0.5 * way, bend: 0.0 };
-    // depth, distance, and number of requests of the model: without the mean force, and with it
-    let places = [
-        ("on a branch", [3.0, 0.1], 0, 1),
-        ("over a corner", [12.0, 4.0], 1, 2),
-        ("over two corners", [12.0, 90.0], 1, 3),
-        ("onto the way back", [150.0, -1.0], 1, 3),
-        ("off the surface", [150.0, -200.0], 1, 3),
-    ];
-    for (name, [depth, way], alone, with_mean) in places {
-        let start = History::start(&model, -depth * d_y).unwrap();
-        let (mut one, mut other) = (start, start);
-        assert_eq!(asked(&mut one, &model, &course(way * d_y), 1.0), alone, "{name}");
-        assert_eq!(stepped(&mut other, &model, &course(way * d_y), 1.0).1, with_mean, "{name}, with the mean force");
-        assert_eq!((one.force(), one.indentation()), (other.force(), other.indentation()), "{name}");
-        assert!(way < -2.0 || one.regime() != Regime::Apart, "{name}");
-    }
-    // a course that turns twice, during unloading
-    let mut contact = History::start(&model, -150.0 * d_y).unwrap();
-    contact.advance(&model, -5.0 * d_y).unwrap();
-    let turning = Course { rate: 0.1875 * d_y, slope: -d_y, bend: 2.0 * d_y };
-    assert!(turning.motions(1.0).iter().all(|motion| *motion != 0.0));
-    assert_eq!(asked(&mut contact, &model, &turning, 1.0), 0);
 }
 
 /// Powers of time and of `1 + time`, whose integrals are known: the force begins, ends, or is far from its start.
@@ -174,8 +120,8 @@ impl Claim for AsByPieces {
         for case in 0..2000 {
             let course = any_course(&mut random);
             let mut other = one;
-            let (mean, _) = stepped(&mut one, segmented, &course, 1.0);
-            let (expected, _) = stepped(&mut other, &pieces, &course, 1.0);
+            let mean = stepped(&mut one, segmented, &course, 1.0);
+            let expected = stepped(&mut other, &pieces, &course, 1.0);
             largest = [one.force().abs(), expected.abs(), largest].into_iter().fold(0.0, f64::max);
             let what = format!("{loading}, {unloading}, {:?}, {course:?}", segmented.surface);
             assert!((mean - expected).abs() <= 1e-13 * largest, "{what}: {mean:e} for {expected:e}");
@@ -204,11 +150,11 @@ impl Claim for AsItsParts {
             let course = any_course(&mut random);
             let mut whole = History::start(model, -10f64.powf(case as f64 / 3.0) * d_y).unwrap();
             let mut cut = whole;
-            let (mean, _) = stepped(&mut whole, model, &course, 1.0);
+            let mean = stepped(&mut whole, model, &course, 1.0);
             let (mut sum, mut largest) = (0.0, whole.force().abs());
             for index in 0..parts {
                 let [from, to] = [index, index + 1].map(|place| f64::from(place) / f64::from(parts));
-                let (mean, _) = stepped(&mut cut, model, &part_of(&course, from), to - from);
+                let mean = stepped(&mut cut, model, &part_of(&course, from), to - from);
                 sum += mean * (to - from);
                 largest = f64::max(largest, mean.abs());
             }

@@ -1,9 +1,8 @@
 //! The law `line` of cylinders, compared with the finite-element curves in plane strain of `data/truth/line/`, with Hertz, with slip lines,
 //! and with itself.
 
-use crate::law_materials::read;
+use crate::finite_elements;
 use crate::physics::{AnyModel, advance, loading_force, logarithmic, pressed, unloading_force};
-use brinell_contact::impact::{Impact, predict};
 use brinell_contact::loading::{AnyLoading, Line, line::ROLLER};
 use brinell_contact::motion::{Drive, follow};
 use brinell_contact::unloading::{self, AnyUnloading};
@@ -81,16 +80,7 @@ impl Case {
 
 /// The columns of a table of these names.
 fn columns<const N: usize>(name: &str, names: [&str; N]) -> Vec<[f64; N]> {
-    let text = read(&format!("data/truth/line/{name}.csv"));
-    let mut lines = text.lines();
-    let head: Vec<_> = lines.next().expect("a head").split(',').collect();
-    let places = names.map(|name| head.iter().position(|column| *column == name).unwrap_or_else(|| panic!("{name}")));
-    let rows = lines.filter_map(|line| {
-        let cells: Vec<_> = line.split(',').collect();
-        let numbers: Option<Vec<f64>> = places.iter().map(|&place| cells[place].parse().ok()).collect();
-        numbers.map(|row| row.try_into().expect("as many columns"))
-    });
-    rows.collect()
+    finite_elements::columns(&format!("line/{name}"), names).unwrap_or_else(|| panic!("{name} has not {names:?}"))
 }
 
 /// The largest of the errors \[%\], each with the place where it is.
@@ -212,12 +202,7 @@ fn a_line_contact_gives_back_what_finite_elements_give_back() {
     }
     let case = Case::rigid(10.0);
     for peak in [2, 5, 12, 30, 60] {
-        let text = read(&format!("data/truth/line/unloading_from_{peak}.csv"));
-        let rows: Vec<Vec<f64>> = text
-            .lines()
-            .filter_map(|line| line.strip_prefix("unload,"))
-            .map(|row| row.split(',').map(|cell| cell.parse().expect("a number")).collect())
-            .collect();
+        let rows = columns(&format!("unloading_from_{peak}"), ["F_over_Fy", "depth_recovered_over_dy_C10"]);
         let largest = case.depth(rows[0][0]) * case.d_y;
         let recovery = largest - case.model.residual_indentation(largest);
         let whole = rows.last().expect("rows")[1];
@@ -367,29 +352,6 @@ fn pressed_of(model: &Model<Line, unloading::line::Line>, gap: f64) -> History {
 }
 
 #[test]
-fn a_moving_roller_keeps_its_energy_at_any_step() {
-    let model = steel(2.0);
-    let mass = 0.05;
-    for speed in [1e-6, 1e-3, 0.02, 0.3, 3.0] {
-        let prediction = predict(&model, &Impact { mass, speed }).expect("within range");
-        let times = prediction.loading_time + prediction.unloading_time;
-        for parts in [1, 3, 50, 1700] {
-            let mut history = pressed_of(&model, 0.0);
-            let (mut now, drive) = (speed, Drive { mass, acceleration: 0.0 });
-            for _ in 0..parts {
-                now =
-                    follow(&mut history, &model, &drive, now, 1.2 * times / f64::from(parts)).expect("it moves").speed;
-            }
-            let before = 0.5 * mass * speed * speed;
-            let after = 0.5 * mass * now * now + history.dissipated_energy(&model);
-            assert!((after / before - 1.0).abs() < 1e-9, "{speed} in {parts}: {after:e} of {before:e}");
-            assert!((-now / speed / prediction.restitution - 1.0).abs() < 1e-9, "{speed} in {parts}");
-            assert!(history.force() == 0.0, "{speed} in {parts}: it has left");
-        }
-    }
-}
-
-#[test]
 fn a_roller_at_rest_bears_its_weight_and_turns_where_a_fine_integration_turns() {
     let model = steel(2.0);
     let (mass, gravity) = (0.5, 9.81);
@@ -416,46 +378,4 @@ fn a_roller_at_rest_bears_its_weight_and_turns_where_a_fine_integration_turns() 
         let scale = gravity * step;
         assert!((speed - fine.1).abs() < 1e-5 * scale, "{round}: {speed:e}, not {:e}", fine.1);
     }
-}
-
-#[test]
-fn a_line_contact_is_passive_from_the_first_touch_to_any_depth() {
-    for length in [0.1, 5.0] {
-        let model = steel(length);
-        let d_y = model.yield_point().indentation;
-        let mut last = 1.0;
-        for depth in logarithmic(1e-6 * d_y, 300.0 * d_y, 400) {
-            let work = model.loading.work(&model.pair, depth);
-            let e = (model.recovered_work(depth, depth) / work).sqrt();
-            assert!(e <= last + 1e-12, "{depth:e}: {e} after {last}");
-            assert!(e <= 1.0 + 1e-14);
-            last = e;
-        }
-        assert!(last < 0.5, "{last}");
-    }
-}
-
-#[test]
-fn a_history_of_a_line_contact_does_not_depend_on_its_steps() {
-    let model = steel(2.0);
-    let d_y = model.yield_point().indentation;
-    for path in [[0.9, 0.02, 0.5, -0.5, 0.7], [3.0, 0.2, 2.0, -1.0, 8.0], [40.0, 5.0, 30.0, 28.0, 80.0]] {
-        let (mut whole, mut parts) = (pressed_of(&model, 0.0), pressed_of(&model, 0.0));
-        for to in path {
-            let way = to * d_y - whole.indentation();
-            whole.advance(&model, way).expect("within range");
-            for _ in 0..1000 {
-                parts.advance(&model, way / 1000.0).expect("within range");
-            }
-            let size = loading_size(&model, whole.max_indentation());
-            assert!((whole.force() - parts.force()).abs() < 1e-10 * size, "{to}: {} {}", whole.force(), parts.force());
-            let [one, two] = [&whole, &parts].map(|history| history.work(&model));
-            assert!((one - two).abs() <= 1e-10 * one.abs(), "{to}: {one:e} {two:e}");
-            assert_eq!(whole.regime(), parts.regime(), "{to}");
-        }
-    }
-}
-
-fn loading_size(model: &Model<Line, unloading::line::Line>, depth: f64) -> f64 {
-    model.loading.segment(&model.pair, depth).force(depth)
 }

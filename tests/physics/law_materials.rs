@@ -1,5 +1,4 @@
-//! The law `brinell` for targets that harden and for other Poisson's ratios, compared with the finite-element curves
-//! in `data/truth/materials/`.
+//! The law `brinell` for targets that harden and for other Poisson's ratios.
 
 use crate::physics::{
     AnyModel, MASS, Random, advance, brinell, construction, corners, elastic_partner, logarithmic, mild, model,
@@ -14,36 +13,9 @@ use brinell_contact::{
 use std::fs;
 use std::path::Path;
 
-/// A finite-element curve: Poisson's ratio, `H/E`, and the depths of its unloadings.
-struct Curve {
-    name: &'static str,
-    poissons_ratio: f64,
-    hardening: f64,
-    depths: &'static [&'static str],
-}
-
-const DEPTHS: [&str; 5] = ["3", "10", "30", "82.5", "200"];
-
-const CURVES: [Curve; 7] = [
-    Curve { name: "H0.005", poissons_ratio: 0.3, hardening: 0.005, depths: &DEPTHS },
-    Curve { name: "H0.02", poissons_ratio: 0.3, hardening: 0.02, depths: &DEPTHS },
-    Curve { name: "H0.05", poissons_ratio: 0.3, hardening: 0.05, depths: &DEPTHS },
-    Curve { name: "H0.1", poissons_ratio: 0.3, hardening: 0.1, depths: &DEPTHS },
-    Curve { name: "nu0.2", poissons_ratio: 0.2, hardening: 0.0, depths: &["10", "82.5"] },
-    Curve { name: "nu0.4", poissons_ratio: 0.4, hardening: 0.0, depths: &["10", "82.5"] },
-    Curve { name: "nu0.45", poissons_ratio: 0.45, hardening: 0.0, depths: &["10", "82.5"] },
-];
-
 pub fn read(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// The first columns, as numbers, of the rows of a finite-element table that begin with `start`, without that.
-fn truth(name: &str, start: &str) -> Vec<Vec<f64>> {
-    let text = read(&format!("data/truth/materials/{name}.csv"));
-    let rows = text.lines().skip(1).filter_map(|line| line.strip_prefix(start));
-    rows.map(|row| row.split(',').map_while(|cell| cell.parse().ok()).collect()).collect()
 }
 
 /// The law `brinell` of a rigid body on one with this hardening modulus [Pa].
@@ -67,99 +39,8 @@ pub fn on_steel(poissons_ratio: f64, hardening: f64) -> AnyModel {
     under_rigid(Pair::new(&sphere, &target, WEAK).unwrap(), hardening * 206e9)
 }
 
-impl Curve {
-    fn model(&self) -> AnyModel {
-        on_steel(self.poissons_ratio, self.hardening)
-    }
-
-    /// Indentation, force and contact radius, in units of the law without hardening.
-    fn loading(&self) -> Vec<[f64; 3]> {
-        let rows = truth(&format!("loading_{}", self.name), "");
-        assert!(rows.len() > 300, "the truth is complete");
-        let within = rows.iter().map(|row| [row[0], row[2], row[3]]).filter(|row| row[0] >= 1.2 && row[0] <= 500.0);
-        within.collect()
-    }
-
-    /// Indentation and force from the largest indentation downwards.
-    fn unloading(&self, depth: &str) -> Vec<[f64; 2]> {
-        let rows = truth(&format!("unloading_{}_from_{depth}", self.name), "unload,");
-        rows.iter().map(|row| [row[0], row[1]]).collect()
-    }
-
-    /// Work over these points, from the last one to the first.
-    fn work(points: &[[f64; 2]]) -> f64 {
-        points.windows(2).map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1])).sum::<f64>().abs()
-    }
-}
-
 pub fn force(model: &AnyModel, indentation: f64) -> f64 {
     model.loading.segment(&model.pair, indentation).force(indentation)
-}
-
-#[test]
-fn the_loading_force_is_within_0_7_percent_of_every_curve() {
-    for curve in &CURVES {
-        let (model, unit) = (curve.model(), unit(&curve.model().pair));
-        for [x, expected, _] in curve.loading() {
-            let error = force(&model, x * unit.indentation) / unit.force / expected - 1.0;
-            assert!(error.abs() < 7e-3, "{} at x = {x}: {:.3} %", curve.name, 100.0 * error);
-        }
-    }
-}
-
-#[test]
-fn the_contact_radius_is_within_2_5_percent_of_every_curve() {
-    for curve in &CURVES {
-        let (model, unit) = (curve.model(), unit(&curve.model().pair));
-        for [x, _, expected] in curve.loading() {
-            let radius = model.loading.contact_radius(&model.pair, x * unit.indentation);
-            let error = radius / (model.pair.radius * unit.indentation).sqrt() / expected - 1.0;
-            assert!(error.abs() < 2.5e-2, "{} at x = {x}: {:.3} %", curve.name, 100.0 * error);
-        }
-    }
-}
-
-#[test]
-fn the_unloading_is_within_1_4_percent_of_the_largest_force_and_1_2_percent_up_to_five_hundredths() {
-    for curve in &CURVES {
-        let (model, unit) = (curve.model(), unit(&curve.model().pair));
-        let allowed = if curve.hardening > 0.05 { 1.4e-2 } else { 1.2e-2 };
-        for depth in curve.depths {
-            let points = curve.unloading(depth);
-            let [x_m, f_m] = points[0];
-            let mut history = pressed(&model, x_m * unit.indentation);
-            for [x, f] in points {
-                let step = x * unit.indentation - history.indentation();
-                advance(&mut history, &model, step);
-                let error = (history.force() / unit.force - f) / f_m;
-                assert!(error.abs() < allowed, "{} from {depth} at x = {x}: {:.3} %", curve.name, 100.0 * error);
-            }
-        }
-    }
-}
-
-/// The loading work of the finite-element curve: Hertz's law at the start, then trapezoids between its points.
-#[test]
-fn restitution_is_within_0_8_percent_and_the_dent_within_2_percent() {
-    for curve in &CURVES {
-        let (model, unit) = (curve.model(), unit(&curve.model().pair));
-        let loading = truth(&format!("loading_{}", curve.name), "");
-        for depth in curve.depths {
-            let back = curve.unloading(depth);
-            let [x_m, f_m] = back[0];
-            let before = loading.iter().map(|row| [row[0], row[2]]).filter(|row| row[0] < x_m);
-            let way: Vec<_> = before.chain([[x_m, f_m]]).collect();
-            let [x, f] = way[0];
-            let expected = (Curve::work(&back) / (Curve::work(&way) + 0.4 * x * f)).sqrt();
-            let largest = x_m * unit.indentation;
-            let work = model.loading.work(&model.pair, largest);
-            let error = (model.recovered_work(largest, largest) / work).sqrt() / expected - 1.0;
-            assert!(error.abs() < 8e-3, "restitution of {} from {depth}: {:.3} %", curve.name, 100.0 * error);
-            let dent = model.unloading_path(largest).lower / unit.indentation;
-            let error = dent / back[back.len() - 1][0] - 1.0;
-            assert!(error.abs() < 2e-2, "dent of {} from {depth}: {:.3} %", curve.name, 100.0 * error);
-        }
-    }
 }
 
 /// The start of unloading with contact radius and recovery of the construction at this very indentation \[m\], which an FMU has at the knots.

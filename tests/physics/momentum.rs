@@ -72,33 +72,6 @@ fn with_the_rate_held_the_impulse_times_the_rate_is_the_work() {
 }
 
 #[test]
-fn the_impulse_of_a_polynomial_is_that_of_its_parts() {
-    let model = model("brinell", "brinell");
-    let d_y = unit(&mild()).indentation;
-    let step = 1e-5;
-    // in, out beyond the surface, and in again, deeper
-    let course =
-        Course { rate: 60.0 * d_y / step, slope: -300.0 * d_y / step / step, bend: 700.0 * d_y / step / step / step };
-    let start = History::start(&model, 2.0 * d_y).unwrap();
-    let whole = impulse(&start, &model, &course, step).unwrap();
-    let mut sum = 0.0;
-    let mut contact = start;
-    let parts = 64;
-    for index in 0..parts {
-        let time = f64::from(index) * step / f64::from(parts);
-        let part =
-            Course { rate: course.rate_after(time), slope: course.slope + course.bend * time, bend: course.bend };
-        let length = step / f64::from(parts);
-        sum += impulse(&contact, &model, &part, length).unwrap();
-        for end in part.monotone_ends(length) {
-            let goal = start.indentation() + course.way(time + end);
-            contact.advance(&model, goal - contact.indentation()).unwrap();
-        }
-    }
-    assert!((sum / whole - 1.0).abs() < 1e-11, "{whole:e} in one step, {sum:e} in {parts}");
-}
-
-#[test]
 fn the_monotone_parts_of_a_course_end_where_the_rate_changes_its_sign() {
     let ends = |rate, slope, bend| Course { rate, slope, bend }.monotone_ends(1.0);
     assert_eq!(ends(1.0, 0.0, 0.0), [1.0; 3]);
@@ -110,37 +83,4 @@ fn the_monotone_parts_of_a_course_end_where_the_rate_changes_its_sign() {
     // (t - 1/2)^2 touches zero
     assert_eq!(ends(0.25, -1.0, 2.0), [1.0; 3]);
     assert_eq!(ends(0.0, 1.0, 0.0), [1.0; 3]);
-}
-
-#[test]
-fn derivatives_of_the_force_are_those_of_its_course() {
-    let d_y = unit(&mild()).indentation;
-    for (name, model) in some_models(mild()) {
-        // loading in each region, and half-way through unloading
-        for (depth, back) in [(0.6, 0.0), (3.7, 0.0), (31.0, 0.0), (150.0, 0.0), (31.0, 0.3), (150.0, 0.2)] {
-            let mut history = History::start(&model, -depth * d_y).unwrap();
-            let recovery = depth * d_y - model.unloading_path(depth * d_y).lower;
-            history.advance(&model, -back * recovery).unwrap();
-            let sign = if back > 0.0 { -1.0 } else { 1.0 };
-            // to the branch in the direction of motion
-            history.advance(&model, sign * 1e-9 * d_y).unwrap();
-            let (rate, slope) = (sign * 0.7, 3e4);
-            let course = Course { rate, slope, bend: 0.0 };
-            let time = 1e-4 * if back > 0.0 { recovery } else { depth * d_y };
-            let force = |time: f64| {
-                let mut moved = history;
-                moved.advance(&model, course.way(time)).unwrap();
-                moved.force()
-            };
-            let forces = [force(0.0), force(time), force(2.0 * time), force(3.0 * time)];
-            let first = (-11.0 * forces[0] + 18.0 * forces[1] - 9.0 * forces[2] + 2.0 * forces[3]) / (6.0 * time);
-            let second = (2.0 * forces[0] - 5.0 * forces[1] + 4.0 * forces[2] - forces[3]) / (time * time);
-            let (stiffness, curvature) = (history.stiffness(), history.curvature(&model));
-            let exact = [stiffness * rate, curvature * rate * rate + stiffness * slope];
-            let scale = first.abs() + 1e-3 * forces[0] / time;
-            assert!((exact[0] - first).abs() < 1e-6 * scale, "{name} at {depth}, {back}: {} for {first}", exact[0]);
-            let scale = second.abs() + 0.01 * forces[0] / (time * time) * 1e-4 + scale * 1e3;
-            assert!((exact[1] - second).abs() < 1e-2 * scale, "{name} at {depth}, {back}: {} for {second}", exact[1]);
-        }
-    }
 }

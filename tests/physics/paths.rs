@@ -2,7 +2,7 @@
 
 use crate::physics::{
     self, AnyModel, Random, TURNS, advance, all_models, exactly, go, is_passive, loading_force, mild, model, on_grid,
-    pressed, some_models, unit, unloading_force,
+    pressed, some_models, unloading_force,
 };
 use brinell_contact::loading::KogutEtsion;
 use brinell_contact::unloading::AnyUnloading;
@@ -91,21 +91,6 @@ fn a_step_much_larger_than_the_indentation_is_off_by_half_a_unit_of_its_own_last
         // back to the small number: its missing part was lost on the way
         advance(&mut history, &model, -1.0);
         assert!((history.indentation() - small).abs() <= half, "{small:e} became {:e}", history.indentation());
-    }
-}
-
-#[test]
-fn one_step_from_apart_goes_through_the_whole_curve_and_back() {
-    for (name, model) in all_models(mild()) {
-        let mut history = History::start(&model, on_grid(7.0)).expect("within range");
-        assert_eq!((history.regime(), history.force()), (Regime::Apart, 0.0), "{name}");
-        let deep = on_grid(300.0);
-        advance(&mut history, &model, on_grid(7.0) + deep);
-        assert_eq!(history.force(), loading_force(&model, deep), "{name}");
-        assert_eq!(history.dissipated_energy(&model), pressed(&model, deep).dissipated_energy(&model), "{name}");
-        advance(&mut history, &model, -on_grid(7.0) - deep);
-        assert_eq!((history.regime(), history.force(), history.stiffness()), (Regime::Apart, 0.0, 0.0), "{name}");
-        assert_eq!(history.indentation(), -on_grid(7.0), "{name}");
     }
 }
 
@@ -257,19 +242,6 @@ fn words_of(history: &History) -> Vec<u64> {
 
 fn of_words(words: &[u64], model: &AnyModel) -> Option<History> {
     History::load(&mut words.iter().copied(), model)
-}
-
-#[test]
-fn a_history_comes_back_from_its_words() {
-    for (name, model) in all_models(mild()) {
-        let mut history = pressed(&model, 0.0);
-        for turn in TURNS {
-            go(&mut history, &model, 1.1 * turn * unit(&model.pair).indentation);
-            let restored = of_words(&words_of(&history), &model).expect("its own words");
-            assert_eq!(restored, history, "{name} at {turn}");
-            assert_eq!(words_of(&restored), words_of(&history), "{name} at {turn}");
-        }
-    }
 }
 
 #[test]

@@ -1,51 +1,9 @@
-//! Predictions: the root of the energy balance, and the cost to find it.
+//! Predictions: the root of the energy balance.
 
 use crate::physics::{AnyModel, MASS, logarithmic, mild, model, unit};
+use brinell_contact::Loading;
 use brinell_contact::impact::{Impact, predict};
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::material::YieldPoint;
-use brinell_contact::regime::Regime;
-use brinell_contact::unloading::ContactRadius;
-use brinell_contact::{Loading, Model, Pair, Segment, Surface};
-use std::cell::Cell;
-
-/// A law that counts the evaluations of its work.
-struct Counting<'a> {
-    law: AnyLoading,
-    works: &'a Cell<u32>,
-}
-
-impl Loading for Counting<'_> {
-    fn yield_point(&self, pair: &Pair) -> YieldPoint {
-        self.law.yield_point(pair)
-    }
-
-    fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
-        self.law.segment(pair, indentation)
-    }
-
-    fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
-        self.law.next_corner(pair, indentation)
-    }
-
-    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
-        self.works.set(self.works.get() + 1);
-        self.law.work(pair, indentation)
-    }
-
-    fn work_between(&self, pair: &Pair, low: f64, high: f64) -> Option<f64> {
-        // the time of the loading evaluates no work, so that only the root is counted
-        Some(self.law.work_between(pair, low, high).unwrap_or(0.0))
-    }
-
-    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
-        self.law.contact_radius(pair, indentation)
-    }
-
-    fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
-        self.law.regime(pair, indentation)
-    }
-}
 
 #[test]
 fn the_largest_indentation_is_the_first_whose_work_exceeds_the_energy() {
@@ -64,22 +22,6 @@ fn the_largest_indentation_is_the_first_whose_work_exceeds_the_energy() {
             );
         }
     }
-}
-
-#[test]
-fn a_prediction_asks_for_the_work_a_few_times_only() {
-    let mut most = (0, "");
-    for (name, law) in AnyLoading::ALL {
-        for speed in logarithmic(1e-6, 1e6, 121) {
-            let works = Cell::new(0);
-            let loading = Counting { law, works: &works };
-            let model = Model { pair: mild(), loading, unloading: ContactRadius, surface: Surface::Dented };
-            predict(&model, &Impact { mass: MASS, speed }).expect("an impact within range");
-            most = most.max((works.get(), name));
-        }
-    }
-    // bisection would need 64 for the root alone; some of these are for the time of each smooth piece
-    assert!(most.0 <= 40, "{most:?}");
 }
 
 #[test]

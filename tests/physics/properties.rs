@@ -1,12 +1,10 @@
 //! Properties that hold for every material, sphere, pair of laws and path: random cases, the same in every run, so that a
 //! failure is caused by a change. A failure prints its case.
 
-use crate::physics::{
-    self, AnyModel, Random, advance, is_passive, is_scale_free, loading_force, mild, pressed, some_models, unit,
-};
+use crate::physics::{self, AnyModel, Random, advance, is_scale_free, loading_force, mild, pressed, some_models, unit};
 use brinell_contact::impact::{Impact, predict};
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Body, History, Pair, Regime, Surface};
+use brinell_contact::{Body, History, Pair, Surface};
 use std::fmt::Debug;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
@@ -89,39 +87,6 @@ fn simpson(force: &dyn Fn(f64) -> f64, low: f64, high: f64, allowed: f64, depth:
 }
 
 #[test]
-fn force_is_finite_and_never_pulls() {
-    check_all(any_path, |(model, turns)| {
-        follow(model, turns, |_, history, _| {
-            let force = history.force();
-            assert!(force >= 0.0 && force.is_finite(), "{force:e} at {:e}", history.indentation());
-            assert!(history.stiffness() >= 0.0 && history.stiffness().is_finite());
-            assert!(history.regime() != Regime::Apart || force == 0.0);
-            let dent = history.residual_indentation(model);
-            assert!((dent >= 0.0 || !is_passive(model)) && dent <= history.max_indentation());
-        });
-    });
-}
-
-#[test]
-fn dissipated_energy_never_falls_and_completes_the_work() {
-    check_all(any_path, |(model, turns)| {
-        let passive = is_passive(model);
-        follow(model, turns, |before, after, largest| {
-            // a few rounding errors of the energies whose difference it is; fresh surfaces sum those of every dent
-            let rounding = 32.0 * f64::EPSILON * turns.len() as f64 * energy_size(model, largest.max(0.0));
-            let [lost_before, lost] = [before, after].map(|history| history.dissipated_energy(model));
-            assert!(!passive || lost >= lost_before - rounding, "from {lost_before:e} to {lost:e}");
-            let elastic = after.elastic_energy(model);
-            assert!(
-                elastic >= -rounding && (!passive || lost >= -rounding),
-                "elastic {elastic:e}, dissipated {lost:e}"
-            );
-            assert!((after.work(model) - elastic - lost).abs() <= rounding);
-        });
-    });
-}
-
-#[test]
 fn work_is_the_integral_of_the_force_along_the_path() {
     check_all(any_path, |(model, turns)| {
         follow(model, turns, |before, after, largest| {
@@ -167,25 +132,6 @@ fn a_step_may_be_cut_anywhere() {
                 let (one, two) = (whole.work(model), parts.work(model));
                 assert!((one - two).abs() <= energy_rounding, "{one:e} J in one step, {two:e} J in two");
             });
-        },
-    );
-}
-
-#[test]
-fn an_impact_never_gains_energy() {
-    check_all(
-        |random| (any_model(random), random.log_uniform(1e-9, 1e4), random.log_uniform(0.01, 1e4)),
-        |&(ref model, mass, speed_ratio)| {
-            let unit = unit(&model.pair);
-            let speed = speed_ratio * (0.8 * unit.force * unit.indentation / mass).sqrt();
-            let prediction = predict(model, &Impact { mass, speed }).expect("an ordinary impact");
-            // the root of a sum of a few rounded energies, including those that cancel in it
-            let rounding = 16.0 * f64::EPSILON * energy_size(model, prediction.max_indentation) / prediction.energy;
-            let most = if is_passive(model) { 1.0 + rounding } else { f64::INFINITY };
-            assert!(prediction.restitution > 0.0 && prediction.restitution <= most, "{prediction:?}");
-            assert!(prediction.loading_time > 0.0 && prediction.unloading_time > 0.0);
-            let work = pressed(model, prediction.max_indentation).work(model);
-            assert!((work / prediction.energy - 1.0).abs() <= rounding.max(1e-14), "the work done is the energy");
         },
     );
 }

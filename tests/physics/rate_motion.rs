@@ -177,25 +177,6 @@ fn an_elastic_impact_makes_no_dent_for_a_slower_one() {
     }
 }
 
-#[test]
-fn a_saved_contact_goes_on_to_the_same_bits() {
-    let model = model(hardening(), RATES[1], Surface::Fresh);
-    let drive = Drive { mass: MASS, acceleration: 9.81 };
-    let mut history: History = Contact::start(&model, 1e-5).unwrap();
-    let mut speed = 2.0;
-    for step in 0..400 {
-        let mut words = Vec::new();
-        Contact::<Model<loading::Paired, unloading::Brinell>>::save(&history, &mut |word| words.push(word));
-        assert_eq!(words.len(), 17);
-        let mut copy: History = Contact::load(&mut words.iter().copied(), &model).expect("just saved");
-        assert_eq!(copy, history, "step {step}");
-        let one = motion::follow(&mut history, &model, &drive, speed, 5e-6).unwrap();
-        let other = motion::follow(&mut copy, &model, &drive, speed, 5e-6).unwrap();
-        assert_eq!((one, copy), (other, history), "step {step}");
-        speed = one.speed;
-    }
-}
-
 /// Random bodies whose contacts find their strengths, by one of the [`RATES`] each.
 fn rated<M: Slow, C: Contact<M> + SharedContact<M>>(
     (start, kinetic): (Group<M, C>, f64),

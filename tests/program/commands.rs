@@ -6,7 +6,7 @@ mod oblique;
 mod sweeps;
 
 use crate::command;
-use crate::command::{contents, empty_folder, run, scene};
+use crate::command::{empty_folder, run, scene};
 use brinell_testing::places;
 use serde_json::Value;
 use std::fs;
@@ -118,65 +118,6 @@ fn a_curve_goes_in_out_in_again_and_out_and_its_energies_add_up() {
     run(folder.path(), ["curve", &scene, "--laws", "all", "--truth", "-o", "curve.svg"]).with_status(0);
     let picture = fs::read_to_string(folder.path().join("curve.svg")).unwrap();
     assert!(picture.contains("finite elements") && picture.contains("<circle"));
-}
-
-#[test]
-fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    let cases: [(&[&str], &[&str]); 34] = [
-        (&["predict", &scene, "--mass", "0"], &["mass = 0", "positive"]),
-        (&["predict", &scene, "--speed", "NaN"], &["speed = NaN", "positive"]),
-        (&["predict", &scene, "--energy=-1"], &["energy = -1", "positive"]),
-        (&["predict", &scene, "--speed", "-1e-3"], &["speed = -0.001", "positive"]),
-        (&["predict", &scene, "--dent", "-1"], &["dent = -1", "positive"]),
-        (&["predict", &scene, "--restitution", "-0.5"], &["restitution = -0.5", "above 0"]),
-        (&["predict", &scene, "--friction", "-1", "--angle", "9"], &["friction = -1", "out of range"]),
-        (&["curve", &scene, "--to", "-1"], &["to = -1", "positive"]),
-        (&["hardness", &scene, "--force", "-1"], &["load = -1", "positive"]),
-        (&["hardness", &scene, "--load", "-1kN"], &["load = -1000", "positive"]),
-        (&["translate", &scene, "--for", "mujocco"], &["unknown tool `mujocco`", "did you mean `mujoco`?", "`yade`"]),
-        (&["translate", &scene, "--for", "adams", "--speed", "3:1"], &["--speed 3:1: FROM is above TO"]),
-        (&["translate", &scene, "--for", "ode", "--step", "0"], &["step = 0 s must be positive"]),
-        (&["check", "x.fmu", "--time-limit", "0"], &["--time-limit", "at least 1 is expected"]),
-        (
-            &["predict", &scene, "--sweep", "law.loading_parameters.exponent=1.1:1.4"],
-            &["--sweep law.loading_parameters.exponent: unknown parameter", "big-alabo"],
-        ),
-        (
-            &["predict", &scene, "--drop-height", "5kg"],
-            &["--drop-height", "kg is a mass; a length has a unit like one of `nm`"],
-        ),
-        (&["predict", &scene, "--sweep", "speed=1 mm:2 m/s"], &["`1 mm`: mm is a length; a speed has a unit like"]),
-        (&["predict", &scene, "--mass", "heavy"], &["--mass", "a number in kilograms"]),
-        (&["predict", &scene, "--laws", "hooke"], &["unknown loading law `hooke`", "big-alabo"]),
-        (&["predict", &scene, "--laws", "brinel"], &["unknown loading law `brinel`", "did you mean `brinell`?"]),
-        (&["predict", &scene, "--laws", "hertz/hooke"], &["unknown unloading law `hooke`", "contact-radius"]),
-        (&["predict", &scene, "--sweep", "speed"], &["speed", "NAME=FROM:TO"]),
-        (&["predict", &scene, "--sweep", "speed=2:1"], &["speed=2:1", "FROM must be below TO"]),
-        (&["predict", &scene, "--sweep", "speed=1:2:1"], &["COUNT = 1", "2 to 10000"]),
-        (&["predict", &scene, "--sweep", "yield_strength=1e8:2e8"], &["did you mean `target.yield_strength`?"]),
-        (&["predict", &scene, "--sweep", "initial_gap=0:1"], &["doesn't depend on initial_gap"]),
-        (&["predict", &scene, "--sweep", "impactor.youngs_modulus=1e9:2e9"], &["the impactor of the scene is rigid"]),
-        (&["predict", &scene, "--sweep", "target.poissons_ratio=0:0.9"], &["out of range", "0.5"]),
-        (&["predict", &scene, "--sweep", "speed=1:2", "-o", "x.pdf"], &["x.pdf: the name must end in .csv"]),
-        (&["predict", &scene, "--time-history", "x.pdf"], &["x.pdf: the name must end in .csv"]),
-        (&["curve", &scene, "-o", "x.html"], &["x.html", ".csv or .svg"]),
-        (&["curve", &scene, "--to", "1e150"], &["1e150", "too deep"]),
-        (&["laws", "hooke"], &["unknown law `hooke`"]),
-        (&["predict", &scene, "--speed", "1", "--energy", "1"], &["--speed", "--energy"]),
-    ];
-    for (arguments, parts) in cases {
-        let failed = run(folder.path(), arguments).with_status(2);
-        assert!(failed.err.starts_with("brinell: ") && failed.out.is_empty(), "{failed:#?}");
-        for part in parts {
-            assert!(failed.err.contains(part), "nothing of {part:?} in {failed:#?}");
-        }
-    }
-    // a valid question without an answer
-    let failed = run(folder.path(), ["predict", &scene, "--dent", "1e9"]).with_status(1);
-    assert!(failed.err.contains("dent = ") && failed.err.contains("speed"), "{failed:#?}");
-    assert!(contents(folder.path()).is_empty());
 }
 
 /// It fails before the work, not after it.
@@ -341,17 +282,6 @@ fn rate_dependent_laws_stand_beside_the_others_and_are_asked_for_the_same_restit
     close(restitution(1), restitution(0), 1e-9);
     assert!(restitution(2) > restitution(0) + 0.1, "lee-wang gives more than it is asked for: {both}");
     assert_eq!(number(&both["laws"][1]["dent"]), 0.0);
-}
-
-#[test]
-fn a_rate_dependent_law_cannot_explain_a_dent() {
-    let folder = empty_folder();
-    for question in [["--dent", "1e-6"], ["--restitution", "0.5"]] {
-        let scene = scene("steel_ball");
-        let arguments = ["predict", scene.to_str().unwrap(), "--laws", "tsuji", question[0], question[1]];
-        let run = run(folder.path(), arguments).with_status(1);
-        assert!(run.err.contains("tsuji") && run.err.contains("leaves no dent"), "{run:#?}");
-    }
 }
 
 #[test]

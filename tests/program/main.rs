@@ -5,6 +5,7 @@
 use brinell_testing::{archive, command, laws, prebuilt};
 
 mod build_failures;
+mod calls;
 mod commands;
 mod isolation;
 mod own_data;

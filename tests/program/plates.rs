@@ -66,30 +66,6 @@ fn a_thin_sheet_that_bends_for_good_is_told_from_the_force_at_which_it_does() {
     }
 }
 
-/// A thin sheet stops a heavy ball so gently that the two move on together.
-#[test]
-fn a_sheet_that_is_too_thin_for_the_loss_is_told_to_bend() {
-    let folder = empty_folder();
-    let text = |thickness: &str| {
-        format!(
-            "name = \"unit\"\nimpactor = {{ radius = 12.5e-3, density = 917.0 }}\n\
-             target = {{ material = \"aluminium 1100-O\"{thickness} }}\nimpact = {{ mass = 7.5e-3, speed = 10.0 }}\n"
-        )
-    };
-    fs::write(folder.path().join("thick.toml"), text("")).unwrap();
-    run(folder.path(), ["predict", "thick.toml"]).with_status(0);
-    fs::write(folder.path().join("thin.toml"), text(", plate_thickness = \"0.2 mm\"")).unwrap();
-    let said = run(folder.path(), ["predict", "thin.toml"]).with_status(1).err;
-    for part in [
-        "mass = 0.0075 kg",
-        "speed = 10 m/s",
-        "plate_thickness = 0.0002 m",
-        "the sheet bends and moves on with the body",
-    ] {
-        assert!(said.contains(part), "{part}: {said}");
-    }
-}
-
 #[test]
 fn a_plate_whose_edge_is_where_predict_says_moves_almost_like_an_infinite_one() {
     let roots = roots();

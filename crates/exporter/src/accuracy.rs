@@ -99,8 +99,8 @@ fn takes_both(loading: &AnyLoading) -> Option<&Paired> {
 /// The largest errors of the law `brinell` against finite elements \[%\]: force at a given depth, restitution and dent of an impact.
 type Errors = (&'static str, &'static str, &'static str);
 
-/// Those beside an elastic body: modulus of the softer body over that of the elastic one, and the same in words. `tests/physics/law_pairs`
-/// compares them.
+/// Those beside an elastic body: modulus of the softer body over that of the elastic one, and the same in words.
+/// `tests/physics/finite_elements.csv` has them as limits.
 const BESIDE_ELASTIC: [(f64, &str, Errors); 3] = [
     (1.0 / 3.0, "three times the modulus", ("0.6", "0.4", "0.6")),
     (1.0, "the same modulus", ("1.2", "0.9", "2")),

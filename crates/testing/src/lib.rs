@@ -41,6 +41,7 @@ pub mod standalone;
 pub mod suites;
 #[cfg(unix)]
 pub mod systems;
+pub mod table;
 pub mod targets;
 pub mod toolchain;
 pub mod unit;

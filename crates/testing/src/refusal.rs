@@ -1,6 +1,4 @@
 //! Scenes with errors: the message names the place, and no file changes.
-//!
-//! In the scenes, `§` marks the place that the message must name; it is removed before the file is written.
 
 use super::command::{contents, empty_folder, run};
 use crate::places::{build, temporary};
@@ -48,19 +46,4 @@ pub fn message_of(bytes: &[u8]) -> String {
     assert_eq!(run.out, "", "results of a job that failed");
     keep(bytes, &run.err);
     run.err
-}
-
-/// Exports the marked scene: the message must name the marked place and contain `parts`. Returns it.
-#[track_caller]
-pub fn refused_text(marked: &str, parts: &[&str]) -> String {
-    let (before, after) = marked.split_once('§').expect("a marked place");
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-    let message = message_of(format!("{before}{after}").as_bytes());
-    let place = format!("brinell: scene.toml:{line}:{column}: ");
-    assert!(message.starts_with(&place), "not at {place}: {message}");
-    for part in parts {
-        assert!(message.contains(part), "nothing of {part:?} in: {message}");
-    }
-    message
 }

@@ -99,28 +99,6 @@ fn several_laws_are_rows_and_fit_a_terminal() {
 }
 
 #[test]
-fn scenes_that_are_not_brinell_tests_are_refused() {
-    let folder = empty_folder();
-    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    write("curved.toml", &BALL.replace("[target]", "[target]\nradius = -0.1"));
-    write("flat.toml", BALL);
-    write("elastic.toml", &BALL.replace("material = \"mild steel\"", "youngs_modulus = 2e11\npoissons_ratio = 0.3"));
-    let cases: [(&[&str], i32, &str); 7] = [
-        (&["curved.toml", "--load", "1kN"], 1, "flat target"),
-        (&["elastic.toml", "--load", "1kN"], 1, "leaves no dent"),
-        (&["elastic.toml", "--load", "1kN", "--brinell", "200"], 1, "target.yield_strength"),
-        (&["flat.toml", "--load", "1kN", "--brinell", "1e9"], 1, "no yield strength"),
-        (&["flat.toml", "--load", "1000"], 2, "29.4kN"),
-        (&["flat.toml", "--force=-1"], 2, "load = -1 must be positive"),
-        (&["flat.toml"], 2, "--load"),
-    ];
-    for (arguments, status, said) in cases {
-        let failed = run(folder.path(), ["hardness"].iter().chain(arguments)).with_status(status);
-        assert!(failed.err.starts_with("brinell: ") && failed.err.contains(said), "{failed:#?}");
-    }
-}
-
-#[test]
 fn a_slow_test_takes_the_strength_under_a_slow_load() {
     let rates =
         ["model = \"johnson-cook\", c = 0.014, reference_rate = 1e-3", "model = \"cowper-symonds\", d = 40.4, q = 5"];

@@ -115,36 +115,6 @@ fn an_oblique_sweep_is_a_table() {
     }
 }
 
-#[test]
-fn an_impossible_oblique_impact_is_rejected_with_the_reason() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    let cases: [(&[&str], &str); 15] = [
-        (&["--angle", "30"], "the scene has no friction: give it [friction] coefficient, or --friction"),
-        (&["--friction", "0.1"], "--friction belongs to an oblique impact: add --angle"),
-        (&["--inertia", "1e-8"], "--inertia belongs to an oblique impact"),
-        (&["--sweep", "friction.coefficient=0.1:1"], "--friction belongs to an oblique impact"),
-        (&["--angle", "90", "--friction", "0.1"], "angle = 90 must be above -90 and below 90 degrees"),
-        (&["--angle", "NaN", "--friction", "0.1"], "angle = NaN must be"),
-        (&["--angle", "-9.5e+1", "--friction", "0.1"], "angle = -95 must be"),
-        (&["--spin", "inf", "--friction", "0.1"], "spin = inf rad/s must be finite"),
-        (&["--angle", "1", "--friction", "11"], "friction = 11 is out of range: allowed is 0 to 10"),
-        (&["--angle", "1", "--friction", "-0.1"], "friction = -0.1 is out of range"),
-        (&["--angle", "1", "--friction", "0.1", "--inertia", "0"], "inertia = 0 must be positive"),
-        (&["--friction", "0.1", "--sweep", "angle=0:90"], "angle = 90 must be above -90"),
-        (
-            &["--angle", "1", "--friction", "0.1", "--laws", "kogut-etsion"],
-            "kogut-etsion/etsion doesn't support friction",
-        ),
-        (&["--angle", "1", "--friction", "0.1", "--laws", "damped"], "rate-dependent laws have none"),
-        (&["--angle", "1", "--friction", "0.1", "--dent", "1e-6"], "cannot be used with"),
-    ];
-    for (arguments, words) in cases {
-        let failed = run(folder.path(), ["predict", &scene].iter().chain(arguments)).with_status(2);
-        assert!(failed.err.contains(words), "{arguments:?}: {}, not {words}", failed.err);
-    }
-}
-
 /// Each row equals the impact with these numbers.
 #[test]
 fn oblique_sweeps_over_several_quantities_are_their_impacts() {
@@ -256,21 +226,6 @@ fn a_body_on_the_ground_rebounds_as_a_free_ball() {
                 assert!(off < 2e-3 * scale, "{law} at {angle}: {name} {} and {}", body[name], ball[name]);
             }
         }
-    }
-}
-
-#[test]
-fn bodies_in_tables_have_their_own_mass_and_inertia() {
-    let folder = empty_folder();
-    fs::write(folder.path().join("scene.toml"), balls("loading = \"hertz\"", 0.1, true)).unwrap();
-    for (arguments, words) in [
-        (["--mass", "1"], "mass = 1 kg: the tables [[body]]"),
-        (["--inertia", "1"], "inertia = 1 kg.m^2: the tables [[body]]"),
-    ] {
-        let failed =
-            run(folder.path(), ["predict", "scene.toml", "--angle", "30"].iter().chain(&arguments)).with_status(2);
-        let said = failed.err.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(said.contains(words), "{said}");
     }
 }
 

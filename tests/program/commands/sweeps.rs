@@ -26,22 +26,6 @@ fn a_sweep_has_a_row_for_each_law_and_value() {
     assert!(laws.iter().all(|law| short.lines().any(|line| line == *law)), "a table for each law: {short}");
 }
 
-/// The energy of 1e-160 m/s underflows; this is not an error of the law.
-#[test]
-fn an_energy_too_small_to_compute_with_is_not_blamed_on_the_law() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    let asked: [&[&str]; 4] =
-        [&["--speed", "1e-160"], &["--energy", "1e-320"], &["--drop-height", "1e-322"], &["--sweep", "speed=1e-160:1"]];
-    for arguments in asked {
-        let all = ["predict", &scene].into_iter().chain(arguments.iter().copied());
-        let failed = run(folder.path(), all).with_status(2);
-        assert!(failed.err.contains("kinetic energy") && failed.err.contains("2.22507e-308 J"), "{failed:#?}");
-        assert!(!failed.err.contains("law") && failed.err.len() < 200, "{failed:#?}");
-    }
-    run(folder.path(), ["predict", &scene, "--speed", "1e-150", "--laws", "all"]).with_status(0);
-}
-
 /// Numbers of the sweep's CSV: the columns by name, one law.
 fn columns(text: &str, name: &str) -> Vec<f64> {
     let place = text.lines().next().unwrap().split(',').position(|column| column == name);
@@ -162,23 +146,14 @@ fn sweeps_over_several_quantities_are_those_of_scenes_with_them() {
 fn a_sweep_over_a_list_has_its_values_in_their_order() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let asked = |range: &str| run(folder.path(), ["predict", &scene, "--sweep", range, "--json"]);
     for (range, values) in [
         ("speed=3,1,2", json!([3.0, 1.0, 2.0])),
         ("speed=1 m/s,50 cm/s", json!([1.0, 0.5])),
         ("speed=1.0,2.0", json!([1.0, 2.0])),
         ("speed=2,", json!([2.0])),
     ] {
-        assert_eq!(asked(range).with_status(0).json()["laws"][0]["speed"], values, "{range}");
-    }
-    for (range, words) in [
-        ("speed=1,5", "this is a decimal comma; write 1.5"),
-        ("speed=1,x,2", "`x`"),
-        ("speed=1 m/s,2 kg", "kg is a mass"),
-        ("speed=2,-1,1", "speed = -1 must be positive"),
-    ] {
-        let failed = asked(range).with_status(2).err;
-        assert!(failed.contains(words), "{range}: {failed}");
+        let answer = run(folder.path(), ["predict", &scene, "--sweep", range, "--json"]).with_status(0).json();
+        assert_eq!(answer["laws"][0]["speed"], values, "{range}");
     }
 }
 
@@ -205,31 +180,6 @@ fn numbers_with_units_become_numbers_in_si_units() {
         ["target.yield_strength=400 MPa", "bead[3].initial_gap=-5 um", "speed=3.6 km/h", "mass=2.5", "angle=0.5 rad"];
     let numbers = run(folder.path(), ["numbers"].iter().chain(&given)).with_status(0).json();
     assert_eq!(numbers, json!([400e6, -5e-6, 1.0, 2.5, 0.5_f64.to_degrees()]));
-    for (wrong, words) in [
-        ("mass=4 m", "mass = 4 m: m is a length; a mass has a unit like"),
-        ("target.yeild_strength=4 MPa", "did you mean `target.yield_strength`?"),
-        ("mass", "expected NAME=NUMBER"),
-    ] {
-        let failed = run(folder.path(), ["numbers", wrong]).with_status(2).err;
-        assert!(failed.contains(words), "{failed}");
-    }
-}
-
-/// One would silently win.
-#[test]
-fn quantities_that_determine_each_other_are_rejected() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    for (one, other, words) in [
-        ("speed=1:2", "speed=2:3", "--sweep speed is given twice"),
-        ("speed=1:2", "energy=1:2", "--sweep speed and energy determine each other: give one of them"),
-        ("drop_height=1:2", "speed=1:2", "drop_height and speed determine each other"),
-        ("mass=1:2", "effective_mass=1:2", "mass and effective_mass determine each other"),
-        ("speed=1:2:1000", "mass=1:2:1000", "--sweep 1000 x 1000 values: at most 100000 impacts are allowed"),
-    ] {
-        let failed = run(folder.path(), ["predict", &scene, "--sweep", one, "--sweep", other]).with_status(2);
-        assert!(failed.err.contains(words), "{one}, {other}: {}", failed.err);
-    }
 }
 
 #[test]
@@ -285,83 +235,14 @@ fn a_sweep_over_a_constant_of_a_law_is_that_of_scenes_with_it() {
 }
 
 #[test]
-fn a_constant_that_cannot_be_varied_is_rejected_with_those_that_can() {
+fn of_several_laws_the_table_shows_those_that_have_the_constant() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let refused = |laws: &str, range: &str, words: &str| {
-        let run = run(folder.path(), ["predict", &scene, "--laws", laws, "--sweep", range]).with_status(2);
-        assert!(run.err.contains(words), "{laws}, {range}: {}", run.err);
-    };
-    refused(
-        "thornton",
-        "law.loading_parameters.peak_presure_factor=1:2",
-        "did you mean `law.loading_parameters.peak_pressure_factor`?",
-    );
-    refused("thornton", "law.loading_parameters.stiffness_ratio=2:8", "unknown parameter");
-    refused("hertz", "law.loading_parameters.yield_pressure_factor=1:2", "which has none");
-    refused("hertz", "law.unloading_parameters.pressure_factor=1:2", "no unloading law");
-    refused("tsuji", "law.unloading_parameters.pressure_factor=1:2", "no unloading law");
-    refused("thornton", "law.loading_parameters.peak_pressure_factor=-1:2", "out of range: allowed is");
-    // with several laws, the table shows those that have it
     let sweep =
         ["--laws", "thornton,hertz", "--sweep", "law.loading_parameters.peak_pressure_factor=1.2:2.4:2", "-o", "x.csv"];
     run(folder.path(), ["predict", &scene].into_iter().chain(sweep)).with_status(0);
     let table = fs::read_to_string(folder.path().join("x.csv")).unwrap();
     assert!(table.contains("thornton/") && !table.contains("hertz,"), "{table}");
-}
-
-/// 4 for 4 g is plausible as a mass, and not as that of this ball.
-#[test]
-fn a_mass_in_another_unit_than_the_ball_s_is_asked_about() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball");
-    for (arguments, said) in [
-        (["--mass", "4.1"], "mass = 4.1 kg is 1000 times the mass of a solid ball"),
-        (["--mass", "4.1e-6"], "did you mean 4.1e-3?"),
-        (["--sweep", "mass=1e-3:4.1"], "mass = 4.1 kg is 1000 times"),
-    ] {
-        let warned =
-            run(folder.path(), ["predict", scene.to_str().unwrap()].into_iter().chain(arguments)).with_status(0);
-        assert!(warned.err.replace("\n         ", " ").contains(said), "{arguments:?}: {}", warned.err);
-    }
-    // a hammer with such a tip
-    let hammer = run(folder.path(), ["predict", scene.to_str().unwrap(), "--mass", "1"]).with_status(0);
-    assert_eq!(hammer.err, "");
-}
-
-/// A dent of 10.3 mm in a ball of 5 mm was once printed without a word.
-#[test]
-fn sweeps_and_inverse_predictions_warn_where_the_law_is_not_valid() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    let warned = |arguments: &[&str]| {
-        let command = ["predict", scene.as_str()];
-        run(folder.path(), command.iter().chain(arguments)).with_status(0)
-    };
-    for arguments in [
-        &["--sweep", "speed=1:1000"][..],
-        &["--sweep", "target.yield_strength=2e5:4e6"],
-        &["--sweep", "speed=1:1000:5", "--sweep", "mass=1e-3:1:5"],
-        &["--sweep", "speed=1:1000:5", "--angle", "30", "--friction", "0.1"],
-        &["--sweep", "speed=1:1000:5", "--sweep", "angle=0:30:2", "--friction", "0.1"],
-    ] {
-        let said = warned(arguments).err.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(
-            said.contains("impacts are outside the law's validity (") && said.contains("effective radii"),
-            "{arguments:?}: {said}"
-        );
-    }
-    for arguments in [&["--dent", "0.8e-3"][..], &["--restitution", "0.05"]] {
-        let said = warned(arguments).err;
-        assert!(said.contains("brinell: warning: "), "{arguments:?}: {said}");
-    }
-    let curve = |to| run(folder.path(), ["curve", &scene, "--to", to, "--laws", "brinell,thornton"]).with_status(0).err;
-    assert_eq!(curve("1e-4"), "");
-    let said = curve("1e-3");
-    assert!(said.contains("where no law is valid, with brinell/brinell, thornton/thornton"), "{said}");
-    for arguments in [&["--sweep", "speed=0.1:1"][..], &["--dent", "1e-5"], &["--restitution", "0.5"]] {
-        assert_eq!(warned(arguments).err, "", "{arguments:?}");
-    }
 }
 
 #[test]
@@ -382,59 +263,13 @@ fn each_row_of_a_sweep_says_whether_its_impact_is_valid() {
 }
 
 #[test]
-fn implausible_numbers_of_the_command_line_are_asked_about_with_what_was_probably_meant() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    let said = |arguments: &[&str]| {
-        let run = run(folder.path(), ["predict", scene.as_str()].iter().chain(arguments));
-        run.err.split_whitespace().collect::<Vec<_>>().join(" ")
-    };
-    let curve = run(folder.path(), ["curve", &scene, "--to", "10"]);
-    assert!(curve.err.contains("to = 10 m; did you mean 10e-6?"), "{curve:?}");
-    for (arguments, words) in [
-        (&["--speed", "5000"][..], "warning: speed = 5000 m/s; did you mean 5?"),
-        (&["--mass", "5e6"], "warning: mass = 5e6 kg; did you mean 5000?"),
-        (&["--drop-height", "500"], "warning: drop-height = 500 m; did you mean 0.5?"),
-        (&["--mass", "0.004", "--energy", "2e5"], "warning: energy = 200e3 J; did you mean 200?"),
-        (&["--sweep", "speed=1000:10000"], "warning: speed = 10000 m/s; did you mean 10?"),
-        (&["--sweep", "mass=1:1e7:2"], "warning: mass = 10e6 kg; did you mean 10000?"),
-        (&["--sweep", "drop_height=1:1000:2"], "warning: drop_height = 1000 m; did you mean 1?"),
-        (&["--sweep", "energy=1:1e6:2"], "warning: energy = 1e6 J; did you mean 1000?"),
-        (&["--sweep", "target.yield_strength=200:400"], "warning: target.yield_strength = 200 Pa; did you mean 200e6?"),
-        (&["--sweep", "impactor.radius=1:10"], "warning: impactor.radius = 10 m; did you mean 0.01?"),
-        (&["--sweep", "speed=1:2:2", "--sweep", "target.youngs_modulus=190:210:2"], "190 Pa; did you mean 190e9?"),
-        (&["--sweep", "speed=5000:6000:2", "--angle", "30", "--friction", "0.1"], "did you mean 5?"),
-        (&["--dent", "10"], "warning: dent = 10 m; did you mean 10e-6?"),
-        (&["--dent", "0.05"], "warning: dent = 0.05 m; did you mean 50e-6?"),
-    ] {
-        let said = said(arguments);
-        assert!(said.contains(words), "{arguments:?}: {said}");
-    }
-    for arguments in [
-        &["--speed", "1e-3"][..],
-        &["--mass", "1e-12", "--drop-height", "0.001"],
-        &["--energy", "1e-3"],
-        &["--sweep", "target.radius=5:50:2"],
-        &["--sweep", "target.yield_strength=200e6:900e6:2"],
-        &["--sweep", "impactor.radius=1e-3:1e-2:2"],
-    ] {
-        assert_eq!(said(arguments), "", "{arguments:?}");
-    }
-}
-
-/// A table without a row came out once, and no word of it.
-#[test]
-fn a_sweep_over_the_strength_keeps_the_laws_that_have_one_and_is_refused_where_none_has() {
+fn a_sweep_over_the_strength_keeps_the_laws_that_have_one() {
     let folder = empty_folder();
     fs::copy(scene("steel_ball"), folder.path().join("scene.toml")).unwrap();
     let sweep = |laws: &str| {
         let range = "target.yield_strength=1e8:1e9:3";
         run(folder.path(), ["predict", "scene.toml", "--laws", laws, "--sweep", range, "--json"])
     };
-    for laws in ["hertz", "hertz,hunt-crossley", "damped"] {
-        let refused = sweep(laws).with_status(2);
-        assert!(refused.err.contains("target.yield_strength: the law has no yield strength"), "{laws}: {refused:?}");
-    }
     for (laws, left) in [("hertz,thornton", 1), ("thornton,hunt-crossley,brinell", 2)] {
         assert_eq!(sweep(laws).with_status(0).json()["laws"].as_array().unwrap().len(), left, "{laws}");
     }
