@@ -56,6 +56,23 @@ fn refused_with(more: &str, parts: &[&str]) {
 }
 
 #[test]
+fn two_radii_go_with_no_friction_and_no_law_of_round_contacts() {
+    let ellipse = "target]\nradius = [0.02, \"flat\"]";
+    schema::accepts(&SCENE.replacen("target]", ellipse, 1));
+    for (more, words) in [
+        ("friction = § { coefficient = 0.1 }", "[friction] doesn't go with two radii"),
+        ("law.loading = §\"thornton\"", "is a law of round contacts"),
+        ("law.elastic_restitution = §\"waves\"", "an ellipse has a number"),
+    ] {
+        let text = SCENE.replacen("target]", ellipse, 1).replacen("[impactor]", &format!("{more}\n[impactor]"), 1);
+        refused_text(&text.replacen("§ ", "§", 1), &[words]);
+    }
+    refused("5e-3", "§[5e-3]", &["a list of 1"]);
+    refused("5e-3\n", "§[5e-3, 8e-3]\nlength = 0.1\nshape = \"cylinder\"\n", &["is a list under a cylinder"]);
+    refused("5e-3\n", "§[5e-3, 8e-3]\n", &["give impact.mass"]);
+}
+
+#[test]
 fn the_scene_that_the_tests_alter_is_good() {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
