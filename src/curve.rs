@@ -88,7 +88,7 @@ fn too_wide(scene: &Scene, choices: &[Choice], largest: f64) -> Option<String> {
         })
     };
     let wide: Vec<_> = choices.iter().filter(is_wide).map(|choice| choice.laws.as_str()).collect();
-    (!wide.is_empty()).then(|| validity::too_wide((&choices[0].model.pair(), size), &wide))
+    (!wide.is_empty()).then(|| validity::too_wide(scene, &wide))
 }
 
 /// A short table for a terminal.

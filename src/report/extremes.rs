@@ -213,6 +213,10 @@ impl Bodies {
         if radius.is_some() && scene.line.is_some() {
             return None;
         }
+        // so is the ball in place of an ellipse
+        if (radius.is_some() || modulus.is_some()) && scene.contacts[0].ellipse.is_some() {
+            return None;
+        }
         let larger = radius.map_or(1.0, |radius| radius / old("impactor.radius"));
         let stiffer = modulus.map_or(1.0, |modulus| modulus / old("target.youngs_modulus"));
         // both bodies keep the ratio of their strengths

@@ -16,6 +16,7 @@ mod contacts;
 mod cylinders;
 mod descriptions;
 mod elastic_unit;
+mod ellipses;
 mod every_law;
 mod export;
 mod friction_derivatives;

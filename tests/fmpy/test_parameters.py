@@ -68,7 +68,7 @@ def test_a_contact_at_the_limits_gives_finite_values_until_it_is_as_wide_as_its_
             try:
                 instance.step(1e-6, rate)
             except Refused as refused:
-                assert "the radius of the smaller body: no contact law holds" in str(refused)
+                assert "the size of the smaller body: no contact law holds" in str(refused)
                 # without strength, a line is as wide as its cylinder at any depth
                 strength = {"target.yield_strength"} if "roller" in name else set()
                 assert key in {"impactor.radius", "initial_gap"} | strength

@@ -8,6 +8,7 @@ mod arithmetic_modes;
 mod corners;
 mod damped_laws;
 mod dents;
+mod ellipse;
 mod ends_of_laws;
 mod equal_bodies;
 mod finite_elements;

@@ -73,6 +73,7 @@
 //! | [`shared`] | contacts that share bodies move together |
 //! | [`rate`] | strain rate: the strength of an impact from its closing speed |
 //! | [`mod@line`] | contacts along a line: how far the bodies give way, and back |
+//! | [`ellipse`] | bodies with two principal radii, as balls |
 //! | [`two_bodies`] | two bodies pressed together, from the law `brinell` of each |
 //! | [`strength`] | hardening and Poisson's ratio as one effective strength |
 //! | [`tangential`] | friction: the tangential force of a contact |
@@ -91,6 +92,7 @@
 pub mod behaviour;
 pub mod damped;
 pub mod dual;
+pub mod ellipse;
 pub mod hardening;
 pub mod history;
 pub mod impact;

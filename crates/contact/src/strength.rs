@@ -3,7 +3,8 @@
 //! Lengths are in units of the yield indentation `d_Y` of the material, forces in units of its yield force `F_Y`:
 //! `k = d/d_Y`, `phi = F/F_Y`. `Phi` and `A` are the force and the area of the law `brinell` itself.
 
-use libm::{exp, pow};
+use crate::numbers::largest;
+use libm::{exp, log, pow, sqrt};
 
 /// Poisson's ratio of the fit of the law `brinell`.
 pub const POISSONS_RATIO: f64 = 0.3;
@@ -120,6 +121,16 @@ impl Strength {
     pub fn dent_divisor(&self) -> f64 {
         1.0 + DENT_FALL * self.hardening
     }
+}
+
+/// The Poisson's ratio at which a contact yields at `harder` times the pressure that it has at this `ratio`.
+pub(crate) fn poissons_ratio_for(ratio: f64, harder: f64) -> f64 {
+    let [first, second] = GROWTH;
+    let more = ratio - POISSONS_RATIO;
+    let wanted = log(harder) + more * (first + second * more);
+    // the root near zero, without cancellation
+    let root = sqrt(largest(first * first + 4.0 * second * wanted, 0.0));
+    if harder == 1.0 { ratio } else { POISSONS_RATIO + 2.0 * wanted / (first + root) }
 }
 
 /// Factor of the contact area relative to `A(k)`, for a force of `ratio` times `Phi(k)`. It is below 1 for a harder

@@ -124,6 +124,11 @@ pub fn accuracy(scene: &Scene, prediction: &Prediction) -> Option<String> {
     if let Some(size) = &scene.line {
         return Some(of_line(scene, size));
     }
+    if let Some(elliptic) = &scene.contacts[0].ellipse {
+        let [impactor, target] = scene.bodies_with(0, &[]);
+        let softer = if scene.softer(0) == Body::Impactor { impactor } else { target };
+        return Some(elliptic.words(scene.unloading.map(|_| softer.poissons_ratio)));
+    }
     if let Some((words, law)) = scene.own_curve.as_ref().zip(scene.loading.1.table()) {
         let last = law.knots().last().map_or(0.0, |knot| knot.depth * scene.model().pair.radius);
         let beyond = if prediction.max_indentation > last { " This impact goes deeper." } else { "" };

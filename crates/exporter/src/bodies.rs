@@ -1,18 +1,24 @@
 //! The bodies of a contact, as words and numbers.
 
-use crate::scene::Scene;
+use crate::scene::{Body, Scene};
 use crate::table;
 
 /// Descriptions of the two bodies in the contacts of `group`: "a rigid sphere", "a half-space".
-pub fn words(scene: &Scene, group: usize) -> (&'static str, &'static str) {
+pub fn words(scene: &Scene, group: usize) -> (String, String) {
     let value = |name| scene.group_value(group, name);
-    let impactor = if value("impactor.youngs_modulus").is_none() { "a rigid sphere" } else { "an elastic sphere" };
+    let is_rigid = value("impactor.youngs_modulus").is_none();
+    if let Some(elliptic) = &scene.contacts[group].ellipse {
+        let [impactor, target] = Body::ALL.map(|body| elliptic.radii_of(body));
+        let kind = if is_rigid { "a rigid body" } else { "an elastic body" };
+        return (format!("{kind} with radii of {impactor}"), format!("one of {target}"));
+    }
+    let impactor = if is_rigid { "a rigid sphere" } else { "an elastic sphere" };
     let target = match value("target.radius") {
         None => "a half-space",
         Some(radius) if radius < 0.0 => "a spherical socket",
         Some(_) => "a sphere",
     };
-    (impactor, target)
+    (impactor.into(), target.into())
 }
 
 /// The parameters of the contacts of `group`, including those shared by all contacts, in the order of the table: name, value,

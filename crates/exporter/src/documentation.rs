@@ -240,7 +240,11 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
         ("Largest indentation", prediction.max_indentation, "m"),
         ("Dent", prediction.residual_indentation, "m"),
         (
-            if scene.line.is_some() { "Largest half-width" } else { "Largest contact radius" },
+            match scene.contacts[0].ellipse {
+                Some(_) => "Largest contact radius, &radic;(a b)",
+                None if scene.line.is_some() => "Largest half-width",
+                None => "Largest contact radius",
+            },
             prediction.max_contact_radius,
             "m",
         ),

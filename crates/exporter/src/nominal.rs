@@ -83,7 +83,10 @@ pub fn experiment(scene: &Scene) -> Experiment {
     let (contact_time, speed) = (scene.predictions[0].contact_time(), scene.impact.speed);
     let value = |name| scene.group_value(0, name).unwrap_or(0.0).max(0.0);
     let longest = match scene.coupling {
-        Some(_) => (TRAVEL * value("impactor.radius") / speed).min(LONGEST_STEP),
+        Some(_) => {
+            let radius = scene.group_value(0, "impactor.radius").unwrap_or_else(|| scene.smaller_radius_with(0, &[]));
+            (TRAVEL * radius / speed).min(LONGEST_STEP)
+        }
         None => contact_time / STEPS_PER_CONTACT,
     };
     let step = scene.step_size.unwrap_or_else(|| {

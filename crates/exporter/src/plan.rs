@@ -52,7 +52,7 @@ pub struct FixedParameter {
 impl Plan<'_> {
     /// The plan of the FMU of `scene`.
     pub fn of(scene: &Scene) -> Plan<'_> {
-        let (model, density, size) = (scene.any_model(), scene.contacts[0].density, scene.smaller_radius_with(0, &[]));
+        let model = scene.any_model();
         let (prediction, speed) = (&scene.predictions[0], scene.impact.speed);
         let warnings = predict::beyond(scene, &model.pair(), speed, prediction, &[]).into_iter().map(validity::words);
         let energy = energy::of(scene);
@@ -66,7 +66,7 @@ impl Plan<'_> {
             warnings: warnings.collect(),
             waves: Waves::of(scene, speed, &[]),
             shared_bodies: moves_separately(scene).then_some(SHARED_BODIES),
-            valid: validity::limits((&model.pair(), size), scene.line_size(0), density, model.valid_depth(size)),
+            valid: validity::limits(scene),
         }
     }
 

@@ -8,7 +8,7 @@ use crate::model::Dampings;
 use crate::parameters::{self, LawConstant};
 use crate::scene::TABLE;
 use crate::scene::{
-    IDENTIFIER, INPUTS, OF_ALL_CONTACTS, PRODUCT, RATE_MODELS, SceneFile, WAVES, is_no_name, quantity_of,
+    FLAT, IDENTIFIER, INPUTS, OF_ALL_CONTACTS, PRODUCT, RATE_MODELS, SceneFile, WAVES, is_no_name, quantity_of,
 };
 use crate::table::{self, Causality, MATERIALS, VARIABLES, Variable};
 use crate::{units, xml};
@@ -230,6 +230,14 @@ fn form(schema: &mut Map<String, Value>, table: &str, key: &str) {
             let any = names.join("|").replace('.', r"\.");
             let owner = if table == "fmu" { r"(?:[A-Za-z_]\w*\.)?" } else { "" };
             json!({ "pattern": format!("^{owner}(?:{any})$"), "examples": names })
+        }
+        // the principal radii
+        ("impactor" | "target", "radius") => {
+            let mut one = json!({ "type": "number" });
+            // either may be hollow
+            number(one.as_object_mut().expect("a schema"), "target", key);
+            let items = json!({ "anyOf": [one, { "const": FLAT }] });
+            json!({ "type": ["number", "string", "array"], "items": items, "minItems": 2, "maxItems": 2 })
         }
         // those of one's own have other names
         ("impactor" | "target", "material") => {

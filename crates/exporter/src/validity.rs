@@ -2,6 +2,7 @@
 
 use crate::numbers::{quantity, significant};
 use crate::rods::{self, Waves};
+use crate::scene::Scene;
 use brinell_contact::Pair;
 use brinell_contact::loading::line::LARGEST_PART;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
@@ -20,6 +21,8 @@ pub enum Beyond {
     Width(f64),
     /// Ratio of contact radius to the radius \[m\] of the smaller body, where that is smaller than the effective radius.
     Size { ratio: f64, size: f64 },
+    /// Largest ratio of a half-axis of an ellipse to the smallest radius in its direction.
+    HalfAxis(f64),
     /// Ratio of the half-width of a line contact to the size \[m\] of the smaller body.
     Line { ratio: f64, size: f64 },
     /// Ratio of speed to wave speed, and the fraction of energy that waves take.
@@ -34,7 +37,7 @@ pub enum Beyond {
 
 impl Beyond {
     /// Number of kinds.
-    pub const KINDS: usize = 7;
+    pub const KINDS: usize = 8;
 
     /// The number of its kind, and a measure of how far it is exceeded.
     pub fn rank(&self) -> (usize, f64) {
@@ -46,12 +49,13 @@ impl Beyond {
             Beyond::Short { travels, .. } => (4, -travels),
             Beyond::Bends { excess, .. } => (5, excess),
             Beyond::Line { ratio, .. } => (6, ratio),
+            Beyond::HalfAxis(ratio) => (7, ratio),
         }
     }
 
     /// Whether the contact is too wide.
     pub fn is_wide(&self) -> bool {
-        matches!(self, Beyond::Width(_) | Beyond::Size { .. } | Beyond::Line { .. })
+        matches!(self, Beyond::Width(_) | Beyond::Size { .. } | Beyond::Line { .. } | Beyond::HalfAxis(_))
     }
 }
 
@@ -132,15 +136,21 @@ impl SweepLimits {
     }
 }
 
-/// A warning that the contact is too wide for these `laws`, of bodies of which the smaller one has this `size` \[m\].
-pub fn too_wide((pair, size): (&Pair, f64), laws: &[&str]) -> String {
-    let of = if size < pair.radius {
-        format!("of the smaller body's radius of {}", quantity(size, "m"))
+/// A warning that the first contact of a scene is too wide for these `laws`.
+pub fn too_wide(scene: &Scene, laws: &[&str]) -> String {
+    let size = scene.size_with(0, &[]);
+    let (what, of) = if scene.contacts[0].ellipse.is_some() {
+        ("a half-axis of the contact", SMALLEST.into())
+    } else if size < scene.model().pair.radius {
+        ("the contact radius", format!("of the smaller body's radius of {}", quantity(size, "m")))
     } else {
-        "effective radii".into()
+        ("the contact radius", "effective radii".into())
     };
-    format!("the contact radius exceeds {LARGEST_RADIUS_RATIO} {of}, where no law is valid, with {}", laws.join(", "))
+    format!("{what} exceeds {LARGEST_RADIUS_RATIO} {of}, where no law is valid, with {}", laws.join(", "))
 }
+
+/// What the half-axes of an ellipse are compared with.
+const SMALLEST: &str = "of the smallest radius in its direction";
 
 /// An exceeded limit, in words.
 pub fn words(beyond: Beyond) -> String {
@@ -160,6 +170,11 @@ pub fn words(beyond: Beyond) -> String {
              half-space beside the contact, and the law isn't valid",
             significant(ratio, 3),
             quantity(size, "m")
+        ),
+        Beyond::HalfAxis(ratio) => format!(
+            "a half-axis of the contact reaches {} of the smallest radius in its direction; above {LARGEST_RADIUS_RATIO} a body is no \
+             paraboloid beside the contact, and the law isn't valid",
+            significant(ratio, 3)
         ),
         Beyond::Line { ratio, size } => format!(
             "the half-width reaches {} of the size of the smaller body, {}; above {LARGEST_PART} the depth isn't that of a small contact, and the \
@@ -189,15 +204,18 @@ pub fn words(beyond: Beyond) -> String {
     }
 }
 
-/// The limits of validity of an FMU on bodies of which the smaller one has this `size` \[m\], with this limit of `depth` \[m\] and this
-/// target, in words. Beyond them, the FMU logs a warning.
-pub fn limits((pair, size): (&Pair, f64), line: Option<f64>, density: Option<f64>, depth: f64) -> String {
-    let of = if size < pair.radius { "of the radius of the smaller body" } else { "effective radii" };
-    let radius = format!(
-        "up to a contact radius of {LARGEST_RADIUS_RATIO} {of}, here an indentation of {}",
-        quantity(depth, "m")
-    );
-    let radius = match line {
+/// The limits of validity of the first contact of an FMU, in words. Beyond them, the FMU logs a warning.
+pub fn limits(scene: &Scene) -> String {
+    let (model, size) = (scene.any_model(), scene.smaller_radius_with(0, &[]));
+    let (pair, depth, density) = (model.pair(), model.valid_depth(size), scene.contacts[0].density);
+    let (what, of) = match &scene.contacts[0].ellipse {
+        Some(_) => ("half-axis", SMALLEST),
+        None if size < pair.radius => ("contact radius", "of the radius of the smaller body"),
+        None => ("contact radius", "effective radii"),
+    };
+    let radius =
+        format!("up to a {what} of {LARGEST_RADIUS_RATIO} {of}, here an indentation of {}", quantity(depth, "m"));
+    let radius = match scene.line_size(0) {
         Some(size) => format!(
             "up to a half-width of {LARGEST_PART} of the size of the smaller body, {}, and of {LARGEST_RADIUS_RATIO} effective radii, here an \
              indentation of {}",

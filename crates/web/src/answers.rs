@@ -89,7 +89,10 @@ const LARGEST_DEVIATION: f64 = 0.4;
 /// What a drawing of the first contact needs beside its numbers, by impactor and target: the radii \[m\], 0 for a flat and below 0 for a
 /// socket, the parts of the elastic compliance, and those of the dent.
 fn shape(scene: &Scene, prediction: &Prediction) -> Value {
-    let radius = |body: Body| scene.group_value(0, body.radius()).filter(|radius| radius.is_finite()).unwrap_or(0.0);
+    let radius = |body: Body| {
+        let across = scene.contacts[0].ellipse.map(|elliptic| elliptic.across(body));
+        across.or_else(|| scene.group_value(0, body.radius())).filter(|radius| radius.is_finite()).unwrap_or(0.0)
+    };
     let (pair, other) = (scene.model().pair, scene.two_bodies(0).other);
     let [of_softer, of_other] = [pair.yielding_modulus(), other.modulus].map(|modulus| pair.modulus / modulus);
     let elastic = if scene.softer(0) == Body::Impactor { [of_softer, of_other] } else { [of_other, of_softer] };

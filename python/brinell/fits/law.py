@@ -68,6 +68,9 @@ class Law:
         self._mass: float = said["mass"]
         self._said_rates: dict[str, dict[str, Any] | None] = said["rates"]
         self.scene = tables(path)
+        for body in ("impactor", "target"):
+            if isinstance(self.scene.get(body, {}).get("radius"), list):
+                raise ValueError(f"{path}: {body}.radius is a list: fits are those of round contacts")
         data = {**self.scene}
         if loading is not None:
             data["law"] = _with_loading(data.get("law", {}), loading)

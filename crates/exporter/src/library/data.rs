@@ -66,6 +66,7 @@ impl SceneData {
                 is_counted: group.count.is_some(),
                 is_fresh: group.surface == Surface::Fresh,
                 density: group.density.unwrap_or(f64::NAN),
+                size: group.ellipse.as_ref().map_or(f64::INFINITY, |elliptic| elliptic.size),
                 name: lists.text(group.name.as_deref().unwrap_or_default()),
             }
         });

@@ -44,6 +44,9 @@ impl Sources<'_> {
 
     /// The source of the parameter `name` for the contacts of `group`, if they have it.
     pub fn get(&self, group: usize, name: &str) -> Option<Source> {
+        if let Some(value) = self.scene.constant_of_ball(group, name) {
+            return Some(Source::Constant(value));
+        }
         let ((first, contact), group) = (self.firsts[group], &self.scene.contacts[group]);
         if let Some((parameter, place)) = find(&group.own, name, |own| group.variables_of(own)) {
             return Some(match parameter.settable {

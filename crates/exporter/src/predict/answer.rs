@@ -79,8 +79,7 @@ impl Answer<'_> {
         let wide: Vec<_> = wide.map(|(choice, _)| choice.laws.as_str()).collect();
         let mut warnings = Vec::new();
         if !wide.is_empty() {
-            let pair = self.choices[0].model.pair();
-            warnings.push(validity::too_wide((&pair, self.scene.size_with(0, &[])), &wide));
+            warnings.push(validity::too_wide(self.scene, &wide));
         }
         // speed and waves are the same for every law, and the time is that of the first
         let limits = self.laws().flat_map(|(choice, prediction)| self.beyond(choice, prediction));
@@ -147,17 +146,24 @@ impl Answer<'_> {
             quantity(prediction.unloading_time, "s")
         );
         let ratio = prediction.max_contact_radius / choice.model.pair().radius;
-        let radius = format!("{} (a/R = {})", quantity(prediction.max_contact_radius, "m"), cell(ratio, 1.0));
+        let radius = prediction.max_contact_radius;
+        let (wide, radius) = match &self.scene.contacts[0].ellipse {
+            Some(elliptic) => ("largest half-axes", elliptic.half_axes(radius)),
+            None => (
+                if self.scene.line.is_some() { "largest half-width" } else { "largest contact radius" },
+                format!("{} (a/R = {})", quantity(radius, "m"), cell(ratio, 1.0)),
+            ),
+        };
         let bands = self.bands.first().and_then(Option::as_ref);
         let spread = |name: &str, value: f64, unit| with_band(value, bands.and_then(|bands| bands.get(name)), unit);
         let mut rows = vec![
             ("largest force", spread("largest force", prediction.max_force, "N")),
             ("largest indentation", spread("largest indentation", prediction.max_indentation, "m")),
-            (if self.scene.line.is_some() { "largest half-width" } else { "largest contact radius" }, radius),
+            (wide, radius),
             ("depth of the dent", spread("dent", prediction.residual_indentation, "m")),
         ];
         // unloading hardly narrows a dent
-        if prediction.residual_indentation > 0.0 {
+        if prediction.residual_indentation > 0.0 && self.scene.contacts[0].ellipse.is_none() {
             let diameter =
                 bands.and_then(|bands| bands.get("largest contact radius")).map(|ends| ends.map(|end| 2.0 * end));
             let what = if self.scene.line.is_some() { "width of the dent" } else { "diameter of the dent" };
@@ -217,11 +223,16 @@ impl Answer<'_> {
     /// JSON for programs: all digits, SI units.
     pub fn json(&self) -> Value {
         let law = |((choice, prediction), bands): ((&Choice, &Prediction), &Option<Bands>)| {
+            let half_axes =
+                self.scene.contacts[0].ellipse.map(|elliptic| elliptic.along_axes(prediction.max_contact_radius));
             let mut law = json!({
                 "law": choice.laws, "regime": prediction.regime as i32, "regime_name": regime::words(prediction.regime),
             });
             for (name, value, _) in quantities(prediction) {
                 law[name.replace(' ', "_")] = json!(value);
+            }
+            if let Some(half_axes) = half_axes {
+                law["largest_half_axes"] = json!(half_axes);
             }
             law["rebound_speed"] = json!(prediction.restitution * self.impact.speed);
             if let Some(height) = self.rebound_height(prediction) {

@@ -227,6 +227,11 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
             let message = format!("{name}: the constant C of a line contact follows from it, and would not change");
             return Err(PredictError::Sweep(message));
         }
+        if scene.contacts[0].ellipse.is_some() && (name.ends_with("radius") || name.ends_with("poissons_ratio")) {
+            let message =
+                format!("{name}: the ball that has the force of an ellipse follows from it, and would not change");
+            return Err(PredictError::Sweep(message));
+        }
         // a rigid impactor has no modulus, a flat target no radius, and an elastic law no strength
         let is_there = scene.group_value(0, name).is_some() || ["target.radius", HARDENING].contains(name);
         let strength = *name == Body::Target.yield_strength();

@@ -37,7 +37,7 @@ pub enum PredictError {
     )]
     Beyond { law: String, mass: f64, speed: f64 },
     #[error(
-        "an impact of {} at {} would make a contact of {} radius by the law {law}, and the smaller body is one of {}: no contact \
+        "an impact of {} at {} would make a contact of {} radius by the law {law}, and the size of the smaller body is {}: no contact \
          is wider than its body",
         quantity(*.mass, "kg"), quantity(*.speed, "m/s"), quantity(*.radius, "m"), quantity(*.size, "m")
     )]
@@ -139,6 +139,10 @@ pub fn beyond(scene: &Scene, pair: &Pair, speed: f64, prediction: &Prediction, v
     let bodies = (pair, scene.size_with(0, values));
     let limits =
         validity::beyond(bodies, scene.line_size(0), scene.contacts[0].density, prediction.max_contact_radius, speed);
+    let of_shape = |beyond| match beyond {
+        Beyond::Size { ratio, .. } if scene.contacts[0].ellipse.is_some() => Beyond::HalfAxis(ratio),
+        beyond => beyond,
+    };
     let waves = Waves::of(scene, speed, values).and_then(|waves| waves.beyond(prediction));
     let plate = match scene.loss_with(0, values) {
         Some(AnyLoss::Plate(Plate { thickness, .. })) => {
@@ -149,7 +153,7 @@ pub fn beyond(scene: &Scene, pair: &Pair, speed: f64, prediction: &Prediction, v
         }
         _ => None,
     };
-    limits.into_iter().chain(waves).chain(plate).collect()
+    limits.into_iter().map(of_shape).chain(waves).chain(plate).collect()
 }
 
 /// A quantity of an impact: name, value, unit.

@@ -133,7 +133,7 @@ impl Scene {
 
     /// The same bodies with other values for some of their parameters.
     pub fn pair_with(&self, group: usize, values: &[(&str, f64)]) -> Option<Pair> {
-        let [impactor, target] = self.bodies_with(group, values);
+        let [impactor, target] = self.as_balls(group, self.bodies_with(group, values));
         let softer = self.softer_with(group, values);
         let other = values.iter().find(|(known, _)| *known == softer.yield_strength()).map(|(_, value)| *value);
         let factor = self.factors[group].softer;
@@ -156,16 +156,17 @@ impl Scene {
             other.or_else(|| self.group_value(group, name).map(|own| own * factor)).unwrap_or(without)
         };
         let softer = self.softer_with(group, values);
-        let [impactor, target] = self.bodies_with(group, values);
+        let [impactor, target] = self.as_balls(group, self.bodies_with(group, values));
+        let harder = self.hardening_factor(group);
         let (soft, body) = if softer == Body::Impactor { (impactor, target) } else { (target, impactor) };
         TwoBodies {
-            hardening_modulus: value(softer.hardening_modulus(), 0.0, factor),
+            hardening_modulus: harder * value(softer.hardening_modulus(), 0.0, factor),
             curvature: soft.curvature(&body),
             other: OtherBody {
                 modulus: body.plane_strain_modulus(),
                 poissons_ratio: body.poissons_ratio,
                 yield_strength: value(softer.other().yield_strength(), f64::INFINITY, others),
-                hardening_modulus: value(softer.other().hardening_modulus(), 0.0, others),
+                hardening_modulus: harder * value(softer.other().hardening_modulus(), 0.0, others),
             },
         }
     }
@@ -184,7 +185,9 @@ impl Scene {
 
     /// The smaller radius of the bodies of `group` \[m\], with other values for some of the parameters: no contact is wider.
     pub fn smaller_radius_with(&self, group: usize, values: &[(&str, f64)]) -> f64 {
-        let size = size_of(self.bodies_with(group, values).map(|body| body.radius));
+        let balls = self.as_balls(group, self.bodies_with(group, values));
+        let size = size_of(balls.map(|body| body.radius));
+        let size = self.contacts[group].ellipse.as_ref().map_or(size, |elliptic| size.min(elliptic.size));
         self.line_size(group).map_or(size, |line| size.min(line))
     }
 
@@ -273,7 +276,8 @@ pub fn held(scene: &Scene, mass: f64) -> Option<String> {
     let [impactor, target] = scene.bodies_with(0, &[]);
     let volumes = [volume(rods.impactor, impactor.radius), volume(rods.target, target.radius)];
     // a half-space and a socket have no volume
-    if scene.coupling.is_some() || scene.line.is_some() || !(volumes[1] > 0.0 && volumes[1] < f64::INFINITY) {
+    let is_ball = scene.line.is_none() && scene.contacts[0].ellipse.is_none();
+    if scene.coupling.is_some() || !is_ball || !(volumes[1] > 0.0 && volumes[1] < f64::INFINITY) {
         return None;
     }
     let known = impactor_density.or(*density);

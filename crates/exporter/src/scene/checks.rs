@@ -5,7 +5,8 @@ use super::beside;
 use super::bodies::{self, Body, Both};
 use super::contacts::{Contacts, Group, Parameter};
 use super::cylinders::{self, Cylinders};
-use super::file::{BodyTable, ImpactTable, NamesName, SceneFile};
+use super::ellipses;
+use super::file::{BodyTable, ImpactTable, NamesName, Radius, SceneFile};
 use super::fmu::{self, check_outputs, check_text, choose_settable};
 use super::friction;
 use super::laws::{self, SceneLaws};
@@ -61,6 +62,10 @@ pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> 
         inverse_masses.as_ref().and_then(|masses| masses.effective_mass(0, contacts.count() * (1 + directions)));
     let impact_mass = known_mass.clone().or(shared_mass.map(|mass| Spanned::new(0..0, mass)));
     let impact = check_impact(file.impact.as_ref(), impact_mass.as_ref(), &contacts, cylinders.is_some())?;
+    if impact.mass.is_nan() {
+        let message = "a body with two radii is no ball, and its mass isn't known: give impact.mass and impact.speed, or [coupling] effective_mass";
+        return Err(Mistake(contacts.radius(0, Body::Impactor).map_or(0..0, Spanned::span), message.into()));
+    }
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let span = file.impact.as_ref().and_then(|table| Some(table.get_ref().mass.as_ref()?.span()));
@@ -125,6 +130,7 @@ pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> 
         text: String::new(),
     };
     choose_settable(&mut scene, file.fmu.parameters.as_deref())?;
+    ellipses::settle(&mut scene, &file, &contacts)?;
     for group in 0..scene.contacts.len() {
         let of_contact = |Mistake(span, message)| Mistake(span, contacts.said(group, &message));
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
@@ -209,7 +215,10 @@ fn check_impact(
     is_line: bool,
 ) -> Result<Impact, Mistake> {
     let number = |name| contacts.number(0, name).map(|number| *number.get_ref());
-    let radius = number("impactor.radius").unwrap_or(f64::NAN);
+    let radius = match contacts.radius(0, Body::Impactor).map(Spanned::get_ref) {
+        Some(Radius::One(radius)) => *radius,
+        _ => f64::NAN,
+    };
     let rod = number(Body::Impactor.length()).zip(number(Body::Impactor.area()));
     let length = number(Body::Impactor.length()).filter(|_| is_line);
     let solid = |density: f64| match rod {

@@ -3,7 +3,8 @@
 use super::beside::{self, OwnMaterial};
 use super::bodies::{Body, Both};
 use super::cylinders;
-use super::file::{BodyTable, ContactTable, Impactor, SceneFile};
+use super::ellipses::Elliptic;
+use super::file::{BodyTable, ContactTable, Impactor, Radius, SceneFile};
 use super::laws;
 use super::names::check_identifier;
 use super::quantities::check_quantity;
@@ -68,6 +69,8 @@ pub struct Group {
     pub impactor_density: Option<f64>,
     /// Length of a line contact \[m\].
     pub line_length: Option<f64>,
+    /// The contact as an ellipse, if a body has two radii. Then the density of the target is that of the ball in its place.
+    pub ellipse: Option<Elliptic>,
     /// The bodies that are rods. Nothing about them is a variable; they limit the force for which the law is valid.
     pub rods: Both<Option<Rod>>,
     /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may yield.
@@ -131,6 +134,8 @@ impl Group {
 #[derive(Default)]
 struct Numbers {
     values: Vec<(&'static str, Spanned<f64>)>,
+    /// The radii of both bodies, also where they are two numbers.
+    radii: Both<Option<Spanned<Radius>>>,
     /// Whether the scene gives the strength of the impactor at this level, rather than by a material.
     gives_impactor_strength: bool,
     /// Whether the impactor may yield, so that its strength is a parameter.
@@ -150,6 +155,7 @@ impl Numbers {
         let numbers = impactor.into_iter().chain(target).chain(others);
         Ok(Numbers {
             values: numbers.filter_map(|(name, value)| Some((name, value?))).collect(),
+            radii: Both::each(|body| bodies.of(body).radius.clone()),
             gives_impactor_strength: bodies.impactor.gives_strength(),
             impactor_may_yield: false,
         })
@@ -233,7 +239,7 @@ fn numbers_of(body: Body, table: &BodyTable, above: &Above) -> Result<[NamedNumb
     let elastic = above.elastic(body, table, [youngs_modulus.as_ref(), poissons_ratio.as_ref()])?;
     let [yield_strength, hardening_modulus] = table.flow(body, &elastic)?;
     let values = [
-        table.radius.clone(),
+        table.one_radius(),
         youngs_modulus.clone(),
         poissons_ratio.clone(),
         or(yield_strength, |material| material.yield_strength),
@@ -482,6 +488,11 @@ impl Contacts {
         self.all[index].own.get(name).or_else(|| self.shared.get(name))
     }
 
+    /// The radius of a `body` of a contact, or its two radii: its own, otherwise that of all contacts.
+    pub fn radius(&self, index: usize, body: Body) -> Option<&Spanned<Radius>> {
+        self.all[index].own.radii.of(body).as_ref().or(self.shared.radii.of(body).as_ref())
+    }
+
     /// The number of groups.
     pub fn count(&self) -> usize {
         self.all.len()
@@ -605,6 +616,7 @@ impl Contacts {
                 density: number(Body::Target.density()),
                 impactor_density: number(Body::Impactor.density()),
                 line_length: number(Body::Impactor.length()).filter(|_| number(Body::Impactor.area()).is_none()),
+                ellipse: None,
                 rods: Both::each(|body| {
                     let [density, length, area] = [body.density(), body.length(), body.area()].map(number);
                     Some(Rod { density: density?, length: length?, area: area? })

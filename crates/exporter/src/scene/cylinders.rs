@@ -4,6 +4,7 @@ use super::Scene;
 use super::bodies::{Body, Both};
 use super::contacts::Contacts;
 use super::file::{BaseName, BodyTable, SceneFile, ShapeName};
+use super::fmu;
 use crate::mistake::{Mistake, Spanned};
 use crate::numbers::{quantity, significant};
 use brinell_contact::loading::{AnyLoading, Line, line::ROLLER};
@@ -146,18 +147,7 @@ impl<'a> Cylinders<'a> {
         let fixed = Body::ALL.map(|body| [body.radius(), body.poissons_ratio()]);
         let is_fixed =
             |name: &str| fixed.iter().flatten().any(|fixed| name == *fixed || name.ends_with(&format!(".{fixed}")));
-        let per_contact =
-            scene.contacts.iter().flat_map(|group| &group.own).find(|own| own.per_contact && is_fixed(own.name));
-        let named = file.fmu.parameters.iter().flatten().find(|name| is_fixed(name.get_ref()));
-        if let Some((name, span)) = named
-            .map(|name| (name.get_ref().as_str(), name.span()))
-            .or(per_contact.map(|own| (own.name, self.span.clone())))
-        {
-            let message = format!("{name} is no parameter of a cylinder: the constant C of its depth follows from it");
-            return Err(Mistake(span, message));
-        }
-        let own = scene.contacts.iter_mut().flat_map(|group| &mut group.own);
-        own.chain(&mut scene.parameters).filter(|own| is_fixed(own.name)).for_each(|own| own.settable = false);
+        fmu::fix(scene, file, &self.span, is_fixed, "a cylinder: the constant C of its depth follows from it")?;
         scene.loading.1 = AnyLoading::Line(line);
         scene.unloading = Some((LINE, AnyUnloading::Line(unloading::line::Line { length: line.length })));
         scene.line = Some(words);

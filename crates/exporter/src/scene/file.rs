@@ -17,6 +17,8 @@ use crate::units;
 use brinell_contact::Surface;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{SeqAccess, Visitor};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue, Deserializer};
@@ -150,9 +152,9 @@ pub struct BodyTable {
     /// What the plate lies on.
     #[schemars(extend("default" = "smooth"))]
     pub base: Option<Spanned<BaseName>>,
-    /// Radius of a curved target; negative for a socket, which must be wider than the impactor.
-    #[schemars(extend("x-default" = "flat", "examples" = ["-50 mm"]))]
-    pub radius: Option<Spanned<f64>>,
+    /// Radius of a curved target; negative for a socket, which must be wider than the impactor. A list of two is that of an [ellipse](ellipse.md).
+    #[schemars(with = "Option<f64>", extend("x-default" = "flat", "examples" = ["-50 mm"]))]
+    pub radius: Option<Spanned<Radius>>,
     /// Thickness of a thin plate that [gives way](losses.md#a-thin-plate) to the force; needs the density.
     #[schemars(extend("x-default" = "thick", "examples" = ["4 mm"]))]
     pub plate_thickness: Option<Spanned<f64>>,
@@ -169,9 +171,9 @@ struct ImpactorKeys {
     /// A [built-in material](#built-in-materials) or [one of your own](#materials-of-your-own), which makes the impactor elastic; if it
     /// is softer than the target, [the impactor yields](laws.md#which-body-yields).
     pub material: Option<Spanned<String>>,
-    /// Radius of the sphere.
-    #[schemars(extend("x-default" = "required", "examples" = ["5 mm"]))]
-    pub radius: Option<Spanned<f64>>,
+    /// Radius of the sphere; or `["5 mm", "40 mm"]`, the [radii along x and along y](ellipse.md) of the contact, of which one may be `"flat"`.
+    #[schemars(with = "Option<f64>", extend("x-default" = "required", "examples" = ["5 mm"]))]
+    pub radius: Option<Spanned<Radius>>,
     /// Young's modulus; give Poisson's ratio too.
     #[schemars(extend("x-default" = "that of the material, else rigid", "examples" = ["210 GPa"]))]
     pub youngs_modulus: Option<Spanned<f64>>,
@@ -211,6 +213,57 @@ struct ImpactorKeys {
 /// `[impactor]`.
 #[derive(Default, Deserialize, JsonSchema)]
 pub struct Impactor(#[serde(with = "ImpactorKeys")] pub BodyTable);
+
+/// The radius of a body, or its principal radii along x and along y of the contact \[m\].
+#[derive(Clone, Copy)]
+pub enum Radius {
+    One(f64),
+    Two([f64; 2]),
+}
+
+impl BodyTable {
+    /// Its radius, if it has one.
+    pub fn one_radius(&self) -> Option<Spanned<f64>> {
+        let radius = self.radius.as_ref()?;
+        match radius.get_ref() {
+            Radius::One(one) => Some(Spanned::new(radius.span(), *one)),
+            Radius::Two(_) => None,
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Radius {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Radius, D::Error> {
+        struct OneOrTwo;
+        impl<'de> Visitor<'de> for OneOrTwo {
+            type Value = Radius;
+
+            fn expecting(&self, text: &mut std::fmt::Formatter) -> std::fmt::Result {
+                text.write_str("f64")
+            }
+
+            fn visit_f64<E: serde::de::Error>(self, number: f64) -> Result<Radius, E> {
+                Ok(Radius::One(number))
+            }
+
+            fn visit_i64<E: serde::de::Error>(self, number: i64) -> Result<Radius, E> {
+                Ok(Radius::One(number as f64))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Radius, A::Error> {
+                let list = Vec::deserialize(SeqAccessDeserializer::new(list))?;
+                match list[..] {
+                    [along_x, along_y] => Ok(Radius::Two([along_x, along_y])),
+                    _ => Err(serde::de::Error::custom(format!(
+                        "this is a list of {}, expected a number or two",
+                        list.len()
+                    ))),
+                }
+            }
+        }
+        deserializer.deserialize_any(OneOrTwo)
+    }
+}
 
 /// How the flow stress grows with the strain rate.
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -628,6 +681,9 @@ type Files = BTreeMap<String, Result<Vec<u8>, String>>;
 const TEST: &str = "tensile_test";
 const CURVE: &str = "curve";
 
+/// In place of one of two radii.
+pub const FLAT: &str = "flat";
+
 /// The law of a curve of one's own, and its key that may be the name of a file.
 pub const TABLE: &str = "table";
 
@@ -749,9 +805,19 @@ impl Found<'_> {
         unit: Option<&'static str>,
         value: &toml::Spanned<DeValue>,
     ) -> Result<(), Mistake> {
+        let is_flat = |value: &toml::Spanned<DeValue>| {
+            path.ends_with(".radius") && matches!(value.get_ref(), DeValue::String(text) if text == FLAT)
+        };
         let (text, unit) = match (value.get_ref(), unit) {
             (DeValue::Table(table), _) => return self.in_table(path, table),
-            (DeValue::Array(list), _) => return list.iter().try_for_each(|value| self.in_value(path, unit, value)),
+            (DeValue::Array(list), _) => {
+                let flat = list.iter().filter(|value| is_flat(value)).map(toml::Spanned::span);
+                self.values.extend(flat.map(|span| (span.start, (span.end, "inf".into()))));
+                return list
+                    .iter()
+                    .filter(|value| !is_flat(value))
+                    .try_for_each(|value| self.in_value(path, unit, value));
+            }
             (DeValue::String(text), Some(unit)) => (text, unit),
             _ => return Ok(()),
         };

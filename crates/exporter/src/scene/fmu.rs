@@ -1,7 +1,7 @@
 //! The FMU: its description, the mass that it moves, and what the table `[fmu]` asks for.
 
 use super::contacts::Parameter;
-use super::file::{CouplingTable, Fmu, MasterName};
+use super::file::{CouplingTable, Fmu, MasterName, SceneFile};
 use super::{Coupling, Scene};
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
@@ -10,6 +10,7 @@ use crate::numbers::in_message;
 use crate::table::{self, Causality, VARIABLES};
 use crate::xml;
 use std::collections::HashSet;
+use std::ops::Range;
 
 /// The text of the `key`, which the model description must be able to contain; empty if it is not given.
 pub fn check_text(key: &str, given: Option<&Spanned<String>>) -> Result<String, Mistake> {
@@ -75,6 +76,27 @@ pub fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) ->
         }
         None => Ok(()),
     }
+}
+
+/// Makes the parameters that are `is_fixed` constants, by their names in the FMU. `place` is where the scene has what they belong to, and
+/// `of` says what that is and why.
+pub fn fix(
+    scene: &mut Scene,
+    file: &SceneFile,
+    place: &Range<usize>,
+    is_fixed: impl Fn(&str) -> bool,
+    of: &str,
+) -> Result<(), Mistake> {
+    let named = file.fmu.parameters.iter().flatten().find(|name| is_fixed(name.get_ref()));
+    let per_contact =
+        scene.contacts.iter().flat_map(|group| &group.own).find(|own| own.per_contact && is_fixed(own.name));
+    let named = named.map(|name| (name.get_ref().as_str(), name.span()));
+    if let Some((name, span)) = named.or(per_contact.map(|own| (own.name, place.clone()))) {
+        return Err(Mistake(span, format!("{name} is no parameter of {of}")));
+    }
+    let own = scene.contacts.iter_mut().flat_map(|group| &mut group.own);
+    own.chain(&mut scene.parameters).filter(|own| is_fixed(own.name)).for_each(|own| own.settable = false);
+    Ok(())
 }
 
 /// The outputs beside the force, each once.

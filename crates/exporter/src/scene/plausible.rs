@@ -153,7 +153,7 @@ fn ball(file: &SceneFile) -> Option<(f64, Option<f64>)> {
     let table = &file.impactor.as_ref()?.get_ref().0;
     let of_material = || Some(beside::find(table.material.as_ref()?, &file.own).ok()?.density);
     let density = table.density.as_ref().map(|density| *density.get_ref()).or_else(of_material);
-    let radius = *table.radius.as_ref()?.get_ref();
+    let radius = *table.one_radius()?.get_ref();
     // whoever is wrong about these is asked about them
     let is_known = density.is_none_or(|density| DENSITY.range.contains(&density)) && RADIUS.range.contains(&radius);
     (is_known && table.length.is_none()).then_some((radius, density))
@@ -175,8 +175,9 @@ fn of_inertia(key: &str, inertia: &Spanned<Value>, mass: f64) -> Option<Mistake>
 
 /// The doubts about a `body`. `owner` precedes its name.
 fn of_body(owner: &str, body: Body, table: &BodyTable, own: &[OwnMaterial]) -> Vec<Mistake> {
+    let radius = table.one_radius();
     let numbers = [
-        ("radius", &table.radius, &RADIUS),
+        ("radius", &radius, &RADIUS),
         ("youngs_modulus", &table.youngs_modulus, &MODULUS),
         ("yield_strength", &table.yield_strength, &STRENGTH),
         ("hardening_modulus", &table.hardening_modulus, &HARDENING),

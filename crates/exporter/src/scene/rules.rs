@@ -43,6 +43,7 @@ fn list(name: &str) -> Vec<&'static str> {
         "HARDENING" => vec!["hardening_modulus", "tangent_modulus", "power_law"],
         "STRENGTHS" => vec!["yield_strength", "hardness", "tensile_strength", "tensile_test", "power_law"],
         "DAMPED" => damped(|_| true),
+        "ELLIPTIC" => [damped(|_| true), vec!["brinell", "hertz"]].concat(),
         "OF_MASS" => damped(|law| law.needs_mass()),
         "OF_RESTITUTION" => damped(|law| law.needs_restitution()),
         "OF_DAMPINGS" => damped(|law| !law.dampings().is_empty()),
@@ -91,6 +92,8 @@ pub enum Is {
     NotIn(Vec<String>),
     /// A list with one of these.
     With(Vec<String>),
+    /// A list.
+    Two,
 }
 
 /// Where a scene has a key.
@@ -214,7 +217,8 @@ impl Key {
         let (no, text) = text.strip_prefix("no ").map_or((false, text), |rest| (true, rest));
         let of =
             |sign: &str, is: fn(Vec<String>) -> Is| text.split_once(sign).map(|(path, word)| (path, is(words(word))));
-        let said = of(" != ", Is::NotIn).or_else(|| of(" = ", Is::In)).or_else(|| of(" has ", Is::With));
+        let two = || text.strip_suffix(" of two").map(|path| (path, Is::Two));
+        let said = of(" != ", Is::NotIn).or_else(|| of(" = ", Is::In)).or_else(|| of(" has ", Is::With)).or_else(two);
         let (path, is) = said.unwrap_or((text, Is::There));
         let (table, last) = path.rsplit_once('.').map_or((None, path), |(table, last)| (Some(table), last));
         let tables: Vec<_> = table.into_iter().flat_map(|table| table.split('.')).map(String::from).collect();
@@ -238,6 +242,7 @@ impl Key {
             Is::There => Some(value),
             Is::In(names) => Some(value).filter(|value| one_of(names, value)),
             Is::NotIn(names) => Some(value).filter(|value| !one_of(names, value)),
+            Is::Two => value.get_ref().as_array().map(|_| value),
             Is::With(names) => value.get_ref().as_array()?.iter().find(|value| one_of(names, value)),
         }
     }

@@ -475,9 +475,10 @@ impl Scene {
         let model = self.unpaired_model_of(group);
         let pair = Pair { yield_strength: own.yield_strength, ..model.pair };
         let Hardening { yield_strength, hardening_modulus } = other;
-        let bodies = self.two_bodies(group);
+        let (bodies, hardening) = (self.two_bodies(group), self.hardening_factor(group));
+        let hardening_modulus = hardening * hardening_modulus;
         let other = OtherBody { yield_strength, hardening_modulus, ..bodies.other };
-        let bodies = TwoBodies { hardening_modulus: own.hardening_modulus, other, ..bodies };
+        let bodies = TwoBodies { hardening_modulus: hardening * own.hardening_modulus, other, ..bodies };
         paired(&Model { pair, ..model }, bodies, softer).prepared()
     }
 

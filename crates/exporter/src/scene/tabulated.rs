@@ -3,10 +3,10 @@
 use super::Scene;
 use super::contacts::Contacts;
 use super::file::{LawTable, SceneFile};
+use super::fmu;
 use crate::mistake::Mistake;
 use crate::own_curve::{self, Rows};
 use brinell_contact::loading::AnyLoading;
-use std::ops::Range;
 
 /// Whether the law is a curve of one's own.
 pub fn is_own(law: &LawTable) -> bool {
@@ -45,24 +45,9 @@ pub fn settle(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> Resul
         }
     }
     let (law, words) = own_curve::law(&rows, &pair).map_err(wrong)?;
-    fix(scene, file, &span)?;
+    let is_of_body = |name: &str| name.contains("impactor.") || name.contains("target.");
+    fmu::fix(scene, file, &span, is_of_body, "a curve of one's own: the file belongs to these bodies")?;
     scene.loading.1 = AnyLoading::Tabulated(law);
     scene.own_curve = Some(words);
-    Ok(())
-}
-
-/// Makes the numbers of the bodies constants.
-fn fix(scene: &mut Scene, file: &SceneFile, span: &Range<usize>) -> Result<(), Mistake> {
-    let is_of_body = |name: &str| name.contains("impactor.") || name.contains("target.");
-    let named = file.fmu.parameters.iter().flatten().find(|name| is_of_body(name.get_ref()));
-    let per_contact =
-        scene.contacts.iter().flat_map(|group| &group.own).find(|own| own.per_contact && is_of_body(own.name));
-    let found = named.map(|name| (name.get_ref().clone(), name.span()));
-    if let Some((name, span)) = found.or(per_contact.map(|own| (own.name.to_string(), span.clone()))) {
-        let message = format!("{name} is no parameter of a curve of one's own: the file belongs to these bodies");
-        return Err(Mistake(span, message));
-    }
-    let own = scene.contacts.iter_mut().flat_map(|group| &mut group.own);
-    own.chain(&mut scene.parameters).filter(|own| is_of_body(own.name)).for_each(|own| own.settable = false);
     Ok(())
 }

@@ -122,6 +122,7 @@ fn is(path: &[String], wanted: &Key) -> Value {
             Is::In(names) => key(only, values(names)),
             Is::NotIn(names) => key(only, not(values(names))),
             Is::With(names) => key(only, json!({ "contains": values(names) })),
+            Is::Two => key(only, json!({ "type": "array" })),
         },
         [table, rest @ ..] => key(table, is(rest, wanted)),
         [] => json!(true),

@@ -170,6 +170,10 @@ pub fn translate(scene: &Scene, request: &Request) -> Result<Translation, Transl
         let why = "its contacts are translated from those of balls, and the scene has a cylinder".into();
         return Err(TranslateError::NoNumbers { tool: tool.title.clone(), why });
     }
+    if scene.contacts.iter().any(|group| group.ellipse.is_some()) {
+        let why = "its contacts are translated from those of balls, and a body of the scene has two radii".into();
+        return Err(TranslateError::NoNumbers { tool: tool.title.clone(), why });
+    }
     let case = Case::of(scene, request)?;
     let (mut ways, mut left_out) = (Vec::new(), Vec::new());
     for way in &tool.ways {

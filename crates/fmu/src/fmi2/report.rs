@@ -208,7 +208,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::TooWide { size, .. } => {
             numbers[0] = size;
-            "the contact radius has reached ~ m, the radius of the smaller body: no contact law holds; is indentation_rate in m/s, and the step \
+            "the contact radius has reached ~ m, the size of the smaller body: no contact law holds; is indentation_rate in m/s, and the step \
              short enough for the mass?"
         }
         Fault::TooLong { step, .. } => {

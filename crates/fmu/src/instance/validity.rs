@@ -19,7 +19,10 @@ pub(super) fn largest_rate<S: Scene>(values: &S::Values) -> f64 {
 /// The smaller radius of the bodies of `group` \[m\].
 pub(super) fn size<S: Scene>(group: usize, values: &S::Values) -> f64 {
     let value = |parameter| S::parameter(parameter, group, values);
-    validity::size_of([value(Parameter::ImpactorRadius), value(Parameter::TargetRadius)])
+    validity::size_of([
+        validity::size_of([value(Parameter::ImpactorRadius), value(Parameter::TargetRadius)]),
+        S::size(group),
+    ])
 }
 
 impl<S: Scene> Settings<S> {

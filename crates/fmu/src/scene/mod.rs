@@ -273,6 +273,12 @@ pub trait Scene: Sized {
     /// Density of the target of a group \[kg/m^3\], if it is known.
     fn density(group: usize) -> Option<f64>;
 
+    /// The contact radius of a group \[m\] that counts as the size of the bodies, if their radii are not those of the parameters.
+    #[inline(always)]
+    fn size(_group: usize) -> f64 {
+        f64::INFINITY
+    }
+
     /// Effective mass of the scene's impact \[kg\]; 0 if it names none.
     #[inline(always)]
     fn impact_mass() -> f64 {

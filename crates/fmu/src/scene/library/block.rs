@@ -15,7 +15,7 @@ use core::ops::Deref;
 pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 
 /// Version of the layout.
-pub const VERSION: u64 = 9;
+pub const VERSION: u64 = 10;
 
 /// Capacity for kinds of variables of a contact.
 pub const KINDS: usize = 64;
@@ -143,27 +143,31 @@ pub struct Table {
     pub is_fresh: bool,
     /// Density of the target \[kg/m^3\]; NaN if unknown.
     pub density: f64,
+    /// Contact radius \[m\] that counts as the size of the bodies, where their radii are not those of their numbers; otherwise infinite.
+    pub size: f64,
     /// Its name.
     pub name: Text,
 }
 
 impl Table {
     /// Words of a row.
-    pub const WORDS: usize = 5;
+    pub const WORDS: usize = 6;
 
     /// As words.
     pub fn words(&self) -> [u64; Table::WORDS] {
-        [self.end, self.is_counted.into(), self.is_fresh.into(), self.density.to_bits(), self.name.word()]
+        let flags = [self.is_counted, self.is_fresh].map(u64::from);
+        [self.end, flags[0], flags[1], self.density.to_bits(), self.size.to_bits(), self.name.word()]
     }
 
     /// The table with these words.
     #[inline(always)]
-    fn of(&[end, is_counted, is_fresh, density, name]: &[u64; Table::WORDS]) -> Table {
+    fn of(&[end, is_counted, is_fresh, density, size, name]: &[u64; Table::WORDS]) -> Table {
         Table {
             end,
             is_counted: is_counted != 0,
             is_fresh: is_fresh != 0,
             density: f64::from_bits(density),
+            size: f64::from_bits(size),
             name: Text::of(name),
         }
     }

@@ -362,6 +362,10 @@ impl<K: Kind, B: Memory> Scene for LibraryScene<K, B> {
         Self::data().table(Self::table_of(group)).map(|table| table.density).filter(|density| !density.is_nan())
     }
 
+    fn size(group: usize) -> f64 {
+        Self::data().table(Self::table_of(group)).map_or(f64::INFINITY, |table| table.size)
+    }
+
     fn impact_mass() -> f64 {
         Self::data().impact_mass
     }
