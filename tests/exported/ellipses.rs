@@ -1,8 +1,7 @@
-//! Scenes of bodies with two radii: FMUs that agree with the predictions, limits, and what is refused with which reason.
+//! Scenes of bodies with two radii: FMUs that agree with the predictions, and their limits.
 
 use crate::command::{empty_folder, run};
 use crate::prebuilt;
-use crate::refusal::refused_text;
 use std::fs;
 
 /// A scene of an impactor and a target, with these other lines.
@@ -97,48 +96,4 @@ fn half_axes_are_said_along_x_and_y_with_the_radii_of_the_scene() {
     let said = run(folder.path(), ["predict", "scene.toml", "--speed", "1"]).with_status(0).out;
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(said.contains("of the smallest radius in its direction"), "{said}");
-}
-
-#[test]
-fn what_an_ellipse_does_not_have_is_said() {
-    let refused = |impactor: &str, target: &str, more: &str, words: &[&str]| {
-        let text = scene(impactor, target, &format!("{more}{}", if more.contains("impact") { "" } else { IMPACT }));
-        refused_text(&text, words)
-    };
-    refused(BALL, RACEWAY, "friction = §{ coefficient = 0.1 }\n", &["[friction] doesn't go with two radii"]);
-    refused(
-        BALL,
-        RACEWAY,
-        "law = { loading = §\"thornton\" }\n",
-        &["is a law of round contacts", "\"brinell\", \"hertz\""],
-    );
-    refused(BALL, RACEWAY, "law = { elastic_restitution = §\"waves\" }\n", &["an ellipse has a number"]);
-    refused(
-        "shape = \"cylinder\", length = 0.01, radius = §[0.01, 0.02]",
-        "material = \"mild steel\"",
-        "",
-        &["impactor.radius is a list under a cylinder", "radius = [\"5 mm\", \"flat\"]"],
-    );
-    for name in ["impactor.radius", "target.youngs_modulus", "target.poissons_ratio"] {
-        let parameters = format!("fmu = {{ parameters = [§\"{name}\"] }}\n");
-        refused(BALL, RACEWAY, &parameters, &[name, "is no parameter of an ellipse"]);
-    }
-    let steel = "material = \"mild steel\"";
-    for (impactor, target, words) in [
-        (BALL, "radius = §[\"20 mm\", \"-5 mm\"], material = \"mild steel\"", "a longer contact is a line"),
-        (
-            BALL,
-            "radius = §[\"20 mm\", \"-4 mm\"], material = \"mild steel\"",
-            "5 mm and -4 mm along y don't touch in one point",
-        ),
-        ("radius = §[\"-20 mm\", \"-30 mm\"]", "radius = \"10 mm\", material = \"mild steel\"", "exchange the two"),
-        ("radius = §[\"5 mm\", \"flat\"]", steel, "a longer contact is a line"),
-        ("radius = §[\"5 mm\", 0.0]", steel, "impactor.radius along y"),
-        ("radius = §[1.0, 2.0, 3.0]", steel, "expected"),
-        ("radius = §[1.0]", steel, "expected"),
-    ] {
-        refused(impactor, target, "", &[words]);
-    }
-    let bearing = "radius = §[\"5 mm\", \"9 mm\"], material = \"bearing steel 52100, hardened\"";
-    refused(bearing, steel, "impact = { speed = 1.0 }\n", &["give impact.mass"]);
 }
