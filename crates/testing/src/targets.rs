@@ -45,9 +45,6 @@ const MORE: [(&str, &str); 5] = [
     ),
 ];
 
-/// Scenes whose contact the courses of the checks never reach, or press as wide as its body.
-const NARROW: [&str; 3] = ["cam_pin", "raceway", "record"];
-
 /// The scenes of the project, and the further ones.
 pub fn scenes() -> Vec<PathBuf> {
     let further = FURTHER.map(|(name, loading, unloading, target, law)| {
@@ -55,8 +52,7 @@ pub fn scenes() -> Vec<PathBuf> {
         unit::write_scene(name, &format!("name = \"{name}\"\n{BODIES}{target}{law}{OUTPUTS}"))
     });
     let more = MORE.map(|(name, text)| unit::write_scene(name, &format!("name = \"{name}\"\n{BODIES}{text}")));
-    let wide = |scene: &PathBuf| !scene.file_stem().is_some_and(|name| NARROW.iter().any(|narrow| name == *narrow));
-    unit::scenes().into_iter().filter(wide).chain(further).chain(more).collect()
+    unit::scenes().into_iter().chain(further).chain(more).collect()
 }
 
 /// An FMU of each kind of prebuilt library, by the name of the kind.
