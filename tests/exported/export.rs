@@ -51,7 +51,7 @@ fn without_arguments_the_default_scene_is_exported_and_checked() {
 
 #[test]
 fn every_scene_is_exported_and_agrees_with_its_prediction() {
-    for path in unit::scenes() {
+    for path in unit::scenes().into_iter().chain(unit::scenes_in("scenes/shapes")) {
         let folder = empty_folder();
         let export =
             run(folder.path(), [OsStr::new("--json"), OsStr::new("export"), path.as_os_str()]).with_status(0).json();

@@ -65,9 +65,14 @@ pub fn steel_ball_with_regime() -> PathBuf {
     write_scene("steel_ball", &text.replacen("outputs = [", "outputs = [\"regime\", ", 1))
 }
 
-/// All scene files of the project.
+/// The scene files of the project, but for those in folders of their own.
 pub fn scenes() -> Vec<PathBuf> {
-    let folder = root().join("scenes");
+    scenes_in("scenes")
+}
+
+/// The scene files in this folder of the project.
+pub fn scenes_in(folder: &str) -> Vec<PathBuf> {
+    let folder = root().join(folder);
     let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut scenes: Vec<_> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
     scenes.retain(|path| path.extension() == Some(OsStr::new("toml")));
