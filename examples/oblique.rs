@@ -4,7 +4,7 @@
 //!
 //! It needs only the physics: `cargo run --release --example oblique --no-default-features`.
 
-use brinell_contact::tangential::{Friction, Motion, Stuck};
+use brinell_contact::tangential::{Friction, Motion, PlayOperator};
 use brinell_contact::{Body, Loading, Pair, Segment, loading};
 
 /// Steps of the leap-frog method in a contact, about.
@@ -51,7 +51,7 @@ impl Impact {
     fn rebound(&self, start: Ball) -> Ball {
         let Impact { curve, friction, mass, step, .. } = self;
         let coefficient = friction.coefficient;
-        let (mut ball, mut springs) = (start, Stuck::<1, 12>::APART);
+        let (mut ball, mut springs) = (start, PlayOperator::<1, 12>::APART);
         let (mut indentation, mut lost) = (0.0, 0.0);
         while indentation > 0.0 || ball.normal > 0.0 {
             // the contact moves with the relative speeds of the two contact points; its new force acts on the ball

@@ -2,7 +2,7 @@
 //! with growth, and with merging of segments in each step. The same in two directions, along one line and while the motion turns.
 
 use brinell_contact::Segment;
-use brinell_contact::tangential::{Motion, Stuck};
+use brinell_contact::tangential::{Motion, PlayOperator};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
@@ -20,7 +20,7 @@ fn curve() -> Segment {
 /// The impact of a ball with the tangential speed `slip`; returns the final speeds.
 #[inline(always)]
 fn impact<const N: usize>(curve: &Segment, slip: Option<f64>) -> (f64, f64) {
-    let mut stuck = Stuck::<1, N>::APART;
+    let mut stuck = PlayOperator::<1, N>::APART;
     let (mut indentation, mut normal, mut tangential) = (0.0, 1.0, slip.unwrap_or(0.0));
     for _ in 0..STEPS {
         let to = indentation + STEP * normal;
@@ -38,7 +38,7 @@ fn impact<const N: usize>(curve: &Segment, slip: Option<f64>) -> (f64, f64) {
 /// The same in two directions. The ball has this speed along a line, and one across that turns the slip.
 #[inline(always)]
 fn impact_in_a_plane(curve: &Segment, slip: [f64; 2]) -> [f64; 2] {
-    let mut stuck = Stuck::<2, 16>::APART;
+    let mut stuck = PlayOperator::<2, 16>::APART;
     let (mut indentation, mut normal, mut tangential) = (0.0, 1.0, slip);
     for step in 0..STEPS {
         let to = indentation + STEP * normal;

@@ -2,7 +2,7 @@
 
 use brinell_contact::loading::{self, Hertz};
 use brinell_contact::shared::{InverseMasses, SharedContact, Work, follow};
-use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, PlaneContact, FrictionalContact, FrictionalModel};
 use brinell_contact::unloading::{self, ContactRadius};
 use brinell_contact::{Body, Contact, History, Loading, Model, Pair, Surface, Unloading};
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -46,13 +46,13 @@ fn cradles<L: Loading, U: Unloading>(criterion: &mut Criterion, name: &str, mode
 }
 
 /// Times a box that hits the ground with four feet at once, sliding, in so many directions.
-fn feet<C, L, U>(criterion: &mut Criterion, name: &str, model: &RoughModel<L, U>)
+fn feet<C, L, U>(criterion: &mut Criterion, name: &str, model: &FrictionalModel<L, U>)
 where
     L: Loading + Copy,
     U: Unloading + Copy,
-    C: Contact<RoughModel<L, U>> + SharedContact<RoughModel<L, U>>,
+    C: Contact<FrictionalModel<L, U>> + SharedContact<FrictionalModel<L, U>>,
 {
-    let (mass, rows) = (0.3, 4 * (1 + <C as Contact<RoughModel<L, U>>>::DIRECTIONS));
+    let (mass, rows) = (0.3, 4 * (1 + <C as Contact<FrictionalModel<L, U>>>::DIRECTIONS));
     // the box does not turn, but its feet are apart
     let entry = |row: usize, column: usize| match (row / 4 == column / 4, row == column) {
         (true, true) => 3.0 / mass,
@@ -85,12 +85,12 @@ fn shared(criterion: &mut Criterion) {
     let brinell = Model { pair, loading, unloading, surface };
     cradles(criterion, "brinell", &brinell, &[1, 2, 4, 16]);
     let friction = Friction::between(&ball, &ball, pair.modulus, 0.3);
-    let rough = RoughModel { normal: hertz, friction, loss: () };
-    feet::<RoughContact<16>, _, _>(criterion, "hertz, one direction", &rough);
-    feet::<PlaneContact<16>, _, _>(criterion, "hertz, two directions", &rough);
-    let rough = RoughModel { normal: brinell, friction, loss: () };
-    feet::<RoughContact<16>, _, _>(criterion, "brinell, one direction", &rough);
-    feet::<PlaneContact<16>, _, _>(criterion, "brinell, two directions", &rough);
+    let frictional = FrictionalModel { normal: hertz, friction, loss: () };
+    feet::<FrictionalContact<16>, _, _>(criterion, "hertz, one direction", &frictional);
+    feet::<PlaneContact<16>, _, _>(criterion, "hertz, two directions", &frictional);
+    let frictional = FrictionalModel { normal: brinell, friction, loss: () };
+    feet::<FrictionalContact<16>, _, _>(criterion, "brinell, one direction", &frictional);
+    feet::<PlaneContact<16>, _, _>(criterion, "brinell, two directions", &frictional);
 }
 
 criterion_group! {

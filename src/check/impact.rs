@@ -3,7 +3,9 @@
 use crate::importer::ImportError;
 use crate::master::Contact;
 use brinell_contact::impact::Impact;
-use brinell_exporter::master::{Body, Coupled, LATE_MASS, LEAP_FROG, LEAP_FROG_FOLLOWED, MASS_KNOWN, Needs, Way};
+use brinell_exporter::master::{
+    Body, Coupled, CouplingMethod, JACOBI_MASS, LEAP_FROG, LEAP_FROG_FOLLOWED, MASS_KNOWN, Requirements,
+};
 use brinell_exporter::scene::Scene;
 
 /// Results of an explicit co-simulation.
@@ -25,9 +27,9 @@ pub const MOST_STEPS: u32 = 16 * STEPS_PER_CONTACT;
 const FORGOTTEN: u32 = 120;
 
 /// The way to couple an FMU of `scene`.
-pub fn way_of(scene: &Scene) -> &'static Way {
+pub fn way_of(scene: &Scene) -> &'static CouplingMethod {
     match scene.coupling {
-        Some(coupling) if coupling.parallel => &LATE_MASS,
+        Some(coupling) if coupling.parallel => &JACOBI_MASS,
         Some(_) => &MASS_KNOWN,
         None if scene.follows_rate() => &LEAP_FROG_FOLLOWED,
         None => &LEAP_FROG,
@@ -41,7 +43,7 @@ pub fn way_of(scene: &Scene) -> &'static Way {
 /// [`ImportError`] if the FMU rejects a call, for a force that is not finite, and for an impact that doesn't end.
 pub fn simulate(
     contact: &mut Contact,
-    way: &Way,
+    way: &CouplingMethod,
     impact: &Impact,
     (gap, power): (f64, f64),
     step: f64,
@@ -78,11 +80,12 @@ pub fn simulate(
 }
 
 /// Crosses `gap` [m] at `speed` [m/s].
-fn approach(contact: &mut Contact, way: &Way, speed: f64, gap: f64, step: f64) -> Result<(), ImportError> {
+fn approach(contact: &mut Contact, way: &CouplingMethod, speed: f64, gap: f64, step: f64) -> Result<(), ImportError> {
     if gap <= 0.0 {
         return Ok(());
     }
-    let short = if way.needs == Needs::LateMass { f64::min(gap, f64::from(FORGOTTEN) * step * speed) } else { 0.0 };
+    let short =
+        if way.needs == Requirements::JacobiMass { f64::min(gap, f64::from(FORGOTTEN) * step * speed) } else { 0.0 };
     contact.set_rate(speed)?;
     if gap > short {
         contact.step((gap - short) / speed)?;

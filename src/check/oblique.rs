@@ -8,7 +8,7 @@ use brinell_contact::Contact;
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::impact::Ball;
-use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::library::{MEMORY, parameters, start_value};
 use brinell_exporter::master::{Coupled, bounce};
@@ -61,7 +61,7 @@ fn by_unit(contact: &mut master::Contact, ball: Ball, (gap, step): (f64, f64)) -
 /// The same with the springs of the library; `None` where the law cannot be evaluated.
 fn by_library(scene: &Scene, group: usize, ball: Ball, step: f64) -> Option<Rebound> {
     let model = model_of(scene, group);
-    let mut contact = RoughContact::<MEMORY>::start(&model, 0.0).ok()?;
+    let mut contact = FrictionalContact::<MEMORY>::start(&model, 0.0).ok()?;
     let rebound = bounce(ball, step, MOST_STEPS, |(closing, slip)| {
         contact.set_tangential_rate(slip);
         contact.step_held(closing, step, &model.normal.yield_point(), || model).map_err(|_| ())?;
@@ -76,7 +76,7 @@ pub fn friction_of(scene: &Scene, group: usize) -> Friction {
 }
 
 /// The contact of `group` with friction.
-fn model_of(scene: &Scene, group: usize) -> RoughModel<AnyLoading, AnyUnloading> {
+fn model_of(scene: &Scene, group: usize) -> FrictionalModel<AnyLoading, AnyUnloading> {
     with_friction(scene.model_of(group), (), |which| {
         let variable = parameters().nth(which as usize);
         variable.map_or(f64::NAN, |variable| start_value(scene, group, &variable.name))

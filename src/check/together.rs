@@ -5,7 +5,7 @@ use crate::importer::{Archive, ImportError, Unit};
 use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::rate;
 use brinell_contact::shared::{InverseMasses, Refused, SharedContact, Work, follow};
-use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
+use brinell_contact::tangential::{FrictionalContact, FrictionalModel, PlaneContact};
 use brinell_contact::{Contact, History};
 use brinell_exporter::interface::{INVERSE_MASS, inverse_mass_inputs};
 use brinell_exporter::library::MEMORY;
@@ -136,13 +136,13 @@ fn predicted(start: &Start, step: f64) -> (Vec<Vec<f64>>, f64) {
     let lossy: Vec<_> = models.iter().filter_map(AnyModel::lossy).copied().collect();
     let plastic: Vec<_> = models.iter().filter_map(AnyModel::elastoplastic).copied().collect();
     let friction = |place: usize| oblique::friction_of(scene, start.contacts[place].0);
-    let rough = || -> Vec<_> {
+    let frictional = || -> Vec<_> {
         let all = plastic.iter().enumerate();
-        all.map(|(place, &normal)| RoughModel { normal, friction: friction(place), loss: () }).collect()
+        all.map(|(place, &normal)| FrictionalModel { normal, friction: friction(place), loss: () }).collect()
     };
     let rough_and_lossy = || -> Vec<_> {
         let all = lossy.iter().enumerate();
-        all.map(|(place, &losses::Model { plastic: normal, loss })| RoughModel {
+        all.map(|(place, &losses::Model { plastic: normal, loss })| FrictionalModel {
             normal,
             friction: friction(place),
             loss,
@@ -159,9 +159,9 @@ fn predicted(start: &Start, step: f64) -> (Vec<Vec<f64>>, f64) {
         (0, false) if is_rated => start.predicted::<_, rate::History<Lossy>>(&rated(start, &lossy), step),
         (0, true) => start.predicted::<_, History>(&plastic, step),
         (0, false) => start.predicted::<_, Lossy>(&lossy, step),
-        (1, true) => start.predicted::<_, RoughContact<MEMORY>>(&rough(), step),
-        (1, false) => start.predicted::<_, RoughContact<MEMORY, true, Lossy>>(&rough_and_lossy(), step),
-        (_, true) => start.predicted::<_, PlaneContact<MEMORY>>(&rough(), step),
+        (1, true) => start.predicted::<_, FrictionalContact<MEMORY>>(&frictional(), step),
+        (1, false) => start.predicted::<_, FrictionalContact<MEMORY, true, Lossy>>(&rough_and_lossy(), step),
+        (_, true) => start.predicted::<_, PlaneContact<MEMORY>>(&frictional(), step),
         (_, false) => start.predicted::<_, PlaneContact<MEMORY, true, Lossy>>(&rough_and_lossy(), step),
     }
 }

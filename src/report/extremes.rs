@@ -9,7 +9,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use brinell_contact::{Loading, Model, Surface};
-use brinell_exporter::master::{Coupled, LEAP_FROG, Needs};
+use brinell_exporter::master::{Coupled, LEAP_FROG, Requirements};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::scene::{Body, Scene};
 use brinell_exporter::validity::{self, Beyond};
@@ -221,7 +221,7 @@ impl Bodies {
         let stiffer = modulus.map_or(1.0, |modulus| modulus / old("target.youngs_modulus"));
         // both bodies keep the ratio of their strengths
         let stronger = stiffer * strain.zip(old_strain).map_or(1.0, |(strain, old)| strain / old);
-        let mut changed = first_contact(scene, Needs::Force);
+        let mut changed = first_contact(scene, Requirements::Force);
         let mut parameters = Vec::new();
         for parameter in &mut changed.parameters {
             let factor = match parameter.name {

@@ -19,7 +19,7 @@ use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use brinell_exporter::accuracy::accuracy;
 use brinell_exporter::html::prose;
 use brinell_exporter::layout::{json_line, paragraph, shown};
-use brinell_exporter::master::{Needs, Rebound, WAYS, Way};
+use brinell_exporter::master::{COUPLING_METHODS, CouplingMethod, Rebound, Requirements};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::{quantity, significant};
 use brinell_exporter::plot::{Picture, View};
@@ -122,7 +122,7 @@ impl Runs<'_> {
 
     /// The rebound with steps of `step` \[s\]. Steps that are much too long may throw a body so deep that the FMU refuses to go on: it
     /// then has no speed, as if the impact did not end.
-    fn rebound(&self, way: &Way, contact: &mut Contact, step: f64) -> Result<Rebound, ImportError> {
+    fn rebound(&self, way: &CouplingMethod, contact: &mut Contact, step: f64) -> Result<Rebound, ImportError> {
         let refused = |error: ImportError| {
             let none = Rebound { speed: f64::NAN, max_force: f64::NAN };
             if error.is_refused_step() { Ok(none) } else { Err(error) }
@@ -170,7 +170,7 @@ impl Report {
     /// # Errors
     /// [`ReportError`] if an FMU can't be built or loaded, or rejects an ordinary impact.
     fn of(scene: &Scene, quick: bool) -> Result<(Report, Figures), ReportError> {
-        let alone = units::first_contact(scene, Needs::Force);
+        let alone = units::first_contact(scene, Requirements::Force);
         let (model, impact, prediction) = (alone.any_model(), alone.impact, alone.predictions[0]);
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
         let progress = &Progress::new();
@@ -183,13 +183,13 @@ impl Report {
             contacts.insert(*needs, Contact::new(archive, unit, "", &[])?);
         }
         let (mut lines, mut stability) = (Vec::new(), Stability::default());
-        for way in &WAYS {
+        for way in &COUPLING_METHODS {
             if let Some(contact) = contacts.get_mut(&way.needs) {
                 lines.push(precision::measure(&runs, contact, way)?);
                 stability.measure(&runs, contact, way)?;
             }
         }
-        let plain = contacts.get_mut(&Needs::Force).expect("every report has the FMU with its force alone");
+        let plain = contacts.get_mut(&Requirements::Force).expect("every report has the FMU with its force alone");
         let extremes = extremes::measure(plain, &alone, quick, progress);
         let figures = BTreeMap::from([
             ("card", card::figures(&alone)),

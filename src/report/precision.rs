@@ -3,7 +3,7 @@
 use super::{Figure, Runs};
 use crate::importer::ImportError;
 use crate::master::Contact;
-use brinell_exporter::master::{Way, gaps};
+use brinell_exporter::master::{CouplingMethod, gaps};
 use brinell_exporter::plot::{Picture, Series, View};
 use serde::Serialize;
 use std::time::Instant;
@@ -45,7 +45,7 @@ pub struct Point {
 
 /// One way to couple an FMU for increasing numbers of steps per contact.
 pub struct Line {
-    pub way: &'static Way,
+    pub way: &'static CouplingMethod,
     pub points: Vec<Point>,
 }
 
@@ -66,13 +66,13 @@ pub fn doubled(fewest: u32, most: u32) -> impl Iterator<Item = u32> {
 ///
 /// # Errors
 /// [`ImportError`] if the FMU rejects a call.
-pub fn measure(runs: &Runs, contact: &mut Contact, way: &'static Way) -> Result<Line, ImportError> {
+pub fn measure(runs: &Runs, contact: &mut Contact, way: &'static CouplingMethod) -> Result<Line, ImportError> {
     runs.progress.say(&format!("error against run time: {}", way.name));
     let points = doubled(2, runs.most).map(|steps| point(runs, contact, way, steps)).collect::<Result<_, _>>()?;
     Ok(Line { way, points })
 }
 
-fn point(runs: &Runs, contact: &mut Contact, way: &Way, steps: u32) -> Result<Point, ImportError> {
+fn point(runs: &Runs, contact: &mut Contact, way: &CouplingMethod, steps: u32) -> Result<Point, ImportError> {
     let Runs { impact, prediction, .. } = runs;
     let step = prediction.contact_time() / f64::from(steps);
     // sums of squared errors of restitution, force, dent and contact time

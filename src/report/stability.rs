@@ -5,7 +5,7 @@ use super::{Figure, Runs};
 use crate::importer::ImportError;
 use crate::master::Contact;
 use brinell_contact::impact::Impact;
-use brinell_exporter::master::{Body, Coupled, Needs, Way, gaps};
+use brinell_exporter::master::{Body, Coupled, CouplingMethod, Requirements, gaps};
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::plot::{Picture, Series, View};
 use serde::Serialize;
@@ -61,7 +61,7 @@ pub struct Stability {
 }
 
 /// Rebound energies of `way` for the step at this `point` of the range.
-fn energy(runs: &Runs, contact: &mut Contact, way: &Way, point: u32) -> Result<Energy, ImportError> {
+fn energy(runs: &Runs, contact: &mut Contact, way: &CouplingMethod, point: u32) -> Result<Energy, ImportError> {
     let Impact { speed, .. } = runs.impact;
     let relative = RANGE.0 * (RANGE.1 / RANGE.0).powf(f64::from(point) / f64::from(POINTS));
     let step = relative / runs.frequency();
@@ -77,7 +77,7 @@ fn energy(runs: &Runs, contact: &mut Contact, way: &Way, point: u32) -> Result<E
 }
 
 /// The stable range in words, and its end if it has one, by bisection.
-fn limit(runs: &Runs, contact: &mut Contact, way: &Way) -> Result<(&'static str, Option<f64>), ImportError> {
+fn limit(runs: &Runs, contact: &mut Contact, way: &CouplingMethod) -> Result<(&'static str, Option<f64>), ImportError> {
     let (mut low, mut high) = RANGE;
     if !stays(runs, contact, way, low)? {
         return Ok(("at no step that was tried", None));
@@ -93,7 +93,7 @@ fn limit(runs: &Runs, contact: &mut Contact, way: &Way) -> Result<(&'static str,
 }
 
 /// Whether a body keeps to a small motion about the deepest indentation, into which a constant load presses it.
-fn stays(runs: &Runs, contact: &mut Contact, way: &Way, relative: f64) -> Result<bool, ImportError> {
+fn stays(runs: &Runs, contact: &mut Contact, way: &CouplingMethod, relative: f64) -> Result<bool, ImportError> {
     let (prediction, frequency) = (&runs.prediction, runs.frequency());
     let step = relative / frequency;
     let elastic = prediction.max_indentation - prediction.residual_indentation;
@@ -107,7 +107,7 @@ fn stays(runs: &Runs, contact: &mut Contact, way: &Way, relative: f64) -> Result
     contact.step(moment)?;
     contact.set_rate(0.0)?;
     let mut body = Body::pressed(runs.impact.mass, contact.force()?);
-    if way.needs == Needs::LateMass {
+    if way.needs == Requirements::JacobiMass {
         body.owed = contact.mean_force()?;
     }
     let disturbance = 1e-6 * elastic * frequency;
@@ -119,7 +119,7 @@ fn stays(runs: &Runs, contact: &mut Contact, way: &Way, relative: f64) -> Result
             other => other?,
         }
         // with a delayed force, the speed of the body differs from that of the motion
-        let speed = if way.needs == Needs::LateMass { contact.output("closing_speed")? } else { body.speed };
+        let speed = if way.needs == Requirements::JacobiMass { contact.output("closing_speed")? } else { body.speed };
         if speed.is_nan() || speed.abs() > GROWTH * disturbance {
             return Ok(false);
         }
@@ -161,7 +161,7 @@ impl Stability {
     ///
     /// # Errors
     /// [`ImportError`] if the FMU rejects a call.
-    pub fn measure(&mut self, runs: &Runs, contact: &mut Contact, way: &Way) -> Result<(), ImportError> {
+    pub fn measure(&mut self, runs: &Runs, contact: &mut Contact, way: &CouplingMethod) -> Result<(), ImportError> {
         runs.progress.say(&format!("stability: {}", way.name));
         let own = (0..=POINTS).map(|point| energy(runs, contact, way, point));
         let own = own.collect::<Result<Vec<Energy>, _>>()?;

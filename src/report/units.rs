@@ -5,7 +5,7 @@ use crate::importer::{Archive, ImportError, Unit};
 use crate::temporary::PrivateFolder;
 use crate::{package, parallel};
 use brinell_contact::rate::Factors;
-use brinell_exporter::master::Needs;
+use brinell_exporter::master::Requirements;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform;
 use brinell_exporter::scene::{Coupling, Group, Parameter, Scene};
@@ -17,13 +17,19 @@ const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_e
 
 /// The FMUs for `scene`. An FMU whose force follows the rate has no input derivatives and can't know the mass. One with
 /// friction can't know the mass either.
-fn kinds(scene: &Scene) -> Vec<Needs> {
+fn kinds(scene: &Scene) -> Vec<Requirements> {
     let (damped, friction) = (scene.is_rate_dependent(), scene.has_friction());
-    let mut all = vec![Needs::Force, Needs::PredictedForce, Needs::MeanForce, Needs::Mass, Needs::LateMass];
+    let mut all = vec![
+        Requirements::Force,
+        Requirements::PredictedForce,
+        Requirements::MeanForce,
+        Requirements::Mass,
+        Requirements::JacobiMass,
+    ];
     all.retain(|needs| match needs {
-        Needs::Force | Needs::PredictedForce => true,
-        Needs::MeanForce => !damped,
-        Needs::Mass | Needs::LateMass => !damped && !friction,
+        Requirements::Force | Requirements::PredictedForce => true,
+        Requirements::MeanForce => !damped,
+        Requirements::Mass | Requirements::JacobiMass => !damped && !friction,
     });
     all
 }
@@ -32,12 +38,12 @@ fn kinds(scene: &Scene) -> Vec<Needs> {
 ///
 /// # Errors
 /// [`ReportError`] if an FMU can't be built or loaded.
-pub fn build(scene: &Scene, progress: &Progress) -> Result<BTreeMap<Needs, (Unit, Archive)>, ReportError> {
+pub fn build(scene: &Scene, progress: &Progress) -> Result<BTreeMap<Requirements, (Unit, Archive)>, ReportError> {
     let folder = PrivateFolder::new("brinell-report-", &std::env::temp_dir())?;
     let here = [platform::here().map_err(ImportError::from)?];
     let kinds = kinds(scene);
-    let path = |needs: Needs| folder.path().join(format!("{needs:?}.fmu"));
-    let build = |needs: &Needs| {
+    let path = |needs: Requirements| folder.path().join(format!("{needs:?}.fmu"));
+    let build = |needs: &Requirements| {
         progress.say(&format!("building an FMU ({needs:?})"));
         package::export(&Plan::of(&first_contact(scene, *needs)), package::LibraryWay::Any, &here, &path(*needs))
     };
@@ -54,13 +60,13 @@ pub fn build(scene: &Scene, progress: &Progress) -> Result<BTreeMap<Needs, (Unit
 }
 
 /// The first contact of `scene` alone, for a kind of coupling; all its parameters can be set.
-pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
+pub fn first_contact(scene: &Scene, needs: Requirements) -> Scene {
     let mass = needs.knows_mass().then_some(scene.impact_of(0).mass);
     let more: &[&str] = match needs {
-        Needs::Force => &[],
-        Needs::PredictedForce => &["predicted_force"],
-        Needs::MeanForce | Needs::Mass => &["mean_force"],
-        Needs::LateMass => &["mean_force", "closing_speed"],
+        Requirements::Force => &[],
+        Requirements::PredictedForce => &["predicted_force"],
+        Requirements::MeanForce | Requirements::Mass => &["mean_force"],
+        Requirements::JacobiMass => &["mean_force", "closing_speed"],
     };
     let mut parameters: Vec<Parameter> = Vec::new();
     // in the order of the table, like the parameters of every scene; the bodies move along the normal only
@@ -80,7 +86,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         outputs: OUTPUTS.iter().chain(more).map(|name| (*name).to_string()).collect(),
         quasi_static: vec![scene.quasi_static[0]],
         factors: vec![Factors::SLOW],
-        coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
+        coupling: mass.map(|_| Coupling { parallel: needs == Requirements::JacobiMass, ..Coupling::default() }),
         inverse_masses: None,
         meeting: None,
         directions: 0,

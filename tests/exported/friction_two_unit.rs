@@ -3,7 +3,7 @@
 use crate::loaded::{Instance, OK, Unit};
 use crate::physics::Random;
 use crate::unit;
-use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel, PlaneContact};
 use brinell_contact::{Body, Contact, Model, Pair, Surface, loading, unloading};
 use std::f64::consts::PI;
 
@@ -37,13 +37,13 @@ fn unit_of(name: &str, more: &str) -> Unit {
 }
 
 /// The contact of [`unit_of`].
-fn model() -> RoughModel<loading::Hertz, unloading::ContactRadius> {
+fn model() -> FrictionalModel<loading::Hertz, unloading::ContactRadius> {
     let ball = Body { radius: 2.5e-3, youngs_modulus: 380e9, poissons_ratio: 0.23 };
     let glass = Body { radius: f64::INFINITY, youngs_modulus: 70e9, poissons_ratio: 0.25 };
     let pair = Pair::new(&ball, &glass, f64::INFINITY).expect("a ball on a plane");
     let friction = Friction::between(&ball, &glass, pair.modulus, 0.092);
     let (loading, unloading) = (loading::Hertz, unloading::ContactRadius);
-    RoughModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction, loss: () }
+    FrictionalModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction, loss: () }
 }
 
 /// Rates along the normal and in the tangential directions [m/s]: an indentation between -1 and 5 um.
@@ -102,7 +102,7 @@ fn motion_along_one_line_has_the_forces_of_one_direction() {
     for turn in 0..8 {
         let (sine, cosine) = (0.25 * PI * f64::from(turn) + 0.1).sin_cos();
         let (mut instance, mut time) = (unit.ready(), 0.0);
-        let mut line = RoughContact::<16>::start(&model, 0.0).expect("within range");
+        let mut line = FrictionalContact::<16>::start(&model, 0.0).expect("within range");
         for (normal, [rate, _]) in rates(20 + turn as u64, 12) {
             go(&mut instance, &mut time, (normal, [rate * cosine, rate * sine]), STEP);
             line.set_tangential_rate(rate);

@@ -3,7 +3,7 @@
 use crate::loaded::{ERROR, Instance, OK, Unit};
 use crate::physics::Random;
 use crate::unit;
-use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel};
 use brinell_contact::{Body, Contact, Model, Pair, Surface, loading, unloading};
 
 const STEP: f64 = 1e-6;
@@ -65,20 +65,20 @@ fn bits(instance: &Instance, names: &[&str]) -> Vec<u64> {
 }
 
 /// The contact of the scene `oblique`.
-fn oblique() -> RoughModel<loading::Hertz, unloading::ContactRadius> {
+fn oblique() -> FrictionalModel<loading::Hertz, unloading::ContactRadius> {
     let ball = Body { radius: 2.5e-3, youngs_modulus: 380e9, poissons_ratio: 0.23 };
     let glass = Body { radius: f64::INFINITY, youngs_modulus: 70e9, poissons_ratio: 0.25 };
     let pair = Pair::new(&ball, &glass, f64::INFINITY).expect("a ball on a plane");
     let friction = Friction::between(&ball, &glass, pair.modulus, 0.092);
     let (loading, unloading) = (loading::Hertz, unloading::ContactRadius);
-    RoughModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction, loss: () }
+    FrictionalModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction, loss: () }
 }
 
 #[test]
 fn the_unit_gives_the_same_bits_as_the_library() {
     let (unit, model) = (project("oblique"), oblique());
     let mut instance = unit.ready();
-    let mut contact = RoughContact::<16>::start(&model, 0.0).expect("within range");
+    let mut contact = FrictionalContact::<16>::start(&model, 0.0).expect("within range");
     let mut time = 0.0;
     for (normal, tangential) in rates(5, 200) {
         go(&mut instance, &mut time, (normal, tangential), STEP);

@@ -70,8 +70,8 @@ fn it_has_no_words_of_features_that_the_scene_lacks() {
     for word in ["tangential", "parallel", "external_acceleration", "effective_mass", "passivity"] {
         assert!(!contains(&library, word), "{word}");
     }
-    let rough = fs::read(unit::library(&unit::export(&unit::scene("two_directions")))).unwrap();
-    assert!(contains(&rough, "tangential_rate") && !contains(&rough, "parallel"));
+    let frictional = fs::read(unit::library(&unit::export(&unit::scene("two_directions")))).unwrap();
+    assert!(contains(&frictional, "tangential_rate") && !contains(&frictional, "parallel"));
 }
 
 /// Nothing unwinds through a library that cannot panic, and nobody needs to know which compiler made it.

@@ -6,7 +6,7 @@ use brinell_contact::damped::{Adams, AnyDamped, Damped};
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::Elastic;
 use brinell_contact::losses::{self, Damper, History, follow, impact};
-use brinell_contact::motion::{Drive, Outcome};
+use brinell_contact::motion::{ExternalLoad, Outcome};
 use brinell_contact::unloading::ContactRadius;
 use brinell_contact::{Contact, Pair};
 use brinell_fmu::instance::Instance;
@@ -57,14 +57,14 @@ impl Ball<'_> {
     }
 
     fn step(&mut self, step: f64) -> Outcome {
-        let drive = Drive { mass: MASS, acceleration: self.acceleration };
+        let load = ExternalLoad { mass: MASS, acceleration: self.acceleration };
         let before = self.history.plastic().indentation();
-        let outcome = follow(&mut self.history, self.model, &drive, self.speed, step);
+        let outcome = follow(&mut self.history, self.model, &load, self.speed, step);
         let outcome = outcome.unwrap_or_else(|reason| panic!("{reason:?}: {self:?}"));
         self.way += self.history.plastic().indentation() - before;
         // the momentum is balanced
-        let expected = self.speed + self.acceleration * step - outcome.taken;
-        let size = self.speed.abs() + self.acceleration.abs() * step + outcome.taken;
+        let expected = self.speed + self.acceleration * step - outcome.speed_removed;
+        let size = self.speed.abs() + self.acceleration.abs() * step + outcome.speed_removed;
         assert!((outcome.speed - expected).abs() <= 1e-12 * size, "{outcome:?} {expected}");
         self.speed = outcome.speed;
         outcome
@@ -128,12 +128,12 @@ fn the_second_grip_of_a_surface_is_followed_in_any_parts() {
         if place == 0 {
             assert!((expected.restitution * speed / 3.0453515172 - 1.0).abs() < 1e-10, "{expected:?}");
         }
-        let drive = Drive { mass, acceleration: 0.0 };
+        let load = ExternalLoad { mass, acceleration: 0.0 };
         for parts in [1, 3, 5, 10, 17, 50, 400] {
             let (mut history, mut now) = (History::start(&model, 0.0).unwrap(), speed);
             for _ in 0..parts {
                 let step = 3.0 * expected.contact_time() / f64::from(parts);
-                let outcome = follow(&mut history, &model, &drive, now, step);
+                let outcome = follow(&mut history, &model, &load, now, step);
                 now = outcome
                     .unwrap_or_else(|reason| {
                         panic!("{reason:?}: {:?}, {mass} kg at {speed} m/s in {parts}: {expected:?}", model)

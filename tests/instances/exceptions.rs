@@ -4,8 +4,8 @@
 use crate::LOSSES;
 use crate::physics::{Random, all_models, mild};
 use crate::scenes::{
-    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Lossy, LossyMassive, Massive, OUTPUTS, Rated, Rough,
-    RoughPlane, choose, frictions, words,
+    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Frictional, FrictionalPlane, Lossy, LossyMassive, Massive,
+    OUTPUTS, Rated, choose, frictions, words,
 };
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::rate::Rate;
@@ -17,8 +17,8 @@ use brinell_testing::long::some;
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Present>;
 type MassiveOne = Chosen<Massive, 1, Present>;
-type RoughOne = Chosen<Rough, 1, Present>;
-type RoughPlaneOne = Chosen<RoughPlane, 1, Present>;
+type FrictionalOne = Chosen<Frictional, 1, Present>;
+type RoughPlaneOne = Chosen<FrictionalPlane, 1, Present>;
 type RatedOne = Chosen<Rated, 1, Present>;
 type DampedMassiveOne = Chosen<DampedMassive, 1, Present>;
 type DampedOne = Chosen<Damped, 1, Present>;
@@ -212,13 +212,13 @@ fn instances_with_friction_raise_none() {
         for friction in [0.0, 1e-200, 0.3] {
             let choice = Choice { friction, ..Choice::of(model.loading, model.unloading) };
             choose(choice);
-            live::<RoughOne>(&format!("{name}, friction {friction:e}"));
+            live::<FrictionalOne>(&format!("{name}, friction {friction:e}"));
             // each unloading law once: it has the springs
             if ["hertz ", "big-alabo ", "luding "].iter().any(|law| name.starts_with(law)) {
                 live::<RoughPlaneOne>(&format!("{name}, friction {friction:e} in two directions"));
             }
             choose(Choice { surface: Surface::Fresh, initial_gap: -3e-5, ..choice });
-            live::<RoughOne>(&format!("{name}, friction {friction:e}, fresh"));
+            live::<FrictionalOne>(&format!("{name}, friction {friction:e}, fresh"));
         }
     }
 }

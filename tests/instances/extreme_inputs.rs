@@ -2,8 +2,8 @@
 
 use crate::physics::{Random, all_models, mild};
 use crate::scenes::{
-    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Lossy, LossyMassive, Massive, OUTPUTS, Rated, Rough,
-    RoughPlane, choose, outputs, words,
+    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Frictional, FrictionalPlane, Lossy, LossyMassive, Massive,
+    OUTPUTS, Rated, choose, outputs, words,
 };
 use crate::{AnyDamped, LOSSES};
 use brinell_contact::Surface;
@@ -110,8 +110,8 @@ fn inputs_of_any_size_are_refused_or_leave_everything_finite() {
         done += match index % 6 {
             0 => run::<Chosen<Lossy, 1, Present>>(&name, seed),
             1 => run::<Chosen<LossyMassive, 1, Present>>(&name, seed),
-            2 => run::<Chosen<Rough, 1, Present>>(&name, seed),
-            3 => run::<Chosen<RoughPlane, 1, Present>>(&name, seed),
+            2 => run::<Chosen<Frictional, 1, Present>>(&name, seed),
+            3 => run::<Chosen<FrictionalPlane, 1, Present>>(&name, seed),
             4 => run::<Chosen<Rated<Inputs>, 1, Present>>(&name, seed),
             _ => run::<Chosen<Damped, 1, Present>>(&name, seed) + run::<Chosen<DampedMassive, 1, Present>>(&name, seed),
         };

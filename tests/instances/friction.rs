@@ -2,30 +2,30 @@
 
 use crate::physics::Random;
 use crate::scenes::{OUTPUTS, choose, ready, set_rate, set_tangential_rate};
-use crate::{One, RoughOne, RoughPlaneOne, STEP, some_pairings};
+use crate::{FrictionalOne, One, RoughPlaneOne, STEP, some_pairings};
 use brinell_fmu::scene::{Real, Scene};
 
 /// Friction changes nothing along the normal.
 #[test]
 fn a_contact_with_friction_has_the_normal_outputs_of_one_without() {
     fn check<S: Scene>(name: &str) {
-        let (mut rough, mut smooth) = (ready::<S>(), ready::<One>());
+        let (mut frictional, mut smooth) = (ready::<S>(), ready::<One>());
         let mut random = Random(17);
         let input = (Real::IndentationRate, 0);
         for step in 0..60 {
             let rate = 4.0 * random.next() - 1.9;
-            set_rate(&mut rough, 0, rate);
+            set_rate(&mut frictional, 0, rate);
             set_rate(&mut smooth, 0, rate);
-            set_tangential_rate(&mut rough, 0, 2.0 * random.next() - 0.9);
-            let time = rough.time();
-            rough.do_step(time, STEP).unwrap();
+            set_tangential_rate(&mut frictional, 0, 2.0 * random.next() - 0.9);
+            let time = frictional.time();
+            frictional.do_step(time, STEP).unwrap();
             smooth.do_step(time, STEP).unwrap();
             for output in OUTPUTS {
                 let of_rough = [
-                    Ok(rough.real((output, 0))),
-                    rough.output_derivative((output, 0), 1),
-                    rough.output_derivative((output, 0), 2),
-                    rough.derivative_by_input((output, 0), input),
+                    Ok(frictional.real((output, 0))),
+                    frictional.output_derivative((output, 0), 1),
+                    frictional.output_derivative((output, 0), 2),
+                    frictional.derivative_by_input((output, 0), input),
                 ];
                 let of_smooth = [
                     Ok(smooth.real((output, 0))),
@@ -46,7 +46,7 @@ fn a_contact_with_friction_has_the_normal_outputs_of_one_without() {
     }
     for (name, choice) in some_pairings() {
         choose(choice);
-        check::<RoughOne>(&name);
+        check::<FrictionalOne>(&name);
         check::<RoughPlaneOne>(&format!("{name}, two directions"));
     }
 }

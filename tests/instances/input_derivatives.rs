@@ -2,7 +2,7 @@
 
 use crate::physics::Random;
 use crate::scenes::{choose, frictions, ready, set_rate, set_tangential_rate};
-use crate::{One, RoughOne, RoughPlaneOne, RoughPlaneSeveral, RoughSeveral, STEP, Several, some_pairings};
+use crate::{FrictionalOne, FrictionalSeveral, One, RoughPlaneOne, RoughPlaneSeveral, STEP, Several, some_pairings};
 use brinell_contact::Contact;
 use brinell_fmu::instance::{FASTEST, Fault};
 use brinell_fmu::scene::{Real, Scene};
@@ -59,8 +59,8 @@ fn a_prediction_after_a_step_without_derivatives_is_the_force_of_the_next_step_w
         choose(choice);
         check::<One>(&name);
         check::<Several>(&name);
-        check::<RoughOne>(&name);
-        check::<RoughSeveral>(&name);
+        check::<FrictionalOne>(&name);
+        check::<FrictionalSeveral>(&name);
         check::<RoughPlaneOne>(&name);
         check::<RoughPlaneSeveral>(&name);
     }

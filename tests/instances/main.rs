@@ -20,7 +20,7 @@ mod wiring;
 use brinell_contact::Contact;
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::losses::{AnyLoss, HalfSpaceRadiation, Plate, RestitutionFitted, Solid};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_fmu::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain, SHORTEST};
 use brinell_fmu::scene::{Coupled, Present, Real, Scene};
@@ -28,18 +28,18 @@ use brinell_testing::{masters, physics, scenes};
 use brinell_unit::known::Exported;
 use physics::{Random, all_models, mild};
 use scenes::{
-    Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, Rough, RoughPlane, choose, outputs, ready, set_rate,
-    set_tangential_rate, words,
+    Choice, Chosen, Damped, Elastoplastic, Frictional, FrictionalPlane, Massive, OUTPUTS, choose, outputs, ready,
+    set_rate, set_tangential_rate, words,
 };
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 5, Present>;
 type DampedOne = Chosen<Damped, 1, Present>;
 type DampedSeveral = Chosen<Damped, 3, Present>;
-type RoughOne = Chosen<Rough, 1, Present>;
-type RoughSeveral = Chosen<Rough, 3, Present>;
-type RoughPlaneOne = Chosen<RoughPlane, 1, Present>;
-type RoughPlaneSeveral = Chosen<RoughPlane, 3, Present>;
+type FrictionalOne = Chosen<Frictional, 1, Present>;
+type FrictionalSeveral = Chosen<Frictional, 3, Present>;
+type RoughPlaneOne = Chosen<FrictionalPlane, 1, Present>;
+type RoughPlaneSeveral = Chosen<FrictionalPlane, 3, Present>;
 type MassiveOne = Chosen<Massive, 1, Present>;
 type MassiveSeveral = Chosen<Massive, 2, Present>;
 type ParallelOne = Chosen<Massive<Coupled<Present>>, 1, Present>;
@@ -50,8 +50,8 @@ const TARGET: Solid = Solid { density: 7850.0, youngs_modulus: 206e9, poissons_r
 
 /// Every loss; a thin plate makes the motion stiff.
 const LOSSES: [AnyLoss; 4] = [
-    AnyLoss::Fitted(Fitted { restitution: 0.9 }),
-    AnyLoss::Waves(Waves { target: TARGET }),
+    AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.9 }),
+    AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target: TARGET }),
     AnyLoss::Plate(Plate { target: TARGET, thickness: 0.01 }),
     AnyLoss::Plate(Plate { target: TARGET, thickness: 1e-3 }),
 ];
@@ -127,8 +127,8 @@ fn instances_of_every_kind_run_copy_save_and_reset_to_the_bit() {
         behaves::<MassiveSeveral>(&name);
         behaves::<ParallelOne>(&name);
         behaves::<WiredSeveral>(&name);
-        behaves::<RoughOne>(&name);
-        behaves::<RoughSeveral>(&name);
+        behaves::<FrictionalOne>(&name);
+        behaves::<FrictionalSeveral>(&name);
         behaves::<RoughPlaneOne>(&name);
         behaves::<RoughPlaneSeveral>(&name);
     }
@@ -198,7 +198,7 @@ fn a_wide_contact_is_told_at_three_tenths_of_the_smaller_radius_and_refused_at_t
             let size = choice.radius.min(target.abs());
             widen::<One>(&name, effective, size);
             widen::<Several>(&name, effective, size);
-            widen::<RoughOne>(&name, effective, size);
+            widen::<FrictionalOne>(&name, effective, size);
         }
     }
 }

@@ -3,8 +3,8 @@
 
 use crate::physics::{Random, mild};
 use crate::scenes::{
-    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Held, Lossy, LossyMassive, Massive, OUTPUTS, Rated, Rough,
-    RoughPlane, choose, frictions, outputs, ready, set_rate, words,
+    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Frictional, FrictionalPlane, Held, Lossy, LossyMassive,
+    Massive, OUTPUTS, Rated, choose, frictions, outputs, ready, set_rate, words,
 };
 use crate::{LOSSES, some_pairings};
 use brinell_contact::damped::{AnyDamped, Damped as _};
@@ -343,12 +343,12 @@ fn every_rough_kind(claim: &impl Claim) {
     for (name, choice) in pairings() {
         choose(choice);
         let (one, two) = (format!("{name}, friction"), format!("{name}, friction in two directions"));
-        claim.of::<Chosen<Rough, 1, Present>>(&format!("{one} with momentum"), &[]);
-        claim.of::<Chosen<Rough<false>, 1, Absent>>(&one, &[]);
-        claim.of::<Chosen<Held<Rough>, 1, Absent>>(&format!("{one}, held"), &ENDS_OF_ONE);
-        claim.of::<Chosen<RoughPlane, 1, Present>>(&format!("{two} with momentum"), &[]);
-        claim.of::<Chosen<RoughPlane<false>, 1, Absent>>(&two, &[]);
-        claim.of::<Chosen<Held<RoughPlane>, 1, Absent>>(&format!("{two}, held"), &ENDS_OF_TWO);
+        claim.of::<Chosen<Frictional, 1, Present>>(&format!("{one} with momentum"), &[]);
+        claim.of::<Chosen<Frictional<false>, 1, Absent>>(&one, &[]);
+        claim.of::<Chosen<Held<Frictional>, 1, Absent>>(&format!("{one}, held"), &ENDS_OF_ONE);
+        claim.of::<Chosen<FrictionalPlane, 1, Present>>(&format!("{two} with momentum"), &[]);
+        claim.of::<Chosen<FrictionalPlane<false>, 1, Absent>>(&two, &[]);
+        claim.of::<Chosen<Held<FrictionalPlane>, 1, Absent>>(&format!("{two}, held"), &ENDS_OF_TWO);
     }
 }
 

@@ -1,8 +1,8 @@
 //! A contact may begin at any gap, down to the smallest numbers: every step is made, ends in numbers and keeps the momentum.
 
 use crate::scenes::{
-    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Lossy, LossyMassive, Massive, Rated, Rough, RoughPlane,
-    choose, outputs, ready, words,
+    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Frictional, FrictionalPlane, Lossy, LossyMassive, Massive,
+    Rated, choose, outputs, ready, words,
 };
 use crate::{LOSSES, every_pairing, some_pairings};
 use brinell_contact::damped::AnyDamped;
@@ -82,8 +82,8 @@ fn an_elastoplastic_contact_begins_at_any_gap() {
     }
     for (name, choice) in some_pairings() {
         every_coupling!(Rated, format!("{name}, rated"), choice);
-        goes_on::<Chosen<Rough, 1, Present>>(&format!("{name}, friction"), choice);
-        goes_on::<Chosen<RoughPlane, 1, Present>>(&format!("{name}, friction in two directions"), choice);
+        goes_on::<Chosen<Frictional, 1, Present>>(&format!("{name}, friction"), choice);
+        goes_on::<Chosen<FrictionalPlane, 1, Present>>(&format!("{name}, friction in two directions"), choice);
     }
 }
 

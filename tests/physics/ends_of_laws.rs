@@ -93,7 +93,7 @@ fn a_prediction_is_of_numbers_or_there_is_none() {
 #[test]
 fn only_impacts_of_a_positive_finite_mass_and_speed_are_predicted() {
     let plastic = model("big-alabo", "contact-radius");
-    let lossy = losses::Model { plastic, loss: losses::Fitted { restitution: 0.9 } };
+    let lossy = losses::Model { plastic, loss: losses::RestitutionFitted { restitution: 0.9 } };
     let good = Impact { mass: MASS, speed: 1.0 };
     let bad = [0.0, -0.0, -1e-3, -1.0, -1e3, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -f64::NAN];
     let none = bad.into_iter().flat_map(|number| [Impact { mass: number, ..good }, Impact { speed: number, ..good }]);

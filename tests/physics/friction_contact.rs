@@ -3,21 +3,21 @@
 use crate::friction::assert_close;
 use crate::physics::{MASS, Random, mild};
 use brinell_contact::damped::{AnyDamped, Damped};
-use brinell_contact::path::Course;
-use brinell_contact::tangential::{Friction, Mean, Quantity, RoughContact, RoughModel, Sliding, Springs};
+use brinell_contact::path::RatePolynomial;
+use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel, Mean, Quantity, Sliding, Springs};
 use brinell_contact::{Contact, History, loading, losses, rate, unloading};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const STEP: f64 = 1e-6;
 
-type Model<L, U> = RoughModel<L, U>;
+type Model<L, U> = FrictionalModel<L, U>;
 type Elastic = Model<loading::Hertz, unloading::ContactRadius>;
 type Plastic = Model<loading::Brinell, unloading::Brinell>;
-type Rough = RoughContact<12>;
+type Frictional = FrictionalContact<12>;
 
 fn model<L, U>(loading: L, unloading: U) -> Model<L, U> {
     let surface = brinell_contact::Surface::Dented;
-    RoughModel {
+    FrictionalModel {
         normal: brinell_contact::Model { pair: mild(), loading, unloading, surface },
         friction: FRICTION,
         loss: (),
@@ -49,13 +49,13 @@ fn rates(seed: u64, length: usize) -> Vec<(f64, f64)> {
 #[test]
 fn held_rates_give_the_same_bits_as_springs_advanced_by_hand() {
     let model = plastic();
-    let mut contact = Rough::start(&model, 0.0).expect("within range");
+    let mut contact = Frictional::start(&model, 0.0).expect("within range");
     let mut normal = History::start(&model.normal, 0.0).expect("within range");
     let mut springs = Springs::<12>::start(&model, &normal);
     for (rate, slip) in rates(1, 60) {
         contact.set_tangential_rate(slip);
         let predicted = contact.predicted_tangential_force(&model, rate, STEP).expect("within range");
-        let kept = <Rough as Contact<Plastic>>::kept(&model);
+        let kept = <Frictional as Contact<Plastic>>::kept(&model);
         contact.step_held(rate, STEP, &kept, || model).expect("within range");
         springs
             .advance(&mut normal, &model, (rate * STEP, slip * STEP), (rate, slip), Mean::Skipped)
@@ -72,9 +72,9 @@ fn held_rates_give_the_same_bits_as_springs_advanced_by_hand() {
 #[test]
 fn a_contact_without_mean_force_has_the_same_forces_and_computes_no_mean() {
     let model = plastic();
-    let mut contact = Rough::start(&model, 0.0).expect("within range");
-    let mut other = RoughContact::<12, false>::start(&model, 0.0).expect("within range");
-    let kept = <Rough as Contact<Plastic>>::kept(&model);
+    let mut contact = Frictional::start(&model, 0.0).expect("within range");
+    let mut other = FrictionalContact::<12, false>::start(&model, 0.0).expect("within range");
+    let kept = <Frictional as Contact<Plastic>>::kept(&model);
     for (rate, slip) in rates(3, 100) {
         contact.set_tangential_rate(slip);
         other.set_tangential_rate(slip);
@@ -90,11 +90,11 @@ fn a_contact_without_mean_force_has_the_same_forces_and_computes_no_mean() {
 #[test]
 fn impulse_and_work_are_those_of_the_mean_force_and_friction_work_never_falls() {
     let model = elastic();
-    let mut contact = Rough::start(&model, 0.0).expect("within range");
+    let mut contact = Frictional::start(&model, 0.0).expect("within range");
     let (mut impulse, mut lost) = (0.0, 0.0_f64);
     for (rate, slip) in rates(2, 400) {
         contact.set_tangential_rate(slip);
-        Contact::step(&mut contact, &Course::held(rate), STEP, || model).expect("within range");
+        Contact::step(&mut contact, &RatePolynomial::held(rate), STEP, || model).expect("within range");
         impulse += contact.mean_tangential_force() * STEP;
         assert_close("impulse", contact.tangential_impulse(), impulse, 1e-4, 1e-12);
         let now = contact.friction_work(&model);
@@ -107,11 +107,11 @@ fn impulse_and_work_are_those_of_the_mean_force_and_friction_work_never_falls() 
 /// The tangential force after a course that reverses within the step, for this number of parts.
 fn behind_course(parts: u32) -> f64 {
     let model = elastic();
-    let mut contact = RoughContact::<512>::start(&model, -2e-6).expect("within range");
+    let mut contact = FrictionalContact::<512>::start(&model, -2e-6).expect("within range");
     contact.set_tangential_rate(0.1);
     let part = STEP / f64::from(parts);
     // in at 3 m/s, and out at 1 m/s
-    let mut course = Course { rate: 3.0, slope: -4.0 / STEP, bend: 0.0 };
+    let mut course = RatePolynomial { rate: 3.0, slope: -4.0 / STEP, bend: 0.0 };
     for _ in 0..parts {
         Contact::step(&mut contact, &course, part, || model).expect("within range");
         course = course.after(part);
@@ -134,10 +134,10 @@ fn a_course_is_followed_to_second_order_of_the_step() {
 #[test]
 fn a_rejected_step_leaves_the_contact_unchanged() {
     let model = plastic();
-    let mut contact = Rough::start(&model, -1e-6).expect("within range");
+    let mut contact = Frictional::start(&model, -1e-6).expect("within range");
     contact.set_tangential_rate(1.0);
     let before = contact;
-    Contact::step(&mut contact, &Course::held(1e200), 1.0, || model).expect_err("too deep");
+    Contact::step(&mut contact, &RatePolynomial::held(1e200), 1.0, || model).expect_err("too deep");
     assert_eq!(contact, before);
 }
 
@@ -145,10 +145,10 @@ fn a_rejected_step_leaves_the_contact_unchanged() {
 fn a_contact_without_friction_has_no_tangential_quantities_whatever_its_law() {
     fn check<M, C: Contact<M> + Copy>(name: &str, model: &M) {
         let mut contact = C::start(model, -1e-6).expect("within range");
-        let course = Course { rate: 1.0, slope: 2.0, bend: 3.0 };
+        let course = RatePolynomial { rate: 1.0, slope: 2.0, bend: 3.0 };
         for direction in [0, 1] {
             contact.set_tangential_course(direction, &course);
-            let none = Course::held(0.0);
+            let none = RatePolynomial::held(0.0);
             assert_eq!(
                 (contact.tangential_course(direction), contact.tangential_end(direction)),
                 (none, none),
@@ -172,7 +172,7 @@ fn a_contact_without_friction_has_no_tangential_quantities_whatever_its_law() {
         "rate",
         &rate::Model { slow, rate: rate::Rate::CowperSymonds { d: 40.4, q: 5.0 }, harder: rate::Rate::NONE },
     );
-    let loss = losses::Fitted { restitution: 0.9 };
+    let loss = losses::RestitutionFitted { restitution: 0.9 };
     check::<_, losses::History<_>>("losses", &losses::Model { plastic: slow, loss });
     for (name, law) in AnyDamped::ALL {
         check::<_, losses::History<_>>(name, &law.model(mild(), 0.6, MASS));

@@ -2,7 +2,7 @@
 
 use crate::friction;
 use crate::physics::{self, Random, is_passive, mild, some_models, unit};
-use brinell_contact::tangential::{Friction, Mean, Rough, RoughModel, SpringsOf};
+use brinell_contact::tangential::{Friction, Frictional, FrictionalModel, Mean, SpringsOf};
 use brinell_contact::{Contact, History};
 use brinell_contact::{loading::AnyLoading, unloading::AnyUnloading};
 use brinell_testing::laws;
@@ -14,7 +14,7 @@ const IN_TWO_DIRECTIONS: f64 = 3e-3;
 /// Segments of the springs of an FMU.
 const MEMORY: usize = 16;
 
-pub type Model = RoughModel<AnyLoading, AnyUnloading>;
+pub type Model = FrictionalModel<AnyLoading, AnyUnloading>;
 
 /// Pairs of laws that are passive in normal motion and support friction.
 pub fn models() -> Vec<(String, Model)> {
@@ -22,7 +22,7 @@ pub fn models() -> Vec<(String, Model)> {
         let unloading = name.rsplit(' ').next().expect("a law's name");
         is_passive(model) && laws::entry("unloading", unloading).get("no_friction").is_none()
     });
-    models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION, loss: () })).collect()
+    models.map(|(name, normal)| (name, FrictionalModel { normal, friction: FRICTION, loss: () })).collect()
 }
 
 /// The allowed error of friction for the pair of laws called `name`, relative to Coulomb's limit.
@@ -226,7 +226,7 @@ fn the_errors_of_the_laws_hold_over_many_histories() {
 /// The largest change of the friction work, and of its sum with the stored energy, over short steps after the steps of random
 /// histories, relative to what they were, beyond what such a step can do.
 fn changes_of_short_steps<const D: usize>(model: &Model, seed: u64, shortest: f64) -> [f64; 2] {
-    type Kind<const D: usize> = Rough<D, MEMORY, true>;
+    type Kind<const D: usize> = Frictional<D, MEMORY, true>;
     let mut contact = Kind::<D>::start(model, 0.0).expect("within range");
     let kept = <Kind<D> as Contact<Model>>::kept(model);
     let (mut random, mut largest) = (mixed(seed + 77), [0.0_f64; 2]);
@@ -284,7 +284,7 @@ fn a_step_too_short_to_matter_hardly_changes_the_energies() {
 
 #[test]
 fn before_yield_every_law_has_the_friction_of_hertz() {
-    let hertz = RoughModel { normal: physics::model("hertz", "contact-radius"), friction: FRICTION, loss: () };
+    let hertz = FrictionalModel { normal: physics::model("hertz", "contact-radius"), friction: FRICTION, loss: () };
     for (name, model) in models() {
         let yields_at = model.normal.yield_point().indentation;
         if !(yields_at > 0.0 && yields_at < f64::INFINITY) {

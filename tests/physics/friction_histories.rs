@@ -3,8 +3,8 @@
 
 use super::friction_growth::{Model, models};
 use crate::physics::{AnyModel, Random};
-use brinell_contact::path::Course;
-use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, Sliding};
+use brinell_contact::path::RatePolynomial;
+use brinell_contact::tangential::{Friction, FrictionalContact, PlaneContact, Sliding};
 use brinell_contact::{Contact, Pair};
 use std::f64::consts::PI;
 
@@ -36,7 +36,7 @@ fn worst(model: &Model, seed: u64) -> [f64; 4] {
         let rates = [angle.cos(), angle.sin()].map(|along| along * slip / STEP);
         let (before, work) = (contact, contact.friction_work(&model));
         contact.set_tangential_rates(rates);
-        contact.step(&Course::held(rise / STEP), STEP, || model).expect("within range");
+        contact.step(&RatePolynomial::held(rise / STEP), STEP, || model).expect("within range");
         let size = |[x, y]: [f64; 2]| x.hypot(y);
         let force = Contact::<Model>::force(&contact, 0.0);
         limit = limit.max(coefficient * force);
@@ -79,7 +79,7 @@ fn from_one_direction(model: &Model, seed: u64) -> [f64; 5] {
     let deepest = unit * 10f64.powf(2.5 * random.next());
     let angle = [0.0, 0.5 * PI, PI, 0.3, 2.0, 4.0, 5.5, 1e-9][seed as usize % 8];
     let mut plane = PlaneContact::<64>::start(&model, 0.0).expect("within range");
-    let mut line = RoughContact::<64>::start(&model, 0.0).expect("within range");
+    let mut line = FrictionalContact::<64>::start(&model, 0.0).expect("within range");
     let (mut found, mut limit, mut time, mut scale) = ([0.0_f64; 5], 0.0_f64, 0.0, 0.0_f64);
     for _ in 0..2 + (48.0 * random.next()) as usize {
         let here = Contact::<Model>::indentation(&plane);
@@ -89,7 +89,7 @@ fn from_one_direction(model: &Model, seed: u64) -> [f64; 5] {
         }
         let slip = any_size(&mut random, 10.0 * deepest, 10.0);
         let before = line;
-        let way = Course::held(rise / STEP);
+        let way = RatePolynomial::held(rise / STEP);
         plane.set_tangential_rates([angle.cos(), angle.sin()].map(|along| along * slip / STEP));
         plane.step(&way, STEP, || model).expect("within range");
         line.set_tangential_rate(slip / STEP);

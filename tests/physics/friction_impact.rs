@@ -5,7 +5,7 @@ use crate::friction::assert_close;
 use crate::physics::{self, mild, some_models};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::impact::{Ball, Rebound, in_steps, predict};
-use brinell_contact::tangential::{Friction, RoughModel, Sliding};
+use brinell_contact::tangential::{Friction, FrictionalModel, Sliding};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_testing::laws;
 
@@ -13,7 +13,7 @@ const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1
 const MASS: f64 = 4.11e-3;
 const RADIUS: f64 = 5e-3;
 
-type Model = RoughModel<AnyLoading, AnyUnloading>;
+type Model = FrictionalModel<AnyLoading, AnyUnloading>;
 
 /// All pairs of laws that support friction.
 fn models() -> Vec<(String, Model)> {
@@ -22,7 +22,7 @@ fn models() -> Vec<(String, Model)> {
         laws::entry("unloading", unloading).get("no_friction").is_none()
     };
     let models = some_models(mild()).into_iter().filter(supports);
-    models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION, loss: () })).collect()
+    models.map(|(name, normal)| (name, FrictionalModel { normal, friction: FRICTION, loss: () })).collect()
 }
 
 /// A solid ball with this speed [m/s], angle from the normal [degrees] and spin relative to the speed over the radius.
@@ -111,7 +111,7 @@ fn more_steps_change_the_rebound_by_less_than_the_error_of_the_law() {
 
 #[test]
 fn the_error_of_an_elastic_impact_falls_with_the_square_of_the_step() {
-    let model = RoughModel { normal: physics::model("hertz", "contact-radius"), friction: FRICTION, loss: () };
+    let model = FrictionalModel { normal: physics::model("hertz", "contact-radius"), friction: FRICTION, loss: () };
     for degrees in [3.0, 12.0, 35.0] {
         let before = ball(1.0, degrees, 0.0);
         let tangential = |steps| in_steps(&model, &before, steps, |_| {}).expect("within range").ball.tangential;

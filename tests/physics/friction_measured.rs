@@ -1,7 +1,7 @@
 //! Oblique impacts compared with measurements, finite elements and the limit of full sliding.
 
 use crate::friction::{Ball, Rebound, file, hertz};
-use brinell_contact::tangential::{Friction, Motion, Stuck};
+use brinell_contact::tangential::{Friction, Motion, PlayOperator};
 use brinell_contact::{Body, Pair, Segment};
 use std::f64::consts::PI;
 
@@ -14,7 +14,7 @@ fn step_of(ball: &Ball, modulus: f64) -> f64 {
 /// The impact of `ball` with an elastic contact.
 fn impact(ball: Ball, curve: &Segment, modulus: f64, friction: &Friction) -> Rebound {
     let step = step_of(&ball, modulus);
-    let mut stuck = Stuck::<1, 12>::APART;
+    let mut stuck = PlayOperator::<1, 12>::APART;
     let mut indentation = 0.0;
     ball.impact(step, |rise, shift| {
         stuck.advance(curve, &Motion::straight(indentation, indentation + rise, [friction.scale() * shift]));

@@ -2,12 +2,12 @@
 //! over ten decades.
 
 use crate::physics::{AnyModel, Random, is_passive, model, some_models, unit};
-use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel};
 use brinell_contact::{Body, Contact, Pair, loading::AnyLoading, unloading::AnyUnloading};
 use brinell_testing::laws;
 
-type Model = RoughModel<AnyLoading, AnyUnloading>;
-type Rough = RoughContact<12>;
+type Model = FrictionalModel<AnyLoading, AnyUnloading>;
+type Frictional = FrictionalContact<12>;
 
 const STEP: f64 = 1e-6;
 
@@ -18,9 +18,9 @@ fn bodies(is_rigid: bool) -> [Body; 2] {
     [ball, Body { radius: f64::INFINITY, ..steel }]
 }
 
-fn rough(normal: AnyModel, coefficient: f64, is_rigid: bool) -> Model {
+fn frictional(normal: AnyModel, coefficient: f64, is_rigid: bool) -> Model {
     let [ball, target] = bodies(is_rigid);
-    RoughModel { normal, friction: Friction::between(&ball, &target, normal.pair.modulus, coefficient), loss: () }
+    FrictionalModel { normal, friction: Friction::between(&ball, &target, normal.pair.modulus, coefficient), loss: () }
 }
 
 /// Every pairing of laws that has friction and makes no energy along the normal.
@@ -60,7 +60,7 @@ impl Broken {
 }
 
 struct Run {
-    contact: Rough,
+    contact: Frictional,
     model: Model,
     /// Largest energy so far [J]: stored, or `mu F` times a way.
     scale: f64,
@@ -70,7 +70,7 @@ struct Run {
 
 impl Run {
     fn new(model: Model) -> Run {
-        Run { contact: Rough::start(&model, 0.0).expect("within range"), model, scale: 0.0, work: 0.0 }
+        Run { contact: Frictional::start(&model, 0.0).expect("within range"), model, scale: 0.0, work: 0.0 }
     }
 
     /// One step with these rates [m/s]; `None` beyond the range of the law.
@@ -79,7 +79,7 @@ impl Run {
         let mu = model.friction.coefficient;
         let before = (contact.friction_work(model), contact.tangential_energy(model), contact.normal().force());
         contact.set_tangential_rate(slip);
-        let kept = <Rough as Contact<Model>>::kept(model);
+        let kept = <Frictional as Contact<Model>>::kept(model);
         contact.step_held(rate, step, &kept, || *model).ok()?;
         let (force, energy) = (contact.normal().force(), contact.tangential_energy(model));
         assert!(energy >= 0.0, "{energy:e}");
@@ -111,7 +111,7 @@ fn a_dent_that_grows_a_little_while_the_ball_slides_keeps_coulombs_bound() {
         (0.0005693733771485078, 8.155375791118345),
     ];
     for history in [three.as_slice(), &[(0.265, 0.0), (0.006, 4.0)]] {
-        let mut run = Run::new(rough(normal, 0.3, false));
+        let mut run = Run::new(frictional(normal, 0.3, false));
         for &step in history {
             let broken = run.step(step, STEP).expect("within range");
             broken.assert_bounds(&format!("{step:?}"));
@@ -131,7 +131,7 @@ fn worst_of(normal: &AnyModel, is_rigid: bool, seeds: std::ops::Range<u64>) -> B
         let coefficient = decades(-2.0, 1.0);
         let length = decades(2f64.log10(), 50f64.log10()) as usize;
         let top = size * decades(-1.0, 3.0);
-        let mut run = Run::new(rough(*normal, coefficient, is_rigid));
+        let mut run = Run::new(frictional(*normal, coefficient, is_rigid));
         let mut random = Random(seed + 1_000_000);
         for _ in 0..length {
             let mut rate = || {

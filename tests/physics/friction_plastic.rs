@@ -3,18 +3,18 @@
 use crate::friction::{Ball, Rebound, Row, assert_close, table};
 use crate::physics;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::tangential::{Friction, Mean, RoughModel, Springs};
+use brinell_contact::tangential::{Friction, FrictionalModel, Mean, Springs};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, History, Loading, Pair};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 
-type Model = RoughModel<AnyLoading, AnyUnloading>;
+type Model = FrictionalModel<AnyLoading, AnyUnloading>;
 
 /// The model of a case of the table, `loading/unloading`.
 fn model(case: &str) -> Model {
     let (loading, unloading) = case.split_once('/').expect("two laws");
-    RoughModel { normal: physics::model(loading, unloading), friction: FRICTION, loss: () }
+    FrictionalModel { normal: physics::model(loading, unloading), friction: FRICTION, loss: () }
 }
 
 /// A contact with its springs.
@@ -178,7 +178,7 @@ fn restitution_on_steel<const N: usize>(laws: (&str, &str), degrees: f64, steps:
     let block = Body { radius: f64::INFINITY, ..ball };
     let pair = Pair::new(&ball, &block, 300e6).expect("two bodies");
     let normal = brinell_contact::Model { pair, ..physics::model(laws.0, laws.1) };
-    let model = RoughModel { normal, friction: Friction::between(&ball, &block, pair.modulus, 0.4), loss: () };
+    let model = FrictionalModel { normal, friction: Friction::between(&ball, &block, pair.modulus, 0.4), loss: () };
     let mut contact = History::start(&model.normal, 0.0).expect("within range");
     let mut springs: Springs<N> = Springs::start(&model, &contact);
     let rebound = ball_at(degrees).impact(4e-5 / steps, |rise, slip| {

@@ -3,7 +3,7 @@
 use crate::friction::{assert_close, hertz};
 use crate::physics::Random;
 use brinell_contact::Segment;
-use brinell_contact::tangential::{Friction, Motion, Sliding, Stuck};
+use brinell_contact::tangential::{Friction, Motion, PlayOperator, Sliding};
 use std::f64::consts::PI;
 
 const MODULUS: f64 = 2e11;
@@ -39,13 +39,13 @@ fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
 /// A contact on Hertz's curve that goes from step to step.
 struct Run<const N: usize> {
     curve: Segment,
-    stuck: Stuck<1, N>,
+    stuck: PlayOperator<1, N>,
     indentation: f64,
 }
 
 impl<const N: usize> Run<N> {
     fn new(curve: Segment) -> Run<N> {
-        Run { curve, stuck: Stuck::APART, indentation: 0.0 }
+        Run { curve, stuck: PlayOperator::APART, indentation: 0.0 }
     }
 
     /// One step, divided into `parts`. Returns the mean force.

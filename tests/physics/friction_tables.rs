@@ -1,7 +1,7 @@
 //! The tangential force on elastic curves compared with tables from another program: histories, and impacts in steps.
 
 use crate::friction::{self, Ball, Rebound, assert_close, hertz, table};
-use brinell_contact::tangential::{Friction, Motion, Stuck};
+use brinell_contact::tangential::{Friction, Motion, PlayOperator};
 use brinell_contact::{Body, Pair, Segment};
 use std::f64::consts::PI;
 
@@ -16,13 +16,13 @@ const UNBOUNDED: usize = 512;
 fn histories_on_hertz_curve_have_the_forces_and_energies_of_the_table() {
     let curve = hertz(2e11, 5e-3);
     let kappa = RATIO / COEFFICIENT;
-    let mut stuck = Stuck::<1, UNBOUNDED>::APART;
+    let mut stuck = PlayOperator::<1, UNBOUNDED>::APART;
     let (mut case, mut indentation, mut energy) = (String::new(), 0.0, 0.0);
     let mut worst = 0.0_f64;
     for row in table("elastic") {
         if row.case != case {
             (case, indentation, energy) = (row.case.clone(), 0.0, 0.0);
-            stuck = Stuck::APART;
+            stuck = PlayOperator::APART;
         }
         let (rise, shift) = (row.get("d_delta"), kappa * row.get("d_s"));
         // the table begins at the touch
@@ -50,7 +50,7 @@ fn histories_on_hertz_curve_have_the_forces_and_energies_of_the_table() {
 
 /// The impact of `ball` with an elastic contact, in steps of `step` [s].
 fn impact<const N: usize>(ball: Ball, curve: &Segment, friction: &Friction, step: f64) -> Rebound {
-    let mut stuck = Stuck::<1, N>::APART;
+    let mut stuck = PlayOperator::<1, N>::APART;
     let mut indentation = 0.0;
     let kappa = friction.scale();
     ball.impact(step, |rise, shift| {

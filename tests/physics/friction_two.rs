@@ -5,7 +5,7 @@ mod springs;
 
 use crate::friction::{hertz, table};
 use crate::physics::Random;
-use brinell_contact::tangential::{Friction, Motion, Stuck};
+use brinell_contact::tangential::{Friction, Motion, PlayOperator};
 use histories::{MODULUS, RADIUS, Run, Step, any_sizes, circles, distance, length, like_the_table};
 use springs::Springs;
 
@@ -211,7 +211,7 @@ fn damaged_words_are_rejected() {
     run.step((1e-6, [1e-7, 2e-7]));
     let mut words = Vec::new();
     run.stuck.save(&mut |word| words.push(word));
-    let load = |words: &[u64]| Stuck::<2, 16>::load(&mut words.iter().copied(), &run.curve);
+    let load = |words: &[u64]| PlayOperator::<2, 16>::load(&mut words.iter().copied(), &run.curve);
     assert!(load(&words).is_some());
     assert!(load(&words[1..]).is_none(), "a word is missing");
     for (place, word) in [(0, f64::NAN.to_bits()), (5, 17), (7, f64::INFINITY.to_bits())] {
@@ -230,11 +230,11 @@ fn forged_springs_end_their_steps() {
             let size = 10f64.powf(40.0 * random.next() - 30.0);
             if random.next() < 0.5 { size } else { -size }
         };
-        let mut words: Vec<u64> = (0..Stuck::<2, 16>::WORDS).map(|_| any().to_bits()).collect();
+        let mut words: Vec<u64> = (0..PlayOperator::<2, 16>::WORDS).map(|_| any().to_bits()).collect();
         words[5] = (any().abs().to_bits() >> 7) % 17;
         let mut run = Run::<16>::new();
         run.indentation = 1e-5;
-        run.stuck = Stuck::load(&mut words.into_iter(), &run.curve).expect("finite numbers");
+        run.stuck = PlayOperator::load(&mut words.into_iter(), &run.curve).expect("finite numbers");
         for step in any_sizes(5, 6) {
             run.divided(step, 2, |run| assert!(run.stuck.segments() <= 16));
         }

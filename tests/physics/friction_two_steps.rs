@@ -4,13 +4,13 @@
 use super::friction_growth::{Model, history, models};
 use crate::physics::Random;
 use brinell_contact::Contact;
-use brinell_contact::path::Course;
-use brinell_contact::tangential::{PlaneContact, Quantity, RoughContact, Sliding};
+use brinell_contact::path::RatePolynomial;
+use brinell_contact::tangential::{FrictionalContact, PlaneContact, Quantity, Sliding};
 use std::f64::consts::PI;
 
 /// Long enough that no list is ever full.
 type Plane = PlaneContact<64>;
-type Line = RoughContact<64>;
+type Line = FrictionalContact<64>;
 
 /// One step of 1 s over a distance along the normal and one in the plane [m], in equal `parts`.
 fn go(contact: &mut Plane, model: &Model, (rise, slip): (f64, [f64; 2]), parts: u32) {
@@ -149,8 +149,8 @@ fn derivatives_of_the_force_have_the_sign_of_its_change_while_the_motion_turns()
                 let after = turn * f64::from(step + 1);
                 let (rise, slip) =
                     (swing * turn * after.cos(), [-radius * turn * after.sin(), radius * turn * after.cos()]);
-                let normal = Course::held(rise);
-                let tangential = slip.map(Course::held);
+                let normal = RatePolynomial::held(rise);
+                let tangential = slip.map(RatePolynomial::held);
                 go(&mut next, &model, (rise, slip), 1);
                 let limit = 0.3 * contact.normal().force() * radius * turn / size;
                 for direction in 0..2 {
@@ -205,9 +205,9 @@ fn a_force_is_extrapolated_better_with_its_second_derivative_than_without() {
                     next = rates(step);
                     let (rise, [slip, other]) = next;
                     let turn = if kind == "accelerated" { turn } else { 0.0 };
-                    let normal = Course { rate: rise, slope: -turn * turn * rise, bend: 0.0 };
+                    let normal = RatePolynomial { rate: rise, slope: -turn * turn * rise, bend: 0.0 };
                     let tangential = [(slip, -other * turn), (other, slip * turn)];
-                    let tangential = tangential.map(|(rate, slope)| Course { rate, slope, bend: 0.0 });
+                    let tangential = tangential.map(|(rate, slope)| RatePolynomial { rate, slope, bend: 0.0 });
                     let speed = rise.abs() + model.friction.scale() * slip.hypot(other);
                     let time = 1e-2 * contact.normal().indentation() / speed;
                     let limit = 0.3 * contact.normal().force();
@@ -215,7 +215,7 @@ fn a_force_is_extrapolated_better_with_its_second_derivative_than_without() {
                     for part in 0..16 {
                         let middle = (f64::from(part) + 0.5) / 16.0 * time;
                         moved.set_tangential_rates(tangential.map(|course| course.rate + middle * course.slope));
-                        let way = Course::held(normal.rate + middle * normal.slope);
+                        let way = RatePolynomial::held(normal.rate + middle * normal.slope);
                         moved.step(&way, time / 16.0, || model).expect("within range");
                     }
                     for direction in 0..2 {

@@ -2,7 +2,7 @@
 
 use crate::physics::{Random, mild, model, unit};
 use brinell_contact::momentum::impulse;
-use brinell_contact::path::Course;
+use brinell_contact::path::RatePolynomial;
 use brinell_contact::{Contact, History, Loading, Model, Surface, Unloading, loading, unloading};
 use brinell_fmu::instance::Instance;
 use brinell_fmu::scene::Real;
@@ -35,19 +35,24 @@ trait Claim {
 }
 
 /// A course of any size, which turns in half of the cases.
-fn any_course(random: &mut Random) -> Course {
+fn any_course(random: &mut Random) -> RatePolynomial {
     let d_y = unit(&mild()).indentation;
     let mut size = || (random.next() - 0.45) * 10f64.powf(3.0 * random.next() - 0.5) * d_y;
-    Course { rate: size(), slope: 4.0 * size(), bend: 12.0 * size() }
+    RatePolynomial { rate: size(), slope: 4.0 * size(), bend: 12.0 * size() }
 }
 
 /// The part of a course from `time` on.
-fn part_of(course: &Course, time: f64) -> Course {
-    Course { rate: course.rate_after(time), slope: course.slope + course.bend * time, bend: course.bend }
+fn part_of(course: &RatePolynomial, time: f64) -> RatePolynomial {
+    RatePolynomial { rate: course.rate_after(time), slope: course.slope + course.bend * time, bend: course.bend }
 }
 
 /// A step along `course` by `contact`, and its mean force.
-fn stepped<L: Loading, U: Unloading>(contact: &mut History, model: &Model<L, U>, course: &Course, step: f64) -> f64 {
+fn stepped<L: Loading, U: Unloading>(
+    contact: &mut History,
+    model: &Model<L, U>,
+    course: &RatePolynomial,
+    step: f64,
+) -> f64 {
     contact.step_with_mean_force(course, step, || model).expect("within range").1
 }
 
@@ -57,7 +62,7 @@ fn a_course_that_keeps_its_direction_has_one_motion() {
     let mut kept = 0;
     for _ in 0..20_000 {
         let mut number = || (random.next() - 0.5) * 10f64.powf(4.0 * random.next() - 2.0);
-        let (course, step) = (Course { rate: number(), slope: number(), bend: number() }, number().abs());
+        let (course, step) = (RatePolynomial { rate: number(), slope: number(), bend: number() }, number().abs());
         let [first, second, third] = course.motions(step);
         assert!(((first + second + third) - course.way(step)).abs() <= 1e-13 * (first.abs() + course.way(step).abs()));
         let rates = (0..=64).map(|place| course.rate_after(f64::from(place) / 64.0 * step));
@@ -80,7 +85,7 @@ fn the_impulse_of_a_power_is_exact() {
     let (loading, unloading) = (loading::Hertz, unloading::OriginalRadius);
     let model = Model { pair: mild(), loading, unloading, surface: Surface::Dented };
     let d_y = unit(&mild()).indentation;
-    let check = |depth: f64, course: Course, mean: f64, what: &str| {
+    let check = |depth: f64, course: RatePolynomial, mean: f64, what: &str| {
         let history = History::start(&model, -depth).unwrap();
         let found = impulse(&history, &model, &course, 1.0).unwrap();
         let mean = model.pair.hertz_stiffness() * mean;
@@ -88,18 +93,18 @@ fn the_impulse_of_a_power_is_exact() {
     };
     for size in [1e-12, 1e-6, 1e-3, 1.0, 30.0].map(|size| size * d_y) {
         let power = size.powf(1.5);
-        check(0.0, Course { rate: size, slope: 0.0, bend: 1e-300 }, power / 2.5, "t");
-        check(0.0, Course { rate: 0.0, slope: 2.0 * size, bend: 0.0 }, power / 4.0, "t^2");
-        check(0.0, Course { rate: 0.0, slope: 0.0, bend: 6.0 * size }, power / 5.5, "t^3");
-        check(size, Course { rate: -2.0 * size, slope: 2.0 * size, bend: 0.0 }, power / 4.0, "(1 - t)^2");
+        check(0.0, RatePolynomial { rate: size, slope: 0.0, bend: 1e-300 }, power / 2.5, "t");
+        check(0.0, RatePolynomial { rate: 0.0, slope: 2.0 * size, bend: 0.0 }, power / 4.0, "t^2");
+        check(0.0, RatePolynomial { rate: 0.0, slope: 0.0, bend: 6.0 * size }, power / 5.5, "t^3");
+        check(size, RatePolynomial { rate: -2.0 * size, slope: 2.0 * size, bend: 0.0 }, power / 4.0, "(1 - t)^2");
         for part in [-1.0, -1.0 + 1e-9, -0.9, -0.3, -1e-3, -1e-9, 1e-9, 1e-3, 0.3, 3.0, 1e3, 1e9] {
             // without cancellation
             let mean = |power: f64| f64::exp_m1((power + 1.0) * f64::ln_1p(part)) / ((power + 1.0) * part);
             let what = format!("{size:e} m, {part}");
             let (one, two) = (part * size, part * part * size);
-            let square = Course { rate: 2.0 * one, slope: 2.0 * two, bend: 0.0 };
+            let square = RatePolynomial { rate: 2.0 * one, slope: 2.0 * two, bend: 0.0 };
             check(size, square, power * mean(3.0), &format!("square, {what}"));
-            let cube = Course { rate: 3.0 * one, slope: 6.0 * two, bend: 6.0 * two * part };
+            let cube = RatePolynomial { rate: 3.0 * one, slope: 6.0 * two, bend: 6.0 * two * part };
             check(size, cube, power * mean(4.5), &format!("cube, {what}"));
         }
     }

@@ -4,7 +4,7 @@
 use crate::finite_elements;
 use crate::physics::{AnyModel, advance, loading_force, logarithmic, pressed, unloading_force};
 use brinell_contact::loading::{AnyLoading, Line, line::ROLLER};
-use brinell_contact::motion::{Drive, follow};
+use brinell_contact::motion::{ExternalLoad, follow};
 use brinell_contact::unloading::{self, AnyUnloading};
 use brinell_contact::{Body, Contact, History, Loading, Model, OtherBody, Pair, Surface, TwoBodies};
 use std::f64::consts::PI;
@@ -356,7 +356,7 @@ fn a_roller_at_rest_bears_its_weight_and_turns_where_a_fine_integration_turns() 
     let model = steel(2.0);
     let (mass, gravity) = (0.5, 9.81);
     let mut history = pressed_of(&model, 0.0);
-    let drive = Drive { mass, acceleration: gravity };
+    let drive = ExternalLoad { mass, acceleration: gravity };
     let mut speed = 0.0;
     let mut fine = (0.0, 0.0);
     // a Runge-Kutta method on the elastic law

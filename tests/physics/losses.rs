@@ -3,8 +3,10 @@
 
 use crate::physics::{AnyModel, MASS, logarithmic, mild, model, some_models, unit};
 use brinell_contact::impact::{Impact, Prediction};
-use brinell_contact::losses::{AnyLoss, Fitted, Form, History, Loss, Model, Plate, Solid, Waves, follow, impact};
-use brinell_contact::motion::Drive;
+use brinell_contact::losses::{
+    AnyLoss, Form, HalfSpaceRadiation, History, Loss, Model, Plate, RestitutionFitted, Solid, follow, impact,
+};
+use brinell_contact::motion::ExternalLoad;
 use brinell_contact::quadrature::graded_integral;
 use brinell_contact::{Contact, Loading, Surface};
 
@@ -23,8 +25,8 @@ type Lossy = Model<brinell_contact::loading::AnyLoading, brinell_contact::unload
 
 fn losses() -> [AnyLoss; 3] {
     [
-        AnyLoss::Fitted(Fitted { restitution: 0.98 }),
-        AnyLoss::Waves(Waves { target: steel() }),
+        AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.98 }),
+        AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target: steel() }),
         AnyLoss::Plate(Plate { target: steel(), thickness: 0.01 }),
     ]
 }
@@ -56,7 +58,8 @@ impl Random {
 fn an_elastic_impact_has_the_fitted_restitution_at_any_speed() {
     for restitution in [0.01, 0.1, 0.5, 0.9, 0.98, 0.999, 1.0] {
         for speed in [1e-4, 1e-2, 1.0, 50.0] {
-            let lossy = with(&model("hertz", "contact-radius"), AnyLoss::Fitted(Fitted { restitution }));
+            let lossy =
+                with(&model("hertz", "contact-radius"), AnyLoss::RestitutionFitted(RestitutionFitted { restitution }));
             assert_close(&format!("{restitution} at {speed}"), hit(&lossy, speed).restitution, restitution, 1e-8);
         }
     }
@@ -70,9 +73,9 @@ fn a_fresh_surface_answers_its_first_impact_as_one_that_keeps_dents() {
             let [dented, fresh] = [Surface::Dented, Surface::Fresh].map(|surface| {
                 let lossy = with(&AnyModel { surface, ..plastic }, loss);
                 let mut contact = History::start(&lossy, 1e-6).unwrap();
-                let drive = Drive { mass: MASS, acceleration: 0.0 };
+                let load = ExternalLoad { mass: MASS, acceleration: 0.0 };
                 // over the whole impact
-                let outcome = follow(&mut contact, &lossy, &drive, speed, 1e-6 / speed + 1e-3).unwrap();
+                let outcome = follow(&mut contact, &lossy, &load, speed, 1e-6 / speed + 1e-3).unwrap();
                 (hit(&lossy, speed), outcome.deepest)
             });
             assert!(fresh == dented, "{name} {loss:?} at {speed}: {fresh:?}\nfor {dented:?}");
@@ -98,11 +101,11 @@ fn lost_in_hertz(speed: f64, power: impl Fn(f64, f64, f64) -> f64) -> f64 {
 
 #[test]
 fn waves_and_plate_take_the_energy_of_their_theories_from_an_elastic_impact() {
-    let waves = Waves { target: steel() };
+    let waves = HalfSpaceRadiation { target: steel() };
     let kappa = waves.factor();
     for speed in [1e-4, 1e-2, 1.0] {
         let energy = 0.5 * MASS * speed * speed;
-        let lossy = with(&model("hertz", "contact-radius"), AnyLoss::Waves(waves));
+        let lossy = with(&model("hertz", "contact-radius"), AnyLoss::HalfSpaceRadiation(waves));
         let lost = lost_in_hertz(speed, |_, stiffness, v| kappa * (stiffness * v) * (stiffness * v)) / energy;
         // the theory is the first order of the loss
         let found = 1.0 - hit(&lossy, speed).restitution.powi(2);
@@ -124,7 +127,12 @@ fn the_radiation_of_a_half_space_is_that_of_lambs_problem() {
     {
         let pair = brinell_contact::Pair { poissons_ratio, youngs_modulus: 2.0 * (1.0 + poissons_ratio), ..mild() };
         // shear modulus and density of one
-        assert_close(&format!("nu = {poissons_ratio}"), Waves { target: solid(&pair, 1.0) }.factor(), number, 3e-3);
+        assert_close(
+            &format!("nu = {poissons_ratio}"),
+            HalfSpaceRadiation { target: solid(&pair, 1.0) }.factor(),
+            number,
+            3e-3,
+        );
     }
 }
 
@@ -136,7 +144,7 @@ fn a_steel_ball_on_a_steel_block_loses_what_hunter_and_reed_say() {
     let flat = brinell_contact::Body { radius: f64::INFINITY, ..body };
     let pair = brinell_contact::Pair::new(&body, &flat, f64::INFINITY).unwrap();
     let plastic = AnyModel { pair, ..model("hertz", "contact-radius") };
-    let lossy = with(&plastic, AnyLoss::Waves(Waves { target: solid(&pair, DENSITY) }));
+    let lossy = with(&plastic, AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target: solid(&pair, DENSITY) }));
     let mass = DENSITY * 4.0 / 3.0 * std::f64::consts::PI * 5e-3f64.powi(3);
     for speed in [1e-3, 1e-2, 0.1] {
         let found = impact::predict(&lossy, &Impact { mass, speed }).unwrap();
@@ -283,13 +291,14 @@ fn a_ball_is_followed_until_it_does_not_move_at_all() {
     {
         for restitution in [0.3, 0.5, 0.8, 0.9] {
             for (step, height) in [(1e-4, 1e-5), (1e-3, 1e-5), (1e-3, 0.01), (1e-2, 0.01)] {
-                let lossy = with(&model(loading, unloading), AnyLoss::Fitted(Fitted { restitution }));
+                let lossy =
+                    with(&model(loading, unloading), AnyLoss::RestitutionFitted(RestitutionFitted { restitution }));
                 let what = format!("{loading}, {restitution} from {height} m in steps of {step} s");
                 let mut contact = History::start(&lossy, height).unwrap();
-                let drive = Drive { mass: MASS, acceleration: 9.81 };
+                let load = ExternalLoad { mass: MASS, acceleration: 9.81 };
                 let (mut speed, mut time) = (0.0, 0.0);
                 while speed != 0.0 || contact.force(0.0) == 0.0 {
-                    let outcome = follow(&mut contact, &lossy, &drive, speed, step);
+                    let outcome = follow(&mut contact, &lossy, &load, speed, step);
                     speed = outcome.unwrap_or_else(|reason| panic!("{what}, after {time} s: {reason:?}")).speed;
                     time += step;
                     assert!(time < 3.0, "{what}: still {speed:e} m/s");

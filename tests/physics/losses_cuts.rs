@@ -2,8 +2,10 @@
 
 use crate::physics::{AnyModel, Random, all_models, pair_of};
 use brinell_contact::impact::{Impact, predict};
-use brinell_contact::losses::{AnyLoss, Fitted, History, Model, Plate, Solid, Waves, follow, impact};
-use brinell_contact::motion::Drive;
+use brinell_contact::losses::{
+    AnyLoss, HalfSpaceRadiation, History, Model, Plate, RestitutionFitted, Solid, follow, impact,
+};
+use brinell_contact::motion::ExternalLoad;
 use brinell_contact::{Contact, Loading, Surface};
 
 type Lossy = Model<brinell_contact::loading::AnyLoading, brinell_contact::unloading::AnyUnloading, AnyLoss>;
@@ -13,7 +15,7 @@ type Lossy = Model<brinell_contact::loading::AnyLoading, brinell_contact::unload
 struct Case {
     name: String,
     model: Lossy,
-    drive: Drive,
+    load: ExternalLoad,
     gap: f64,
     speed: f64,
     time: f64,
@@ -38,8 +40,10 @@ fn draw_loss(random: &mut Random, plastic: &AnyModel, kind: usize, impact: &Impa
     let density = pair.youngs_modulus / (wave_speed * wave_speed);
     let target = Solid { density, youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio };
     match kind {
-        0 => AnyLoss::Fitted(Fitted { restitution: [0.3, 0.7, 0.9, 0.98][(random.next() * 4.0) as usize] }),
-        1 => AnyLoss::Waves(Waves { target }),
+        0 => AnyLoss::RestitutionFitted(RestitutionFitted {
+            restitution: [0.3, 0.7, 0.9, 0.98][(random.next() * 4.0) as usize],
+        }),
+        1 => AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target }),
         _ => {
             let depth = predict(plastic, impact).map_or(pair.radius, |found| found.max_indentation);
             let thickness = (depth * pair.radius).sqrt() * random.log_uniform(0.5, 30.0);
@@ -68,22 +72,22 @@ fn draw(random: &mut Random, (name, model): &(String, AnyModel), kind: usize) ->
     let gap = if random.next() < 0.5 { 0.0 } else { -prediction.max_indentation * (random.next() - 0.5) };
     let loss = draw_loss(random, &plastic, kind, &impact);
     let model = Lossy { plastic, loss };
-    Some(Case { name: name.clone(), model, drive: Drive { mass, acceleration }, gap, speed, time })
+    Some(Case { name: name.clone(), model, load: ExternalLoad { mass, acceleration }, gap, speed, time })
 }
 
 /// The state after `parts` steps; `None` beyond the range of the law.
 fn run(case: &Case, parts: u32) -> Option<State> {
-    let Case { model, drive, .. } = case;
+    let Case { model, load, .. } = case;
     let mut history = History::start(model, case.gap).ok()?;
     let mut speed = case.speed;
     for _ in 0..parts {
-        let outcome = follow(&mut history, model, drive, speed, case.time / f64::from(parts)).ok()?;
+        let outcome = follow(&mut history, model, load, speed, case.time / f64::from(parts)).ok()?;
         speed = outcome.speed;
     }
-    let kinetic = 0.5 * drive.mass * speed * speed;
+    let kinetic = 0.5 * load.mass * speed * speed;
     let dissipated = history.dissipated_energy(model);
     let elastic = history.elastic_energy(model);
-    let energy = (0.5 * drive.mass * case.speed * case.speed).max(kinetic + dissipated + elastic);
+    let energy = (0.5 * load.mass * case.speed * case.speed).max(kinetic + dissipated + elastic);
     Some(State { kinetic, dissipated, elastic, indentation: history.plastic().indentation(), energy })
 }
 
@@ -115,9 +119,9 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies_and_wherever_the_for
                 }
                 // nothing is lost between the accounts
                 let start = History::start(&case.model, case.gap).unwrap();
-                let given = 0.5 * case.drive.mass * case.speed * case.speed + start.elastic_energy(&case.model);
+                let given = 0.5 * case.load.mass * case.speed * case.speed + start.elastic_energy(&case.model);
                 let closer = whole.indentation + case.gap;
-                let balance = given + case.drive.mass * case.drive.acceleration * closer
+                let balance = given + case.load.mass * case.load.acceleration * closer
                     - (whole.kinetic + whole.elastic + whole.dissipated - start.dissipated_energy(&case.model));
                 // a plate moves, too
                 assert!(
@@ -140,17 +144,17 @@ fn the_contact_time_of_a_prediction_is_that_of_the_force() {
     for model in all_models(crate::physics::mild()) {
         for kind in 0..3 {
             let Some(case) = draw(&mut random, &model, kind) else { continue };
-            let found = impact::predict(&case.model, &Impact { mass: case.drive.mass, speed: case.speed });
+            let found = impact::predict(&case.model, &Impact { mass: case.load.mass, speed: case.speed });
             let Some(found) = found else { continue };
             // in a target that gives way easily the force fades out
             let (expected, least) = (found.contact_time(), 1e-12 * found.max_force);
             let mut history = History::start(&case.model, 0.0).expect("a touch");
-            let (drive, mut speed) = (Drive { acceleration: 0.0, ..case.drive }, case.speed);
+            let (load, mut speed) = (ExternalLoad { acceleration: 0.0, ..case.load }, case.speed);
             // to a quarter beyond, so that a force that lasts longer is seen
             let step = expected / f64::from(STEPS);
             let mut last = 0;
             for number in 1..=STEPS + STEPS / 4 {
-                speed = follow(&mut history, &case.model, &drive, speed, step).expect("within range").speed;
+                speed = follow(&mut history, &case.model, &load, speed, step).expect("within range").speed;
                 last = if history.force(speed) > least { number } else { last };
             }
             assert!(STEPS.abs_diff(last) <= 1, "{case:?}: the force ends after {last} of {STEPS} steps");
@@ -170,10 +174,10 @@ fn bodies_that_leave_a_surface_that_lags_behind_them_may_come_back_within_the_sa
             let speed = -(yields.force * yields.indentation / mass).sqrt() / slowness;
             // up to three yield indentations, down again, and a tenth of that longer
             let acceleration = speed * speed / (6.0 * yields.indentation);
-            let model = Lossy { plastic, loss: AnyLoss::Fitted(Fitted { restitution }) };
-            let drive = Drive { mass, acceleration };
+            let model = Lossy { plastic, loss: AnyLoss::RestitutionFitted(RestitutionFitted { restitution }) };
+            let load = ExternalLoad { mass, acceleration };
             let time = -2.2 * speed / acceleration;
-            let case = Case { name: name.clone(), model, drive, gap: -depth, speed, time };
+            let case = Case { name: name.clone(), model, load, gap: -depth, speed, time };
             let [whole, parts] =
                 [1, 100].map(|parts| run(&case, parts).unwrap_or_else(|| panic!("{case:?} fails in {parts} steps")));
             let off = difference(&whole, &parts);
@@ -198,10 +202,10 @@ fn bodies_that_are_pulled_back_hard_feel_the_whole_law_on_their_way() {
         let (speed, depth) = (1.0, 2000.0 * yields.indentation);
         let acceleration = -speed * speed / (2.0 * depth);
         let mass = 1e11 * yields.force / -acceleration;
-        let loss = AnyLoss::Fitted(Fitted { restitution: 0.8 });
-        let (model, drive) = (Lossy { plastic, loss }, Drive { mass, acceleration });
+        let loss = AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.8 });
+        let (model, load) = (Lossy { plastic, loss }, ExternalLoad { mass, acceleration });
         let time = -2.5 * speed / acceleration;
-        let case = Case { name: name.clone(), model, drive, gap: 0.0, speed, time };
+        let case = Case { name: name.clone(), model, load, gap: 0.0, speed, time };
         let [whole, parts] =
             [1, 100].map(|parts| run(&case, parts).unwrap_or_else(|| panic!("{case:?} fails in {parts} steps")));
         let off = (whole.dissipated - parts.dissipated).abs() / parts.dissipated;
@@ -219,9 +223,9 @@ fn a_flight_after_the_contact_is_no_heat_however_fast_it_gets() {
         // the contact takes a small part of the energy, and the flight gives a billion times as much
         let acceleration = -speed * speed / (40.0 * yields.indentation);
         for restitution in [0.3, 0.9] {
-            let loss = AnyLoss::Fitted(Fitted { restitution });
-            let (model, drive) = (Lossy { plastic, loss }, Drive { mass, acceleration });
-            let case = |time: f64| Case { name: name.clone(), model, drive, gap: 0.0, speed, time };
+            let loss = AnyLoss::RestitutionFitted(RestitutionFitted { restitution });
+            let (model, load) = (Lossy { plastic, loss }, ExternalLoad { mass, acceleration });
+            let case = |time: f64| Case { name: name.clone(), model, load, gap: 0.0, speed, time };
             let short = run(&case(-3.0 * speed / acceleration), 1).expect("within range");
             let long = run(&case(-1e6 * speed / acceleration), 1).expect("within range");
             assert!(long.kinetic > 1e9 * short.kinetic && short.dissipated != 0.0, "{name}: {short:?}, {long:?}");
@@ -252,17 +256,17 @@ fn bodies_come_to_rest_in_steps_of_few_evaluations_wherever_they_rest() {
             let swing = (yields.indentation * rest / acceleration).sqrt();
             let speed = acceleration * swing * random.log_uniform(0.1, 3.0);
             for dent in dent {
-                let model = Lossy { plastic, loss: AnyLoss::Fitted(Fitted { restitution }) };
+                let model = Lossy { plastic, loss: AnyLoss::RestitutionFitted(RestitutionFitted { restitution }) };
                 let depth = dent * yields.indentation;
                 let mut history = History::start(&model, -depth).expect("within range");
                 // up to the surface of the dent
                 let bottom = history.plastic().residual_indentation(&plastic);
                 history.advance(&model, -1.0, depth - bottom).expect("within range");
-                let drive = Drive { mass, acceleration };
+                let load = ExternalLoad { mass, acceleration };
                 let (mut speed, mut steps) = (speed, 0);
                 while steps == 0 || speed != 0.0 && steps < 30 {
                     let what = format!("{name}, e = {restitution}, dent {dent}, rest {rest}, step {steps}");
-                    let outcome = follow(&mut history, &model, &drive, speed, 20.0 * swing);
+                    let outcome = follow(&mut history, &model, &load, speed, 20.0 * swing);
                     let outcome = outcome.unwrap_or_else(|reason| panic!("{what}: {reason:?}"));
                     most = most.max(outcome.evaluations);
                     assert!(outcome.evaluations < 100_000, "{what}: {} evaluations", outcome.evaluations);

@@ -2,11 +2,11 @@
 
 use crate::physics::{AnyModel, Random, mild, model, some_models, unit};
 use brinell_contact::momentum::impulse;
-use brinell_contact::path::Course;
+use brinell_contact::path::RatePolynomial;
 use brinell_contact::{History, Surface};
 
 /// The impulse from many small steps, each with Simpson's rule, and the final contact.
-fn slowly(history: &History, model: &AnyModel, course: &Course, step: f64, parts: u32) -> (f64, History) {
+fn slowly(history: &History, model: &AnyModel, course: &RatePolynomial, step: f64, parts: u32) -> (f64, History) {
     let mut contact = *history;
     let origin = history.indentation();
     let part = step / f64::from(parts);
@@ -39,9 +39,9 @@ fn the_impulse_is_the_integral_of_the_force_for_every_law_and_course() {
                 let mut size = || (random.next() - 0.45) * 10f64.powf(3.0 * random.next()) * d_y;
                 let (rate, slope, bend) = (size() / step, size() / step / step, size() / step / step / step);
                 let course = match case % 3 {
-                    0 => Course::held(rate),
-                    1 => Course { rate, slope, bend: 0.0 },
-                    _ => Course { rate, slope, bend },
+                    0 => RatePolynomial::held(rate),
+                    1 => RatePolynomial { rate, slope, bend: 0.0 },
+                    _ => RatePolynomial { rate, slope, bend },
                 };
                 let exact = impulse(&history, &model, &course, step).unwrap();
                 let (sum, end) = slowly(&history, &model, &course, step, 4000);
@@ -60,7 +60,7 @@ fn with_the_rate_held_the_impulse_times_the_rate_is_the_work() {
     for (from, to) in [(0.0, 0.7), (0.0, 3.0), (0.3, 50.0), (20.0, 300.0), (1.0, 1.0 + 1e-9), (50.0, 50.0 + 1e-12)] {
         let history = History::start(&model, -from * d_y).unwrap();
         let way = (to - from) * d_y;
-        let exact = impulse(&history, &model, &Course::held(way / 1e-5), 1e-5).unwrap();
+        let exact = impulse(&history, &model, &RatePolynomial::held(way / 1e-5), 1e-5).unwrap();
         let mut after = history;
         after.advance(&model, way).unwrap();
         let work = after.work(&model) - history.work(&model);
@@ -73,7 +73,7 @@ fn with_the_rate_held_the_impulse_times_the_rate_is_the_work() {
 
 #[test]
 fn the_monotone_parts_of_a_course_end_where_the_rate_changes_its_sign() {
-    let ends = |rate, slope, bend| Course { rate, slope, bend }.monotone_ends(1.0);
+    let ends = |rate, slope, bend| RatePolynomial { rate, slope, bend }.monotone_ends(1.0);
     assert_eq!(ends(1.0, 0.0, 0.0), [1.0; 3]);
     assert_eq!(ends(1.0, -2.0, 0.0), [0.5, 1.0, 1.0]);
     assert_eq!(ends(1.0, -0.5, 0.0), [1.0; 3], "the zero is behind the step");

@@ -2,11 +2,11 @@
 
 use crate::physics::{AnyModel, MASS, all_models, mild, model};
 use brinell_contact::impact::{Impact, predict};
-use brinell_contact::motion::{Drive, NoMotion, Outcome, follow};
+use brinell_contact::motion::{ExternalLoad, NoMotion, Outcome, follow};
 use brinell_contact::{History, Loading, Surface};
 
 fn go(history: &mut History, model: &AnyModel, acceleration: f64, speed: f64, step: f64) -> Outcome {
-    follow(history, model, &Drive { mass: MASS, acceleration }, speed, step).expect("within range")
+    follow(history, model, &ExternalLoad { mass: MASS, acceleration }, speed, step).expect("within range")
 }
 
 fn assert_close(what: &str, value: f64, expected: f64, tolerance: f64) {
@@ -78,8 +78,8 @@ fn bounces_that_lose_nothing_are_followed_for_as_long_as_their_phase_is_known() 
     let acceleration = 1e5;
     let fall = |step: f64| {
         let mut history = History::start(&model, 1e-9).unwrap();
-        let drive = Drive { mass: MASS, acceleration };
-        (follow(&mut history, &model, &drive, 0.0, step), history)
+        let load = ExternalLoad { mass: MASS, acceleration };
+        (follow(&mut history, &model, &load, 0.0, step), history)
     };
     // about 1e9 bounces
     let (followed, history) = fall(1e4);
@@ -87,7 +87,7 @@ fn bounces_that_lose_nothing_are_followed_for_as_long_as_their_phase_is_known() 
     assert!(outcome.evaluations < 2000, "{outcome:?}");
     let off = energy(&history, &model, acceleration, outcome.speed) - MASS * acceleration * 1e-9;
     assert!(off.abs() < 1e-12 * MASS * acceleration * outcome.deepest, "off by {off:e} J");
-    assert_close("speed taken", outcome.taken, acceleration * 1e4 - outcome.speed, 1e-9);
+    assert_close("speed taken", outcome.speed_removed, acceleration * 1e4 - outcome.speed, 1e-9);
     // about 1e13
     assert_eq!(fall(1e8).0, Err(NoMotion::TooLong));
 }
@@ -98,7 +98,7 @@ fn a_step_with_too_many_bounces_is_refused() {
     for (loading, unloading) in [("brinell", "brinell"), ("thornton", "thornton"), ("vu-quoc-zhang", "vu-quoc-zhang")] {
         let model = AnyModel { surface: Surface::Fresh, ..model(loading, unloading) };
         let mut history = History::start(&model, 1e-3).unwrap();
-        let refused = follow(&mut history, &model, &Drive { mass: MASS, acceleration: 9.81 }, 0.0, 1e5);
+        let refused = follow(&mut history, &model, &ExternalLoad { mass: MASS, acceleration: 9.81 }, 0.0, 1e5);
         assert_eq!(refused, Err(NoMotion::TooLong), "{loading}");
     }
 }
@@ -108,7 +108,7 @@ fn a_body_that_leaves_the_range_of_the_laws_is_refused() {
     let model = model("hertz", "contact-radius");
     for (speed, step) in [(1e10, 1e200), (-1e10, 1e200), (f64::NAN, 1.0), (1.0, f64::INFINITY), (f64::INFINITY, 1.0)] {
         let mut history = History::start(&model, 0.0).unwrap();
-        let refused = follow(&mut history, &model, &Drive { mass: 1e300, acceleration: 0.0 }, speed, step);
+        let refused = follow(&mut history, &model, &ExternalLoad { mass: 1e300, acceleration: 0.0 }, speed, step);
         assert!(matches!(refused, Err(NoMotion::TooDeep(_))), "{speed} m/s for {step} s: {refused:?}");
     }
 }

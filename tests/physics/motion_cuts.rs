@@ -2,14 +2,14 @@
 
 use crate::physics::{AnyModel, Random, all_models, pair_of};
 use brinell_contact::impact::{Impact, predict};
-use brinell_contact::motion::{Drive, follow};
+use brinell_contact::motion::{ExternalLoad, follow};
 use brinell_contact::{History, Surface};
 
 /// A motion to be divided into steps.
 #[derive(Debug)]
 struct Case {
     model: AnyModel,
-    drive: Drive,
+    load: ExternalLoad,
     gap: f64,
     speed: f64,
     time: f64,
@@ -46,20 +46,20 @@ fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<Case> {
     let flights = if sign > 0.0 { 2.0 * speed / acceleration } else { 0.0 };
     let time = contact * 2.0 * random.next() + flights * 4.0 * random.next().powi(3);
     let gap = if random.next() < 0.5 { 0.0 } else { -prediction.max_indentation * (random.next() - 0.5) };
-    Some(Case { model, drive: Drive { mass, acceleration }, gap, speed, time })
+    Some(Case { model, load: ExternalLoad { mass, acceleration }, gap, speed, time })
 }
 
 /// The state after all of the steps.
 fn run(case: &Case, steps: &[f64]) -> State {
-    let Case { model, drive, .. } = case;
+    let Case { model, load, .. } = case;
     let mut history = History::start(model, case.gap).expect("within range");
     let (mut speed, mut max_indentation, mut taken, mut turns) = (case.speed, 0.0, 0.0, 0);
     for &step in steps {
-        let outcome = follow(&mut history, model, drive, speed, step)
+        let outcome = follow(&mut history, model, load, speed, step)
             .unwrap_or_else(|fault| panic!("{case:?} in {} steps: {fault:?}", steps.len()));
         turns += u32::from(speed > 0.0 && outcome.speed <= 0.0);
         speed = outcome.speed;
-        taken += outcome.taken;
+        taken += outcome.speed_removed;
         max_indentation = outcome.deepest.max(max_indentation);
     }
     let dissipated = history.dissipated_energy(model);
@@ -86,7 +86,7 @@ fn cut(random: &mut Random, time: f64, count: usize) -> Vec<f64> {
 
 /// The difference of two states, relative to the initial energy or to that from the other forces.
 fn difference(case: &Case, one: &State, other: &State) -> f64 {
-    let Drive { mass, acceleration } = case.drive;
+    let ExternalLoad { mass, acceleration } = case.load;
     let start = History::start(&case.model, case.gap).unwrap();
     let kinetic = |speed: f64| 0.5 * mass * speed * speed;
     let work = mass * acceleration.abs() * (one.indentation.abs() + one.max_indentation);
@@ -140,7 +140,7 @@ fn a_touch_that_is_slow_beside_the_motion_after_it_is_as_exact_as_any() {
                 let speed = part * acceleration * time;
                 let end = |speed: f64, time: f64| {
                     let mut history = History::start(&model, 0.0).expect("within range");
-                    let outcome = follow(&mut history, &model, &Drive { mass, acceleration }, speed, time);
+                    let outcome = follow(&mut history, &model, &ExternalLoad { mass, acceleration }, speed, time);
                     (history.indentation(), outcome.expect("within range").speed)
                 };
                 let (slow, rest) = (end(speed, time), end(0.0, time + speed / acceleration));

@@ -1,11 +1,11 @@
 //! A contact that knows the mass in delicate cases: at the surface, at rest, in equilibrium, and pulled away.
 
 use crate::physics::{self, AnyModel, MASS, all_models, mild, model, unit};
-use brinell_contact::motion::{Drive, NoMotion, Outcome, follow};
+use brinell_contact::motion::{ExternalLoad, NoMotion, Outcome, follow};
 use brinell_contact::{History, Surface};
 
 fn go(history: &mut History, model: &AnyModel, acceleration: f64, speed: f64, step: f64) -> Outcome {
-    follow(history, model, &Drive { mass: MASS, acceleration }, speed, step).expect("within range")
+    follow(history, model, &ExternalLoad { mass: MASS, acceleration }, speed, step).expect("within range")
 }
 
 #[test]
@@ -17,7 +17,7 @@ fn a_body_at_rest_on_the_surface_that_is_pulled_away_leaves_it() {
             assert_eq!(outcome.speed, acceleration * 1e-3, "{name}");
             let way = 0.5e-6 * acceleration;
             assert!((history.indentation() - way).abs() <= 1e-15 * way.abs(), "{name}");
-            assert_eq!((outcome.taken, outcome.evaluations), (0.0, 0), "{name}");
+            assert_eq!((outcome.speed_removed, outcome.evaluations), (0.0, 0), "{name}");
         }
     }
 }
@@ -27,7 +27,7 @@ fn a_body_at_rest_on_the_surface_that_nothing_pulls_stays() {
     for (name, model) in all_models(mild()) {
         let mut history = History::start(&model, 0.0).unwrap();
         let outcome = go(&mut history, &model, 0.0, 0.0, 1e3);
-        assert_eq!((outcome.speed, outcome.taken, history.indentation()), (0.0, 0.0, 0.0), "{name}");
+        assert_eq!((outcome.speed, outcome.speed_removed, history.indentation()), (0.0, 0.0, 0.0), "{name}");
     }
 }
 
@@ -37,7 +37,7 @@ fn a_body_that_arrives_without_speed_leaves_again() {
     // up to the surface, where it turns: 1/8 m at 1/2 m/s with 1 m/s^2 against it, without rounding
     let mut history = History::start(&model, 0.125).unwrap();
     let outcome = go(&mut history, &model, -1.0, 0.5, 2.0);
-    assert_eq!((outcome.speed, history.indentation(), outcome.taken), (-1.5, -1.125, 0.0));
+    assert_eq!((outcome.speed, history.indentation(), outcome.speed_removed), (-1.5, -1.125, 0.0));
     // and the step that ends there
     let mut history = History::start(&model, 0.125).unwrap();
     let outcome = go(&mut history, &model, -1.0, 0.5, 0.5);
@@ -51,8 +51,8 @@ fn pulled_away(acceleration: f64, speed: f64, time: f64, steps: u32) -> (f64, f6
     let mut history = History::start(&model, 0.0).unwrap();
     let mut speed = speed;
     for _ in 0..steps {
-        let drive = Drive { mass: 4e-3, acceleration };
-        speed = follow(&mut history, &model, &drive, speed, time / f64::from(steps)).expect("within range").speed;
+        let load = ExternalLoad { mass: 4e-3, acceleration };
+        speed = follow(&mut history, &model, &load, speed, time / f64::from(steps)).expect("within range").speed;
     }
     (history.max_indentation(), history.dissipated_energy(&model))
 }
@@ -86,7 +86,10 @@ fn bodies_in_balance_stay_for_any_time() {
             // the force has not changed, within rounding
             assert!((history.indentation() / (part * depth) - 1.0).abs() < 1e-14, "{name} at {part}: {outcome:?}");
             assert!(outcome.speed.abs() < 1e-14 * acceleration, "{name} at {part}: {outcome:?}");
-            assert!((outcome.taken / (acceleration * 1e3) - 1.0).abs() < 1e-14, "{name} at {part}: {outcome:?}");
+            assert!(
+                (outcome.speed_removed / (acceleration * 1e3) - 1.0).abs() < 1e-14,
+                "{name} at {part}: {outcome:?}"
+            );
         }
     }
 }
@@ -119,7 +122,7 @@ fn a_step_of_a_hundred_thousand_years_is_refused_or_fast() {
         let step = 3.5e12;
         let follow = |acceleration: f64, speed: f64| {
             let mut history = History::start(&model, 0.0).unwrap();
-            let result = follow(&mut history, &model, &Drive { mass: MASS, acceleration }, speed, step);
+            let result = follow(&mut history, &model, &ExternalLoad { mass: MASS, acceleration }, speed, step);
             (result, history.indentation())
         };
         // one impact, then separation

@@ -1,7 +1,7 @@
 //! A contact that knows the mass, over the whole range of numbers: every step ends with finite results and the right energy.
 
 use crate::physics::{AnyModel, Random, all_models, pair_of};
-use brinell_contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow};
+use brinell_contact::motion::{ExternalLoad, MOST_EVALUATIONS, NoMotion, Outcome, follow};
 use brinell_contact::{History, Surface};
 
 /// Log-uniform, or zero, or the smallest number, of either sign.
@@ -18,7 +18,7 @@ fn signed(random: &mut Random, low: f64, high: f64) -> f64 {
 struct Step {
     model: AnyModel,
     name: String,
-    drive: Drive,
+    load: ExternalLoad,
     speed: f64,
     time: f64,
 }
@@ -39,22 +39,22 @@ fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<(Step, His
     };
     let speed = if random.next() < 0.5 { signed(random, 1e-160, 1e3) } else { signed(random, 1e-9, 1e3) };
     let time = random.log_uniform(1e-18, 1e3);
-    let step = Step { model, name: name.clone(), drive: Drive { mass, acceleration }, speed, time };
+    let step = Step { model, name: name.clone(), load: ExternalLoad { mass, acceleration }, speed, time };
     Some((step, history))
 }
 
 fn describe(step: &Step, before: &History, result: &Result<Outcome, NoMotion>) -> String {
-    let Step { model, name, drive, speed, time } = step;
+    let Step { model, name, load, speed, time } = step;
     let (from, largest) = (before.indentation(), before.max_indentation());
     format!(
-        "{name} on a {:?} surface, {:?}, {drive:?}, at {speed:e} m/s for {time:e} s from {from:e} m (at most {largest:e}): {result:?}",
+        "{name} on a {:?} surface, {:?}, {load:?}, at {speed:e} m/s for {time:e} s from {from:e} m (at most {largest:e}): {result:?}",
         model.surface, model.pair
     )
 }
 
 /// Kinetic energy, potential energy of the acceleration, and energy of the contact [J]; and the size of the largest of them.
 fn energy(step: &Step, history: &History, speed: f64) -> (f64, f64) {
-    let Drive { mass, acceleration } = step.drive;
+    let ExternalLoad { mass, acceleration } = step.load;
     let parts = [
         0.5 * mass * speed * speed,
         -mass * acceleration * history.indentation(),
@@ -73,7 +73,7 @@ fn a_step_of_any_size_ends_in_numbers_and_keeps_the_energy() {
         let Some((mut step, mut history)) = draw(&mut random, &models) else { continue };
         for _ in 0..3 {
             let before = history;
-            let result = follow(&mut history, &step.model, &step.drive, step.speed, step.time);
+            let result = follow(&mut history, &step.model, &step.load, step.speed, step.time);
             let what = describe(&step, &before, &result);
             steps += 1;
             let outcome = match result {
@@ -84,13 +84,14 @@ fn a_step_of_any_size_ends_in_numbers_and_keeps_the_energy() {
                 }
                 Err(NoMotion::TooDeep(_)) => panic!("{what}"),
             };
-            let numbers = [outcome.speed, outcome.taken, outcome.deepest, history.indentation(), history.force()];
+            let numbers =
+                [outcome.speed, outcome.speed_removed, outcome.deepest, history.indentation(), history.force()];
             assert!(numbers.iter().all(|number| number.is_finite()), "{what}");
-            assert!(outcome.taken >= 0.0 && outcome.deepest >= history.max_indentation(), "{what}");
+            assert!(outcome.speed_removed >= 0.0 && outcome.deepest >= history.max_indentation(), "{what}");
             assert!(outcome.evaluations <= MOST_EVALUATIONS, "{what}");
             let (was, size) = energy(&step, &before, step.speed);
             let (is, other) = energy(&step, &history, outcome.speed);
-            let fallen = step.drive.mass * step.drive.acceleration.abs() * outcome.deepest;
+            let fallen = step.load.mass * step.load.acceleration.abs() * outcome.deepest;
             let size = size.max(other).max(fallen);
             // some laws do not compute their own work more accurately at larger depths, and smaller numbers have fewer digits
             if outcome.deepest < step.model.pair.radius && size > 1e-280 {

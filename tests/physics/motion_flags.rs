@@ -5,8 +5,8 @@ use crate::physics::{AnyModel, Random, all_models, pair_of};
 use crate::shared_losses::random_losing_bodies;
 use crate::shared_motion::{as_rollers, random_bodies};
 use brinell_contact::momentum::impulse;
-use brinell_contact::motion::{Drive, follow};
-use brinell_contact::path::Course;
+use brinell_contact::motion::{ExternalLoad, follow};
+use brinell_contact::path::RatePolynomial;
 use brinell_contact::shared::{self, InverseMasses, SharedContact, Work};
 use brinell_contact::{Contact, History, Model, Surface, loading, unloading};
 use brinell_testing::arithmetic::{control, set_control};
@@ -66,15 +66,15 @@ fn no_motion_raises_an_exception() {
             0.2..0.5 => signed(&mut random, 1e-30, 1e30),
             _ => signed(&mut random, 1e-3, 1e3),
         };
-        let drive = Drive { mass, acceleration };
+        let load = ExternalLoad { mass, acceleration };
         let mut speed = signed(&mut random, 1e-160, 1e3);
         for _ in 0..2 {
             let step = signed(&mut random, 1e-18, 1e3).abs().max(1e-18);
             let before = history;
-            let (result, flags) = raised(|| follow(&mut history, &model, &drive, speed, step));
+            let (result, flags) = raised(|| follow(&mut history, &model, &load, speed, step));
             let Ok(outcome) = result else { break };
             let from = (before.indentation(), before.max_indentation());
-            assert_eq!(flags, 0, "{name}, {drive:?}, {speed:e} m/s for {step:e} s from {from:?}: {outcome:?}");
+            assert_eq!(flags, 0, "{name}, {load:?}, {speed:e} m/s for {step:e} s from {from:?}: {outcome:?}");
             speed = outcome.speed;
         }
     }
@@ -128,14 +128,14 @@ fn no_motion_of_shared_bodies_raises_an_exception() {
 }
 
 /// A course of any size, and the length of its step [s].
-fn any_course(random: &mut Random) -> (Course, f64) {
+fn any_course(random: &mut Random) -> (RatePolynomial, f64) {
     let step = signed(random, 1e-18, 1e3).abs().max(1e-18);
     let size = signed(random, 1e-30, 1e-4).abs();
     let mut derivative = |order: i32| {
         let number = if random.next() < 0.3 { signed(random, 1e-300, 1e-4) } else { size * (random.next() - 0.5) };
         number / step.powi(order)
     };
-    (Course { rate: derivative(1), slope: derivative(2), bend: derivative(3) }, step)
+    (RatePolynomial { rate: derivative(1), slope: derivative(2), bend: derivative(3) }, step)
 }
 
 #[test]

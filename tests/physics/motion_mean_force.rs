@@ -2,7 +2,7 @@
 //! be rounded like it.
 
 use crate::physics::{AnyModel, Random, all_models, mild};
-use brinell_contact::motion::{Drive, follow};
+use brinell_contact::motion::{ExternalLoad, follow};
 use brinell_contact::{Contact, History, Surface};
 
 /// Number of steps.
@@ -28,8 +28,9 @@ fn a_short_step_has_a_mean_between_the_forces_at_its_ends() {
         let speed = random.log_uniform(1e-6, 1e2) * if random.next() < 0.5 { 1.0 } else { -1.0 };
         let step = random.log_uniform(1e-25, 1e-9);
         let before = history;
-        let outcome = follow(&mut history, &model, &Drive { mass, acceleration }, speed, step).expect("within range");
-        let (from, to, mean) = (before.force(), history.force(), mass * outcome.taken / step);
+        let outcome =
+            follow(&mut history, &model, &ExternalLoad { mass, acceleration }, speed, step).expect("within range");
+        let (from, to, mean) = (before.force(), history.force(), mass * outcome.speed_removed / step);
         if from == 0.0 || (to - from).abs() > 1e-3 * from || outcome.speed * speed <= 0.0 {
             continue;
         }

@@ -5,8 +5,8 @@ use crate::shared_losses::{LosingModel, random_losing_bodies};
 use crate::shared_motion::{Group, random_bodies};
 use brinell_contact::impact::{self, Impact};
 use brinell_contact::loading::{self, AnyLoading, Loading};
-use brinell_contact::losses::{self, AnyLoss, Fitted};
-use brinell_contact::motion::{self, Drive};
+use brinell_contact::losses::{self, AnyLoss, RestitutionFitted};
+use brinell_contact::motion::{self, ExternalLoad};
 use brinell_contact::rate::{self, History, Rate, Slow};
 use brinell_contact::shared::SharedContact;
 use brinell_contact::unloading::{self, AnyUnloading, Unloading};
@@ -40,7 +40,7 @@ fn bounce<L: Loading + Copy, U: Unloading + Copy>(
     step: f64,
 ) -> f64 {
     for _ in 0..1_000_000 {
-        let drive = Drive { mass: MASS, acceleration: 0.0 };
+        let drive = ExternalLoad { mass: MASS, acceleration: 0.0 };
         speed = motion::follow(history, model, &drive, speed, step).expect("within range").speed;
         if speed < 0.0 && history.contact().force() == 0.0 {
             return speed;
@@ -242,7 +242,7 @@ fn an_impact_of_bodies_that_share_contacts_is_that_of_a_single_contact() {
         for rate in RATES {
             for speed in [0.01, 0.1, 1.0, 10.0, 100.0] {
                 let model = rate::Model { slow, rate, harder: Rate::NONE };
-                let drive = Drive { mass: MASS, acceleration: 0.0 };
+                let drive = ExternalLoad { mass: MASS, acceleration: 0.0 };
                 let mut alone: History<C> = Contact::start(&model, 1e-6).unwrap();
                 let end = losses::follow(&mut alone, &model, &drive, speed, 1e-3).unwrap().speed;
                 for parts in [1, 10, 1000] {
@@ -266,7 +266,7 @@ fn an_impact_of_bodies_that_share_contacts_is_that_of_a_single_contact() {
     for ((loading, unloading), name) in [(hard, "brinell"), (johnson, "johnson")] {
         let plastic = AnyModel { pair: pair(), loading, unloading, surface: Surface::Dented };
         check::<_, brinell_contact::History>(plastic, name, 1e-10);
-        let loss = AnyLoss::Fitted(Fitted { restitution: 0.7 });
+        let loss = AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.7 });
         check::<LosingModel, losses::History<AnyLoss>>(losses::Model { plastic, loss }, name, 1e-10);
     }
 }

@@ -5,8 +5,8 @@
 
 use crate::physics::{MASS, mild, model};
 use brinell_contact::damped::{Adams, AnyDamped, Damped, KelvinVoigt, KuwabaraKono};
-use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
-use brinell_contact::motion::{self, Drive, Follow};
+use brinell_contact::losses::{self, AnyLoss, HalfSpaceRadiation, Plate, RestitutionFitted, Solid};
+use brinell_contact::motion::{self, ExternalLoad, Follow};
 use brinell_contact::{Contact, History, rate};
 
 /// Length of the steps, about that of an impact [s].
@@ -16,7 +16,7 @@ const STEP: f64 = 1e-4;
 /// It falls, bounces, and rests. The results are those of a ball of `MASS`.
 fn course<M, C: Contact<M>>(name: &str, model: &M, follow: Follow<C, M>, k: f64) -> Vec<[f64; 3]> {
     let mut contact = C::start(model, 1e-5).expect("within range");
-    let drive = Drive { mass: MASS * k * k, acceleration: 9.81 / (k * k) };
+    let drive = ExternalLoad { mass: MASS * k * k, acceleration: 9.81 / (k * k) };
     let mut speed = 0.3 / k;
     let step = |step: usize| {
         let before = (contact.indentation(), speed * k);
@@ -54,8 +54,8 @@ fn a_ball_of_any_mass_has_the_same_losses_and_comes_to_the_same_rest() {
     let losses = |k: f64| {
         let target = Solid { density: 7850.0 * k * k, youngs_modulus: mild().youngs_modulus, poissons_ratio: 0.3 };
         [
-            AnyLoss::Fitted(Fitted { restitution: 0.9 }),
-            AnyLoss::Waves(Waves { target }),
+            AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.9 }),
+            AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target }),
             AnyLoss::Plate(Plate { target, thickness: 0.01 }),
         ]
     };

@@ -3,17 +3,17 @@
 use crate::physics::{AnyModel, Random, loading, pair_of, unloading};
 use crate::shared_motion::{Group, random_rows};
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{AnyLoss, Fitted, History as LosingHistory};
+use brinell_contact::losses::{AnyLoss, History as LosingHistory, RestitutionFitted};
 use brinell_contact::shared::{Refused, SharedContact};
-use brinell_contact::tangential::{Friction, PlaneContact, Quantity, RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel, PlaneContact, Quantity};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Contact, Surface};
 
-type Model = RoughModel<AnyLoading, AnyUnloading>;
-type LosingModel = RoughModel<AnyLoading, AnyUnloading, AnyLoss>;
-type OneWay = RoughContact<16>;
+type Model = FrictionalModel<AnyLoading, AnyUnloading>;
+type LosingModel = FrictionalModel<AnyLoading, AnyUnloading, AnyLoss>;
+type OneWay = FrictionalContact<16>;
 type TwoWays = PlaneContact<16>;
-type LosingOneWay = RoughContact<16, true, LosingHistory<AnyLoss>>;
+type LosingOneWay = FrictionalContact<16, true, LosingHistory<AnyLoss>>;
 type LosingTwoWays = PlaneContact<16, true, LosingHistory<AnyLoss>>;
 
 const G: f64 = 9.81;
@@ -66,12 +66,12 @@ fn rough(law: (&str, &str), coefficient: f64) -> Model {
         unloading: unloading(law.1),
         surface: Surface::Dented,
     };
-    RoughModel { normal, friction: Friction { coefficient, stiffness_ratio: RATIO }, loss: () }
+    FrictionalModel { normal, friction: Friction { coefficient, stiffness_ratio: RATIO }, loss: () }
 }
 
 fn losing(law: (&str, &str), coefficient: f64) -> LosingModel {
-    let RoughModel { normal, friction, .. } = rough(law, coefficient);
-    RoughModel { normal, friction, loss: AnyLoss::Fitted(Fitted { restitution: 0.9 }) }
+    let FrictionalModel { normal, friction, .. } = rough(law, coefficient);
+    FrictionalModel { normal, friction, loss: AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.9 }) }
 }
 
 /// The box on a slope, in so many directions.
@@ -160,7 +160,7 @@ fn a_box_that_slides_loses_the_work_of_friction() {
 }
 
 /// A model with friction and a loss of this kind.
-type WithLoss<X> = RoughModel<AnyLoading, AnyUnloading, X>;
+type WithLoss<X> = FrictionalModel<AnyLoading, AnyUnloading, X>;
 
 /// Random bodies with friction in as many directions as their contacts have, and their energy [J].
 fn random_rough<X: Copy, C: Contact<WithLoss<X>> + SharedContact<WithLoss<X>>>(
@@ -178,7 +178,7 @@ fn random_rough<X: Copy, C: Contact<WithLoss<X>> + SharedContact<WithLoss<X>>>(
             true => *normal,
             false => AnyModel { unloading: unloading("contact-radius"), loading: loading("johnson"), ..*normal },
         };
-        RoughModel { normal, friction, loss: loss(random) }
+        FrictionalModel { normal, friction, loss: loss(random) }
     });
     let models: Vec<WithLoss<X>> = models.collect();
     let gaps: Vec<f64> = start.depths().iter().map(|depth| -depth).collect();
@@ -258,7 +258,9 @@ fn assert_bound<X: Copy, C: Contact<WithLoss<X>>>(group: &Group<WithLoss<X>, C>)
 
 #[test]
 fn friction_with_a_loss_keeps_balance_and_bound_and_hardly_cares_how_time_is_cut() {
-    let fitted = |random: &mut Random| AnyLoss::Fitted(Fitted { restitution: 0.05 + 0.94 * random.next() });
+    let fitted = |random: &mut Random| {
+        AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.05 + 0.94 * random.next() })
+    };
     for differences in [differences::<_, LosingOneWay>(23, fitted), differences::<_, LosingTwoWays>(24, fitted)] {
         let at = |part: usize| differences[differences.len() * part / 100];
         let (median, most) = (at(50), at(95));
@@ -287,7 +289,7 @@ fn random_stack<C: Contact<LosingModel> + SharedContact<LosingModel>>(random: &m
     }
     let law = if random.next() < 0.5 { ("hertz", "contact-radius") } else { ("brinell", "brinell") };
     let models = (0..count).map(|_| LosingModel {
-        loss: AnyLoss::Fitted(Fitted { restitution: 0.3 + 0.7 * random.next() }),
+        loss: AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.3 + 0.7 * random.next() }),
         ..losing(law, 0.05 + 0.75 * random.next())
     });
     let models: Vec<LosingModel> = models.collect();
@@ -357,8 +359,8 @@ fn the_smallest_and_largest_rates_are_followed_or_refused() {
 
 #[test]
 fn a_fresh_surface_forgets_the_dent_in_a_flight_of_any_length() {
-    let RoughModel { normal, friction, .. } = rough(("thornton", "thornton"), 0.3);
-    let model = RoughModel { normal: AnyModel { surface: Surface::Fresh, ..normal }, friction, loss: () };
+    let FrictionalModel { normal, friction, .. } = rough(("thornton", "thornton"), 0.3);
+    let model = FrictionalModel { normal: AnyModel { surface: Surface::Fresh, ..normal }, friction, loss: () };
     let start = || -> Group<Model, OneWay> {
         Group::new(vec![model], &[0.0], vec![30.0, 2.0, 100.0], vec![200.0, 0.0], vec![0.5, 0.1])
     };

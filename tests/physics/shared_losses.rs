@@ -4,7 +4,7 @@ use crate::physics::{AnyModel, Random, all_models, loading, model, pair_of, unlo
 use crate::shared_motion::{Group, random_bodies};
 use brinell_contact::damped::{Adams, AnyDamped, Damped};
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{self, AnyLoss, Fitted, History, Plate, Solid, Waves};
+use brinell_contact::losses::{self, AnyLoss, HalfSpaceRadiation, History, Plate, RestitutionFitted, Solid};
 use brinell_contact::shared::InverseMasses;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Surface, Unloading};
@@ -18,9 +18,9 @@ const STEEL: Solid = Solid { density: 7850.0, youngs_modulus: 206e9, poissons_ra
 
 /// Losses of every kind, one of which makes the surface come loose before the bodies part.
 pub const LOSSES: [AnyLoss; 4] = [
-    AnyLoss::Fitted(Fitted { restitution: 0.9 }),
-    AnyLoss::Fitted(Fitted { restitution: 0.3 }),
-    AnyLoss::Waves(Waves { target: STEEL }),
+    AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.9 }),
+    AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.3 }),
+    AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target: STEEL }),
     AnyLoss::Plate(Plate { target: STEEL, thickness: 0.01 }),
 ];
 
@@ -112,7 +112,8 @@ fn a_step_over_an_impact_takes_few_evaluations_whatever_the_law_the_loss_and_the
     let plate = |thickness: f64| AnyLoss::Plate(Plate { target: STEEL, thickness });
     for _ in 0..3 {
         for (name, plastic) in all_models(pair_of(5e-3, 1.13e11, 3e8)) {
-            let fitted = [0.01, 0.1, 0.3, 0.59, 0.7, 0.98].map(|restitution| AnyLoss::Fitted(Fitted { restitution }));
+            let fitted = [0.01, 0.1, 0.3, 0.59, 0.7, 0.98]
+                .map(|restitution| AnyLoss::RestitutionFitted(RestitutionFitted { restitution }));
             let random = if plastic.loading.table().is_some() { &mut of_table } else { &mut of_published };
             for loss in fitted.into_iter().chain([LOSSES[2], plate(0.003), plate(0.03)]) {
                 let (speed, pull) = (random.log_uniform(1e-4, 20.0), random.log_uniform(1e-3, 1e3));

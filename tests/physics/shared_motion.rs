@@ -1,7 +1,7 @@
 //! Contacts that share bodies: what must hold for any bodies, any laws and any step.
 
 use crate::physics::{AnyModel, Random, all_models, has_jumps, loading, model, pair_of, unloading};
-use brinell_contact::motion::{self, Drive};
+use brinell_contact::motion::{self, ExternalLoad};
 use brinell_contact::shared::{
     InverseMasses, NotInverseMasses, Outcome, Refused, SharedContact, Work, follow, inverse_masses, work_of_step,
 };
@@ -159,9 +159,9 @@ fn contacts_that_are_not_coupled_move_as_if_each_were_alone() {
             pair.step(1e-4);
             for contact in 1..3 {
                 let mass = 1.0 / [0.0, 5.0, 0.3][contact];
-                let drive = Drive { mass, acceleration: accelerations[contact] };
+                let load = ExternalLoad { mass, acceleration: accelerations[contact] };
                 let outcome =
-                    motion::follow(&mut alone[contact], &model, &drive, speeds[contact], 1e-4).expect("a motion");
+                    motion::follow(&mut alone[contact], &model, &load, speeds[contact], 1e-4).expect("a motion");
                 speeds[contact] = outcome.speed;
                 assert_eq!(group.rates[contact].to_bits(), outcome.speed.to_bits(), "{name}");
                 assert_eq!(group.contacts[contact], alone[contact], "{name}");

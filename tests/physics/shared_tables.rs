@@ -4,7 +4,7 @@ use crate::physics::{AnyModel, model, pair_of};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, Form, Growth, Loss};
 use brinell_contact::shared::{InverseMasses, SharedContact, Work, follow, work_of_step};
-use brinell_contact::tangential::{Friction, Rough, RoughModel};
+use brinell_contact::tangential::{Friction, Frictional, FrictionalModel};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Contact, History, Surface};
 use brinell_testing::friction::file;
@@ -204,7 +204,7 @@ fn contacts_with_losses_end_a_step_as_in_the_table() {
 /// many `parts`: the largest error of a rate, and that of the balance of work.
 fn off<const D: usize>(row: &Row, parts: u32) -> (f64, f64) {
     let (mu, kappa) = (row.get("mu"), row.get("kappa"));
-    let models = row.models().into_iter().enumerate().map(|(i, normal)| RoughModel {
+    let models = row.models().into_iter().enumerate().map(|(i, normal)| FrictionalModel {
         normal,
         friction: Friction { coefficient: mu[i], stiffness_ratio: kappa[i] * mu[i] },
         loss: (),
@@ -213,13 +213,13 @@ fn off<const D: usize>(row: &Row, parts: u32) -> (f64, f64) {
     let (count, depths) = (models.len(), row.get("indentation_0"));
     let entries = row.get("W");
     let masses = InverseMasses::new(count * (1 + D), &entries).expect("a triangle");
-    let start = |i: usize| Rough::<D, 16, true>::start(&models[i], -depths[i]).expect("within range");
+    let start = |i: usize| Frictional::<D, 16, true>::start(&models[i], -depths[i]).expect("within range");
     let mut contacts: Vec<_> = (0..count).map(start).collect();
     let (accelerations, before) = (row.get("acceleration"), row.get("rate_0"));
     let (mut rates, step) = (before.clone(), row.one("step") / f64::from(parts));
     let mut work: Vec<_> = contacts.iter().map(|&contact| Work::new(contact)).collect();
-    let taken_up = |contacts: &[Rough<D, 16, true>]| -> f64 {
-        let of = |(contact, model): (&Rough<D, 16, true>, &RoughModel<_, _>)| {
+    let taken_up = |contacts: &[Frictional<D, 16, true>]| -> f64 {
+        let of = |(contact, model): (&Frictional<D, 16, true>, &FrictionalModel<_, _>)| {
             contact.elastic_energy(model)
                 + contact.dissipated_energy(model)
                 + contact.tangential_energy(model)

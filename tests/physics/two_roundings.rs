@@ -5,13 +5,13 @@
 
 use crate::physics::{AnyModel, MASS, Random, TURNS, mild, on_grid, some_models};
 use brinell_contact::loading::RecoveryOf;
-use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::losses::{self, AnyLoss, HalfSpaceRadiation, Plate, RestitutionFitted, Solid};
 use brinell_contact::material::YieldPoint;
 use brinell_contact::momentum::impulse;
-use brinell_contact::motion::{Drive, follow};
-use brinell_contact::path::Course;
+use brinell_contact::motion::{ExternalLoad, follow};
+use brinell_contact::path::RatePolynomial;
 use brinell_contact::regime::{LARGEST_INDENTATION, Regime};
-use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel};
 use brinell_contact::unloading::Recovery;
 use brinell_contact::{Contact, History, Loading, Model, Pair, Peak, Segment, Surface, Unloading, loading, unloading};
 use std::cell::{Cell, RefCell};
@@ -201,8 +201,9 @@ impl Trial for Prescribed {
             let mut largest = 0.0_f64;
             for increment in steps(parts) {
                 // forward, back, and forward again
-                let turning = Course { rate: 3.0 * increment, slope: -12.0 * increment, bend: 24.0 * increment };
-                for course in [Course::held(increment), turning] {
+                let turning =
+                    RatePolynomial { rate: 3.0 * increment, slope: -12.0 * increment, bend: 24.0 * increment };
+                for course in [RatePolynomial::held(increment), turning] {
                     let [one, two] = [impulse(&usual, model, &course, 1.0), impulse(&other, &twice, &course, 1.0)];
                     let (one, two) =
                         (one.expect("within range"), two.unwrap_or_else(|deep| panic!("{name}: {deep:?}")));
@@ -235,7 +236,7 @@ impl Trial for Thrown {
             return;
         }
         for (speed, acceleration) in [(0.01, 0.0), (1.0, 0.0), (0.05, 9.81), (20.0, -1e5), (0.0, 1e3)] {
-            let drive = Drive { mass: MASS, acceleration };
+            let drive = ExternalLoad { mass: MASS, acceleration };
             let mut time = 1e-3_f64;
             for parts in [1, 10, 300] {
                 time *= 0.9;
@@ -268,8 +269,8 @@ impl Trial for Lossy {
     fn run<L: Loading + Copy, U: Unloading + Copy>(&self, name: &str, model: &Model<L, U>) {
         let target = Solid { density: 7850.0, youngs_modulus: 2.1e11, poissons_ratio: 0.3 };
         for loss in [
-            AnyLoss::Fitted(Fitted { restitution: 0.9 }),
-            AnyLoss::Waves(Waves { target }),
+            AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.9 }),
+            AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target }),
             AnyLoss::Plate(Plate { target, thickness: 0.01 }),
         ] {
             let (usual_model, twice) =
@@ -306,13 +307,13 @@ impl Trial for Oblique {
             return;
         }
         let friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
-        let twice = RoughModel { normal: with_roundings(model), friction, loss: () };
+        let twice = FrictionalModel { normal: with_roundings(model), friction, loss: () };
         for parts in [1, 7, 50] {
-            let mut contact = RoughContact::<12>::start(&twice, 0.0).unwrap();
+            let mut contact = FrictionalContact::<12>::start(&twice, 0.0).unwrap();
             let mut largest = 0.0_f64;
             for (number, increment) in steps(parts).enumerate() {
                 contact.set_tangential_rate(0.05 * increment.abs() * if number % 5 < 2 { -1.0 } else { 1.0 });
-                let result = contact.step(&Course::held(increment), 1.0, || twice);
+                let result = contact.step(&RatePolynomial::held(increment), 1.0, || twice);
                 result.unwrap_or_else(|deep| panic!("{name}: {deep:?}"));
                 let (force, limit) = (contact.tangential_force(&twice), 0.3 * contact.normal().force());
                 largest = largest.max(limit);

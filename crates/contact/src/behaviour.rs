@@ -1,7 +1,7 @@
 //! The interface of every kind of contact: it starts, moves, returns its force and energies, and can be saved.
 
 use super::numbers::quotient;
-use super::path::Course;
+use super::path::RatePolynomial;
 use super::regime::{Regime, TooDeep};
 use super::tangential::{Quantity, Sliding};
 use super::validity::largest_radius;
@@ -64,7 +64,8 @@ pub trait Contact<M>: Copy {
     ///
     /// # Errors
     /// [`TooDeep`] outside the range of the law; the contact is then unchanged.
-    fn step<B: Borrow<M>>(&mut self, course: &Course, step: f64, model: impl Fn() -> B) -> Result<f64, TooDeep>;
+    fn step<B: Borrow<M>>(&mut self, course: &RatePolynomial, step: f64, model: impl Fn() -> B)
+    -> Result<f64, TooDeep>;
 
     /// Like [`Contact::step`], but returns two results: the largest indentation of the step \[m\] and its mean force \[N\]. A
     /// contact whose force depends on the rate takes the rate as constant.
@@ -73,7 +74,7 @@ pub trait Contact<M>: Copy {
     /// As for [`Contact::step`].
     fn step_with_mean_force<B: Borrow<M>>(
         &mut self,
-        course: &Course,
+        course: &RatePolynomial,
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<(f64, f64), TooDeep> {
@@ -167,22 +168,22 @@ pub trait Contact<M>: Copy {
     fn meet(&mut self, _model: &M, _mass: f64, _rate: f64) {}
 
     /// The course of the tangential rate in this direction over the next step \[m/s\]; zero without friction.
-    fn tangential_course(&self, _direction: usize) -> Course {
-        Course::held(0.0)
+    fn tangential_course(&self, _direction: usize) -> RatePolynomial {
+        RatePolynomial::held(0.0)
     }
 
     /// Sets the course of the tangential rate in this direction. Its derivatives apply to the next step, its rate until it is set again. It has
     /// no effect without friction.
-    fn set_tangential_course(&mut self, _direction: usize, _course: &Course) {}
+    fn set_tangential_course(&mut self, _direction: usize, _course: &RatePolynomial) {}
 
     /// The course on which the tangential rate in this direction ended the last step \[m/s\].
-    fn tangential_end(&self, _direction: usize) -> Course {
-        Course::held(0.0)
+    fn tangential_end(&self, _direction: usize) -> RatePolynomial {
+        RatePolynomial::held(0.0)
     }
 
     /// Sets the course on which the tangential rate in this direction ended the last step, of a contact that others have moved. Its
     /// derivatives for the next step are those of no course. It has no effect without friction.
-    fn set_tangential_end(&mut self, _direction: usize, _end: &Course) {}
+    fn set_tangential_end(&mut self, _direction: usize, _end: &RatePolynomial) {}
 
     /// A quantity of the friction of bodies that close at this `rate` \[m/s\]; NaN without friction.
     fn tangential(&self, _model: &M, _quantity: Quantity, _rate: f64) -> f64 {
@@ -195,8 +196,8 @@ pub trait Contact<M>: Copy {
         &self,
         _model: &M,
         _quantity: Quantity,
-        _normal: &Course,
-        _tangential: &[Course; 2],
+        _normal: &RatePolynomial,
+        _tangential: &[RatePolynomial; 2],
     ) -> (f64, f64) {
         (f64::NAN, f64::NAN)
     }

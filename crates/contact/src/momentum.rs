@@ -2,7 +2,7 @@
 
 use super::history::History;
 use super::loading::Loading;
-use super::path::Course;
+use super::path::RatePolynomial;
 use super::piece::Piece;
 use super::quadrature::{gauss, graded_integral};
 use super::regime::TooDeep;
@@ -27,7 +27,7 @@ const MOST_PIECES: u32 = 100;
 pub fn impulse<L: Loading, U: Unloading>(
     history: &History,
     model: &Model<L, U>,
-    course: &Course,
+    course: &RatePolynomial,
     step: f64,
 ) -> Result<f64, TooDeep> {
     if !course.is_held() && model.is_segmented() {
@@ -41,7 +41,7 @@ pub fn impulse<L: Loading, U: Unloading>(
 pub(super) fn impulse_by_pieces<L: Loading, U: Unloading>(
     history: &History,
     model: &Model<L, U>,
-    course: &Course,
+    course: &RatePolynomial,
     step: f64,
 ) -> Result<f64, TooDeep> {
     let mut walk = Walk { contact: *history, model, course, origin: history.indentation(), time: 0.0, impulse: 0.0 };
@@ -62,7 +62,7 @@ pub(super) fn impulse_by_pieces<L: Loading, U: Unloading>(
 struct Walk<'a, L, U> {
     contact: History,
     model: &'a Model<L, U>,
-    course: &'a Course,
+    course: &'a RatePolynomial,
     /// Indentation at the start of the step \[m\].
     origin: f64,
     /// Time since then \[s\].

@@ -5,7 +5,7 @@
 //! is zero at an end, the rule has the power as its weight.
 
 use super::numbers::{largest, root};
-use super::path::Course;
+use super::path::RatePolynomial;
 use super::quadrature::{SIX, TEN};
 use super::segment::Segment;
 use libm::{fabs, sqrt};
@@ -40,7 +40,7 @@ const WITH_POWER: [(f64, f64); 8] = [
 
 /// Impulse \[N.s\] on `segment` along `course`, from one time \[s\] and indentation \[m\] to another. In between, the
 /// indentation must not be below the origin of the segment.
-pub fn impulse_on(segment: &Segment, course: &Course, (start, from): (f64, f64), (end, to): (f64, f64)) -> f64 {
+pub fn impulse_on(segment: &Segment, course: &RatePolynomial, (start, from): (f64, f64), (end, to): (f64, f64)) -> f64 {
     if course.is_held() {
         return (end - start) * segment.mean_force(from, to);
     }
@@ -94,9 +94,9 @@ struct Panel {
 impl Panel {
     /// `base` \[m\] plus the distance covered over `length` \[s\].
     #[inline(always)]
-    fn of(base: f64, course: &Course, length: f64) -> Panel {
+    fn of(base: f64, course: &RatePolynomial, length: f64) -> Panel {
         let half = 0.5 * length;
-        let Course { rate, slope, bend } = course.after(half);
+        let RatePolynomial { rate, slope, bend } = course.after(half);
         Panel {
             middle: base + course.way(half),
             first: rate * half,
@@ -144,8 +144,8 @@ impl Panel {
 }
 
 /// The mean of the power 1.5 of the distance covered over `length` \[s\]; `None` if distance over time is not smooth.
-fn power_from_zero(course: &Course, length: f64) -> Option<f64> {
-    let Course { rate, slope, bend } = *course;
+fn power_from_zero(course: &RatePolynomial, length: f64) -> Option<f64> {
+    let RatePolynomial { rate, slope, bend } = *course;
     let (zeroth, first, second) =
         (rate * length, 0.5 * slope * length * length, bend * length * length * length * (1.0 / 6.0));
     // distance over the fraction of the time, on [-1, 1]

@@ -49,7 +49,7 @@ impl Sum {
 
 /// The rate over one step: `rate + slope t + bend t^2/2`. The indentation is then a cubic polynomial.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Course {
+pub struct RatePolynomial {
     /// Rate at the start of the step \[m/s\].
     pub rate: f64,
     /// Its first derivative \[m/s^2\].
@@ -58,10 +58,10 @@ pub struct Course {
     pub bend: f64,
 }
 
-impl Course {
+impl RatePolynomial {
     /// A constant rate.
-    pub const fn held(rate: f64) -> Course {
-        Course { rate, slope: 0.0, bend: 0.0 }
+    pub const fn held(rate: f64) -> RatePolynomial {
+        RatePolynomial { rate, slope: 0.0, bend: 0.0 }
     }
 
     /// Whether the rate is constant.
@@ -84,13 +84,13 @@ impl Course {
 
     /// The course that remains after `time` \[s\].
     #[inline(always)]
-    pub fn after(&self, time: f64) -> Course {
-        Course { rate: self.rate_after(time), slope: self.slope + self.bend * time, bend: self.bend }
+    pub fn after(&self, time: f64) -> RatePolynomial {
+        RatePolynomial { rate: self.rate_after(time), slope: self.slope + self.bend * time, bend: self.bend }
     }
 
     /// The course backwards in time, which leads to the start of this one.
-    pub fn reversed(&self) -> Course {
-        Course { rate: -self.rate, slope: self.slope, bend: -self.bend }
+    pub fn reversed(&self) -> RatePolynomial {
+        RatePolynomial { rate: -self.rate, slope: self.slope, bend: -self.bend }
     }
 
     /// The time between `low` and `high` \[s\] at which the distance is `way` \[m\]. The rate must keep its sign there.
@@ -111,7 +111,7 @@ impl Course {
             let beyond = beyond(time);
             *(if (beyond < 0.0) == below_at_end { &mut high } else { &mut low }) = time;
             // no division by a rate whose step would leave the bracket, such as where the direction changes
-            let Course { rate, slope, .. } = self.after(time);
+            let RatePolynomial { rate, slope, .. } = self.after(time);
             let leads = fabs(beyond) < fabs(rate) * (high - low);
             let newton = time - quotient(beyond, rate, leads, f64::MAX);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };

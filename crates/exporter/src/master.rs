@@ -60,19 +60,19 @@ pub struct Body {
 
 /// How a step of contact and mass is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum How {
-    Late,
+enum Scheme {
+    Jacobi,
     Predicted,
     LeapFrog,
     LeapFrogFollowed,
     Derivatives,
     MassKnown,
-    LateMass,
+    JacobiMass,
 }
 
 /// The features of the FMU that a way to couple needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Needs {
+pub enum Requirements {
     /// The force.
     Force,
     /// The predicted force at the end of the next step.
@@ -82,7 +82,7 @@ pub enum Needs {
     /// The mass as a parameter.
     Mass,
     /// The mass as a parameter, with the force applied one step late.
-    LateMass,
+    JacobiMass,
 }
 
 /// Co-simulation algorithms.
@@ -94,10 +94,10 @@ pub enum Master {
     Parallel,
 }
 
-impl Needs {
+impl Requirements {
     /// Whether the FMU moves the mass itself.
     pub fn knows_mass(self) -> bool {
-        matches!(self, Needs::Mass | Needs::LateMass)
+        matches!(self, Requirements::Mass | Requirements::JacobiMass)
     }
 }
 
@@ -112,12 +112,12 @@ impl Master {
 }
 
 /// A way to couple.
-pub struct Way {
+pub struct CouplingMethod {
     pub name: &'static str,
     /// Description in words.
     pub what: &'static str,
-    how: How,
-    pub needs: Needs,
+    scheme: Scheme,
+    pub needs: Requirements,
     pub master: Master,
     /// The largest stable step for a linear spring, as `h sqrt(K/m)`: 0 for a way that is never stable, infinity for
     /// one that is always stable. Below, `z = h^2 K/m`, `x` is the indentation and `u = h v`.
@@ -125,55 +125,56 @@ pub struct Way {
 }
 
 /// The user's own loop.
-pub const LEAP_FROG: Way = Way {
+pub const LEAP_FROG: CouplingMethod = CouplingMethod {
     name: "leap-frog",
     what: "step the contact, then the bodies with its new force",
-    how: How::LeapFrog,
-    needs: Needs::Force,
+    scheme: Scheme::LeapFrog,
+    needs: Requirements::Force,
     master: Master::Serial,
     stable: 2.0,
 };
 
 /// The same for a force that follows the rate: it is that of the speed in the middle of the change that it causes.
-pub const LEAP_FROG_FOLLOWED: Way = Way { name: "leap-frog, iterated", how: How::LeapFrogFollowed, ..LEAP_FROG };
+pub const LEAP_FROG_FOLLOWED: CouplingMethod =
+    CouplingMethod { name: "leap-frog, iterated", scheme: Scheme::LeapFrogFollowed, ..LEAP_FROG };
 
 /// The FMU moves the mass: exact.
-pub const MASS_KNOWN: Way = Way {
+pub const MASS_KNOWN: CouplingMethod = CouplingMethod {
     name: "mass known",
     what: "the FMU moves the mass within the step; apply mean_force",
-    how: How::MassKnown,
-    needs: Needs::Mass,
+    scheme: Scheme::MassKnown,
+    needs: Requirements::Mass,
     master: Master::Serial,
     stable: f64::INFINITY,
 };
 
 /// The FMU moves the mass, and tracks the momentum that has not reached the importer's mass yet: exact.
-pub const LATE_MASS: Way = Way {
+pub const JACOBI_MASS: CouplingMethod = CouplingMethod {
     name: "mass known, parallel",
     what: "the FMU moves the mass; apply the mean_force of the previous step",
-    how: How::LateMass,
-    needs: Needs::LateMass,
+    scheme: Scheme::JacobiMass,
+    needs: Requirements::JacobiMass,
     master: Master::Parallel,
     stable: f64::INFINITY,
 };
 
 /// All ways in a report.
-pub static WAYS: [Way; 6] = [
+pub static COUPLING_METHODS: [CouplingMethod; 6] = [
     // `x' = x + u`, `u' = u - z x`: both eigenvalues have the modulus `sqrt(1 + z)`
-    Way {
+    CouplingMethod {
         name: "late force",
         what: "apply the force of the previous step",
-        how: How::Late,
-        needs: Needs::Force,
+        scheme: Scheme::Jacobi,
+        needs: Requirements::Force,
         master: Master::Parallel,
         stable: 0.0,
     },
     // the same as leap-frog for a spring
-    Way {
+    CouplingMethod {
         name: "predicted_force",
         what: "apply predicted_force, read before the step",
-        how: How::Predicted,
-        needs: Needs::PredictedForce,
+        scheme: Scheme::Predicted,
+        needs: Requirements::PredictedForce,
         master: Master::Parallel,
         stable: 2.0,
     },
@@ -185,16 +186,16 @@ pub static WAYS: [Way; 6] = [
     // mean force, and `j' = -z (u + a + j/2)`. The first eigenvalue to leave the unit circle does so at -1, where the
     // determinant of the step's matrix plus one is zero. The determinant is `(576 - 432 z + 48 z^2 - z^3) / 144`: the
     // limit is the square root of the smallest root of `z^3 - 48 z^2 + 432 z - 576`.
-    Way {
+    CouplingMethod {
         name: "input derivatives",
         what: "set acceleration and jerk with the rate, apply mean_force",
-        how: How::Derivatives,
-        needs: Needs::MeanForce,
+        scheme: Scheme::Derivatives,
+        needs: Requirements::MeanForce,
         master: Master::Serial,
         stable: 1.269_862_885_454_414,
     },
     MASS_KNOWN,
-    LATE_MASS,
+    JACOBI_MASS,
 ];
 
 /// Number of steps after which an impact is given up. The longest impact of a report has sixteen million.
@@ -233,20 +234,20 @@ impl Body {
     }
 }
 
-impl Way {
+impl CouplingMethod {
     /// Makes one step \[s\] of contact and mass.
     ///
     /// # Errors
     /// The first call that fails.
     pub fn advance<C: Coupled>(&self, contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
-        match self.how {
-            How::Late => late(contact, body, step),
-            How::Predicted => predicted(contact, body, step),
-            How::LeapFrog => leap_frog(contact, body, step),
-            How::LeapFrogFollowed => leap_frog_followed(contact, body, step),
-            How::Derivatives => derivatives(contact, body, step),
-            How::MassKnown => mass_known(contact, body, step),
-            How::LateMass => late_mass(contact, body, step),
+        match self.scheme {
+            Scheme::Jacobi => jacobi(contact, body, step),
+            Scheme::Predicted => predicted(contact, body, step),
+            Scheme::LeapFrog => leap_frog(contact, body, step),
+            Scheme::LeapFrogFollowed => leap_frog_followed(contact, body, step),
+            Scheme::Derivatives => derivatives(contact, body, step),
+            Scheme::MassKnown => mass_known(contact, body, step),
+            Scheme::JacobiMass => jacobi_mass(contact, body, step),
         }
     }
 
@@ -269,7 +270,7 @@ impl Way {
 }
 
 /// All FMUs step at once: the bodies get the force at the beginning of the step. First order.
-fn late<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
+fn jacobi<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     contact.set_rate(body.speed)?;
     contact.step(step)?;
     body.feel(body.force, step);
@@ -328,7 +329,7 @@ fn mass_known<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result
 }
 
 /// The same, with the mean force of each step applied over the next one.
-fn late_mass<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
+fn jacobi_mass<C: Coupled>(contact: &mut C, body: &mut Body, step: f64) -> Result<(), C::Error> {
     step_with_mass(contact, body, step)?;
     body.feel(body.owed, step);
     (body.owed, body.force) = (contact.mean_force()?, contact.force()?);

@@ -175,7 +175,7 @@ pub fn law(rows: &Rows, pair: &Pair) -> Result<(Tabulated, String), String> {
     let begins_elastic = elastic.is_some() || chain.begin_elastic(pair);
     chain.split();
     let squares = squares(&chain, plastic, pair);
-    let bodies = Bodies { pair, rows, points: plastic, begins_elastic, noise };
+    let bodies = CurveBodies { pair, rows, points: plastic, begins_elastic, noise };
     let (law, shortened) = bodies.law(&chain, &squares, unloading(rows, deepest, force))?;
     let words = words(&law, pair, used, used[0].force.max(LEAST * force), shortened);
     Ok((law, words))
@@ -540,7 +540,7 @@ fn unloading(rows: &Rows, deepest: usize, force: f64) -> FromFile {
 }
 
 /// What the recovery follows from.
-struct Bodies<'a> {
+struct CurveBodies<'a> {
     pair: &'a Pair,
     rows: &'a Rows,
     points: &'a [Point],
@@ -548,7 +548,7 @@ struct Bodies<'a> {
     noise: Noise,
 }
 
-impl Bodies<'_> {
+impl CurveBodies<'_> {
     /// The law, and how much its recovery was shortened, relatively.
     fn law(&self, chain: &Chain, squares: &[f64], file: FromFile) -> Result<(Tabulated, f64), String> {
         let radius = self.pair.radius;

@@ -144,7 +144,7 @@ fn one<'a>(random: &mut Random, texts: &[&'a str]) -> &'a str {
 /// A scene of random features. Not every one is valid: some features exclude others.
 pub fn any_scene(random: &mut Random) -> String {
     let mut is = |probability: f64| random.next() < probability;
-    let (damped, moved, rough, lossy, shared) = (is(0.12), is(0.5), is(0.3), is(0.3), is(0.3));
+    let (damped, moved, frictional, lossy, shared) = (is(0.12), is(0.5), is(0.3), is(0.3), is(0.3));
     let (elastic, socket, fresh, guard, rated, hardens) = (is(0.5), is(0.2), is(0.3), is(0.3), is(0.3), is(0.5));
     let (several, counted, own, constants, held, yields) = (is(0.3), is(0.3), is(0.3), is(0.3), is(0.2), is(0.3));
     let mut text = String::from("name = \"any\"\n[impactor]\n");
@@ -204,7 +204,7 @@ pub fn any_scene(random: &mut Random) -> String {
     if moved || shared {
         outputs.push("closing_speed");
     }
-    if rough {
+    if frictional {
         outputs.extend(["friction_work", "tangential_energy", "sliding", "mean_tangential_force"]);
     }
     text += &format!("[fmu]\noutputs = {outputs:?}\n");
@@ -220,7 +220,7 @@ pub fn any_scene(random: &mut Random) -> String {
     if random.next() < 0.5 {
         text += "watch = false\n";
     }
-    if rough {
+    if frictional {
         text += &format!("[friction]\ncoefficient = {:.3}\n", random.next());
         text += one(random, &["", "directions = 2\n"]);
     }
@@ -232,7 +232,7 @@ pub fn any_scene(random: &mut Random) -> String {
         if by_inputs {
             return text + "[[contact]]\nname = \"foot\"\ncount = 3\n";
         }
-        return text + if rough { CRATE } else { STACK };
+        return text + if frictional { CRATE } else { STACK };
     }
     if moved {
         let inputs = one(

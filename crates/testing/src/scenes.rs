@@ -6,7 +6,8 @@
 mod kinds;
 
 pub use kinds::{
-    Damped, DampedMassive, Elastoplastic, Guarded, Held, Kind, Lossy, LossyMassive, Massive, Rated, Rough, RoughPlane,
+    Damped, DampedMassive, Elastoplastic, Frictional, FrictionalPlane, Guarded, Held, Kind, Lossy, LossyMassive,
+    Massive, Rated,
 };
 
 use brinell_contact::damped::AnyDamped;
@@ -65,7 +66,7 @@ impl Choice {
             initial_gap: 0.0,
             friction: 0.3,
             rate: Rate::CowperSymonds { d: 40.4, q: 5.0 },
-            loss: AnyLoss::Fitted(losses::Fitted { restitution: 0.9 }),
+            loss: AnyLoss::RestitutionFitted(losses::RestitutionFitted { restitution: 0.9 }),
         }
     }
 }
@@ -132,7 +133,7 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Values = [f64; 3];
     type Forces = Kept;
     type Momentum = M;
-    type Course = K::Course;
+    type InputDerivatives = K::InputDerivatives;
     type Prediction = M;
     type Coupling = K::Coupling;
     type Watch = K::Watch;

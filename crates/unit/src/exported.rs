@@ -14,7 +14,7 @@ impl Kind for Library {
     type Sizes = kinds::Fixed<1, 1, 1, 5, 0>;
     type Forces = scene::Absent;
     type Momentum = scene::Absent;
-    type Course = scene::Present;
+    type InputDerivatives = scene::Present;
     type Prediction = scene::Absent;
     type Coupling = scene::Absent;
     type Watch = scene::Absent;

@@ -6,7 +6,9 @@
 use crate::Refused;
 use crate::text::{self, Edit};
 use crate::unit::{self, Unit};
-use brinell_exporter::master::{Body, Coupled, LATE_MASS, MASS_KNOWN, Needs, WAYS, Way};
+use brinell_exporter::master::{
+    Body, COUPLING_METHODS, Coupled, CouplingMethod, JACOBI_MASS, MASS_KNOWN, Requirements,
+};
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::prebuilt::{Library, PrebuiltUnit};
@@ -30,8 +32,8 @@ const REBOUNDS: usize = 40;
 struct Choice {
     name: &'static str,
     what: &'static str,
-    unit: &'static Way,
-    master: &'static Way,
+    unit: &'static CouplingMethod,
+    master: &'static CouplingMethod,
 }
 
 /// The wrong ways: the FMU expects another master.
@@ -40,12 +42,12 @@ const WRONG: [Choice; 2] = [
         name: "serial FMU, parallel master",
         what: "the FMU expects that its force acts in the same step; the master is one step late",
         unit: &MASS_KNOWN,
-        master: &LATE_MASS,
+        master: &JACOBI_MASS,
     },
     Choice {
         name: "parallel FMU, serial master",
         what: "the FMU expects that its force acts one step late; the master applies it at once",
-        unit: &LATE_MASS,
+        unit: &JACOBI_MASS,
         master: &MASS_KNOWN,
     },
 ];
@@ -57,7 +59,7 @@ impl Choice {
 }
 
 fn choices() -> impl Iterator<Item = Choice> {
-    let right = WAYS.iter().map(|way| Choice { name: way.name, what: way.what, unit: way, master: way });
+    let right = COUPLING_METHODS.iter().map(|way| Choice { name: way.name, what: way.what, unit: way, master: way });
     right.chain(WRONG)
 }
 
@@ -166,7 +168,7 @@ struct Rebound {
 
 /// The scene with the lines that `way` needs, and the height of fall as a gap. Nothing moves along the surface, so friction is left out
 /// where the FMU would have to know more of the bodies for it.
-fn edited(asked: &Asked, scene: &Scene, way: &Way) -> Result<String, Refused> {
+fn edited(asked: &Asked, scene: &Scene, way: &CouplingMethod) -> Result<String, Refused> {
     let mut edits = vec![Edit::of(&["fmu", "standalone"], Value::Null)];
     let tables = scene.contacts.len();
     let is_listed = scene.contacts[0].name.is_some();
@@ -176,9 +178,9 @@ fn edited(asked: &Asked, scene: &Scene, way: &Way) -> Result<String, Refused> {
             edits.extend((0..tables).map(|index| Edit::of_contact(index, "friction", Value::Null)));
         }
         let outputs: &[&str] = match way.needs {
-            Needs::PredictedForce => &["predicted_force"],
-            Needs::MeanForce | Needs::Mass | Needs::LateMass => &["mean_force"],
-            Needs::Force => &[],
+            Requirements::PredictedForce => &["predicted_force"],
+            Requirements::MeanForce | Requirements::Mass | Requirements::JacobiMass => &["mean_force"],
+            Requirements::Force => &[],
         };
         edits.extend([Edit::of(&["fmu", "outputs"], json!(outputs)), Edit::of(&["fmu", "parameters"], Value::Null)]);
         if way.needs.knows_mass() {
@@ -186,7 +188,7 @@ fn edited(asked: &Asked, scene: &Scene, way: &Way) -> Result<String, Refused> {
         } else if is_listed {
             edits.extend((0..tables).map(|index| Edit::of_contact(index, "effective_mass", Value::Null)));
         }
-        if way.needs == Needs::LateMass {
+        if way.needs == Requirements::JacobiMass {
             edits.push(Edit::of(&["coupling", "master"], json!("parallel")));
         }
     }
@@ -346,7 +348,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn follow(mut self, way: &Way, (step, end): (f64, f64)) -> Seen {
+    fn follow(mut self, way: &CouplingMethod, (step, end): (f64, f64)) -> Seen {
         let steps = (end / step).ceil() as usize;
         let every = steps.div_ceil(MOMENTS).max(1);
         let mut largest: f64 = 0.0;
@@ -392,7 +394,7 @@ impl Run<'_> {
     }
 
     /// A step of all contacts and their bodies.
-    fn step(&mut self, way: &Way, time: f64, step: f64) -> Result<(), Fault> {
+    fn step(&mut self, way: &CouplingMethod, time: f64, step: f64) -> Result<(), Fault> {
         if let Some(shared) = &self.shared {
             return shared.step(self.units[0], &mut self.bodies, self.has_input, (time, step));
         }

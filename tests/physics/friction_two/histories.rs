@@ -3,7 +3,7 @@
 use crate::friction::hertz;
 use crate::physics::Random;
 use brinell_contact::Segment;
-use brinell_contact::tangential::{Motion, Stuck};
+use brinell_contact::tangential::{Motion, PlayOperator};
 use std::f64::consts::PI;
 
 pub const MODULUS: f64 = 2e11;
@@ -86,13 +86,13 @@ pub fn circles(seed: u64, length: usize) -> Vec<Step> {
 #[derive(Clone, Copy)]
 pub struct Run<const N: usize> {
     pub curve: Segment,
-    pub stuck: Stuck<2, N>,
+    pub stuck: PlayOperator<2, N>,
     pub indentation: f64,
 }
 
 impl<const N: usize> Run<N> {
     pub fn new() -> Run<N> {
-        Run { curve: hertz(MODULUS, RADIUS), stuck: Stuck::APART, indentation: 0.0 }
+        Run { curve: hertz(MODULUS, RADIUS), stuck: PlayOperator::APART, indentation: 0.0 }
     }
 
     pub fn step(&mut self, (rise, shift): Step) {

@@ -5,7 +5,7 @@ use crate::behaviour::Contact;
 use crate::loading::Loading;
 use crate::material::YieldPoint;
 use crate::numbers::largest;
-use crate::path::Course;
+use crate::path::RatePolynomial;
 use crate::segment::Segment;
 use crate::unloading::Unloading;
 use crate::validity::largest_radius;
@@ -45,7 +45,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     #[inline]
     fn step<B: Borrow<Model<L, U>>>(
         &mut self,
-        course: &Course,
+        course: &RatePolynomial,
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<f64, TooDeep> {
@@ -62,7 +62,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
 
     fn step_with_mean_force<B: Borrow<Model<L, U>>>(
         &mut self,
-        course: &Course,
+        course: &RatePolynomial,
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<(f64, f64), TooDeep> {
@@ -88,7 +88,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     }
 
     fn mean_force(&self, model: &Model<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {
-        Ok(momentum::impulse_by_pieces(self, model, &Course::held(rate), step)? / step)
+        Ok(momentum::impulse_by_pieces(self, model, &RatePolynomial::held(rate), step)? / step)
     }
 
     /// Ends the present branch at `depth` if it extends beyond. A step that reaches this depth then evaluates its branch again.

@@ -5,7 +5,7 @@ use crate::Model;
 use crate::loading::Loading;
 use crate::numbers::{largest, smallest};
 use crate::panel::impulse_on;
-use crate::path::Course;
+use crate::path::RatePolynomial;
 use crate::segment::Segment;
 use crate::unloading::Unloading;
 use core::borrow::Borrow;
@@ -14,8 +14,8 @@ use core::borrow::Borrow;
 const MOST_BRANCHES: u32 = 100;
 
 /// Progress through a step.
-struct Way<'a> {
-    course: &'a Course,
+struct Progress<'a> {
+    course: &'a RatePolynomial,
     /// Indentation at the start of the step \[m\].
     start: f64,
     /// Time since then \[s\].
@@ -26,7 +26,7 @@ struct Way<'a> {
     impulse: f64,
 }
 
-impl Way<'_> {
+impl Progress<'_> {
     /// Goes on along `segment`, to `indentation` \[m\] at the time `end` \[s\].
     fn go_along(&mut self, segment: &Segment, end: f64, indentation: f64) {
         let from = (self.time, self.indentation);
@@ -52,12 +52,12 @@ impl History {
     #[inline(never)]
     pub(crate) fn advance_along<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,
-        course: &Course,
+        course: &RatePolynomial,
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<(f64, f64), TooDeep> {
         let start = self.indentation();
-        let mut way = Way { course, start, time: 0.0, indentation: start, impulse: 0.0 };
+        let mut way = Progress { course, start, time: 0.0, indentation: start, impulse: 0.0 };
         let (mut moved, mut deepest, mut from) = (*self, 0.0, 0.0);
         for end in course.monotone_ends(step) {
             let to = course.way(end);
@@ -78,7 +78,7 @@ impl History {
     #[inline(never)]
     fn rise<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,
-        way: &mut Way<'_>,
+        way: &mut Progress<'_>,
         end: f64,
         increment: f64,
         model: impl Fn() -> B,
@@ -104,7 +104,7 @@ impl History {
     #[inline(never)]
     fn fall<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,
-        way: &mut Way<'_>,
+        way: &mut Progress<'_>,
         end: f64,
         increment: f64,
         model: impl Fn() -> B,

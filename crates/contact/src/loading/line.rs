@@ -236,7 +236,7 @@ struct Point {
 }
 
 /// Both bodies of a pair.
-struct Bodies {
+struct LinePair {
     both: [Body; 2],
     radius: f64,
     modulus: f64,
@@ -244,8 +244,8 @@ struct Bodies {
     length: f64,
 }
 
-impl Bodies {
-    fn of(law: &Line, pair: &Pair) -> Bodies {
+impl LinePair {
+    fn of(law: &Line, pair: &Pair) -> LinePair {
         let Line { bodies, is_impactor, .. } = *law;
         let impactor = (law.impactor_reach, law.impactor_tension);
         let target = (law.target_reach, law.target_tension);
@@ -266,7 +266,7 @@ impl Bodies {
             one.pressure = smallest(one.pressure, WIDEST * pair.modulus);
         }
         let both = if two.pressure < one.pressure { [two, one] } else { [one, two] };
-        Bodies { both, radius: pair.radius, modulus: pair.modulus, length: law.length * pair.radius }
+        LinePair { both, radius: pair.radius, modulus: pair.modulus, length: law.length * pair.radius }
     }
 
     /// The parts of the bodies in the elastic compliance.
@@ -382,7 +382,7 @@ impl Curve {
     /// The curve of a pair, up to a knot beyond this indentation \[m\].
     #[inline(never)]
     fn of(law: &Line, pair: &Pair, to: f64) -> Curve {
-        let bodies = Bodies::of(law, pair);
+        let bodies = LinePair::of(law, pair);
         let elastic = bodies.elastic();
         let yields_at = elastic.recovery();
         let mut curve = Curve { pair: *pair, ..Curve::NONE };
@@ -485,7 +485,7 @@ impl Line {
     /// tension.
     pub fn of_constant(length: f64, constant: f64, pair: &Pair, bodies: TwoBodies, is_impactor: bool) -> Line {
         let unit = Line::new(length, [1.0, 0.0], [1.0, 0.0]);
-        let [first, _] = Bodies::of(&unit.along(bodies, is_impactor), pair).both;
+        let [first, _] = LinePair::of(&unit.along(bodies, is_impactor), pair).both;
         // in units of the radius
         let reach = 2.0 * (first.pressure / pair.modulus) * exp(0.5 * constant);
         Line::new(length, [reach, 0.0], [reach, 0.0])
@@ -499,12 +499,12 @@ impl Line {
 
     /// `C`: the elastic compliance at first yield.
     pub fn constant(&self, pair: &Pair) -> f64 {
-        Bodies::of(self, pair).elastic().compliance + 1.0
+        LinePair::of(self, pair).elastic().compliance + 1.0
     }
 
     /// The size of the smaller elastic body \[m\]: about half its reach.
     pub fn size(&self, pair: &Pair) -> f64 {
-        let bodies = Bodies::of(self, pair);
+        let bodies = LinePair::of(self, pair);
         let elastic = bodies.both.iter().zip(bodies.parts()).filter(|(_, part)| *part > 0.0);
         elastic.fold(f64::INFINITY, |least, (body, _)| smallest(least, 0.5 * body.reach))
     }
@@ -519,7 +519,7 @@ impl Line {
     fn width_at(&self, pair: &Pair, indentation: f64) -> f64 {
         let force = self.segment(pair, indentation).force(indentation);
         let width = self.on(pair, indentation, |curve| curve.width(curve.place(indentation)?, force));
-        width.unwrap_or_else(|| Bodies::of(self, pair).elastic_width(force))
+        width.unwrap_or_else(|| LinePair::of(self, pair).elastic_width(force))
     }
 }
 
@@ -538,7 +538,7 @@ impl Loading for Line {
     }
 
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
-        let elastic = Bodies::of(self, pair).elastic();
+        let elastic = LinePair::of(self, pair).elastic();
         YieldPoint { indentation: elastic.recovery(), force: elastic.force }
     }
 
@@ -546,13 +546,13 @@ impl Loading for Line {
         if let Some(piece) = self.on(pair, indentation, |curve| curve.piece(curve.place(indentation)?)) {
             return piece;
         }
-        let elastic = Bodies::of(self, pair).elastic();
+        let elastic = LinePair::of(self, pair).elastic();
         elastic.segment(indentation, 0.0, elastic.recovery())
     }
 
     /// A spring that is as stiff as the contact at first yield: the logarithm hardly changes its stiffness.
     fn scale(&self, pair: &Pair) -> Segment {
-        let elastic = Bodies::of(self, pair).elastic();
+        let elastic = LinePair::of(self, pair).elastic();
         let linear = elastic.force / (elastic.scale * elastic.compliance);
         Segment { upper: LARGEST_INDENTATION, linear, ..Segment::NOTHING }
     }
@@ -563,7 +563,7 @@ impl Loading for Line {
             Some(curve.rows(place)?.0.work + curve.piece(place)?.work(indentation))
         });
         plastic.unwrap_or_else(|| {
-            let elastic = Bodies::of(self, pair).elastic();
+            let elastic = LinePair::of(self, pair).elastic();
             elastic.work(indentation, elastic.recovery())
         })
     }
@@ -594,7 +594,7 @@ impl Loading for Line {
         force: f64,
         _recovery: &RecoveryOf<'_>,
     ) -> (f64, Recovery) {
-        let (bodies, width) = (Bodies::of(self, pair), self.width_at(pair, indentation));
+        let (bodies, width) = (LinePair::of(self, pair), self.width_at(pair, indentation));
         (width, Recovery { factor: bodies.compliance(width), difference: bodies.shape(force) })
     }
 

@@ -1,6 +1,6 @@
 //! The law `brinell` for any two bodies: an elastic partner, two that yield, hardening, any Poisson's ratio.
 
-use super::table::{Course, End, Sample, Slow, Table};
+use super::table::{End, Interpolant, Sample, Slow, Table};
 use super::{Brinell, Loading, MOST_SEGMENTS, RecoveryOf, hertz};
 use crate::material::{Pair, YieldPoint};
 use crate::numbers::{largest, smallest};
@@ -230,7 +230,7 @@ impl Curve<'_> {
             (begin, Some(end)) => {
                 let middle = self.middle(&begin, &end, recovery);
                 let [begin, end] = [begin, end].map(|knot| self.end(pair, &knot, recovery));
-                Course::through(&begin, middle, &end).at(sqrt(indentation))
+                Interpolant::through(&begin, middle, &end).at(sqrt(indentation))
             }
             (last, None) => {
                 let force = beyond(&last).force(indentation) / (self.radius * self.radius);

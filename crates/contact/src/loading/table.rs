@@ -76,17 +76,17 @@ impl End {
 /// The slow numbers on a piece, over the root of the indentation: cubics by the values and slopes at both ends, and terms of fourth order by
 /// a point between them.
 #[derive(Clone, Copy)]
-pub(super) struct Course<'a> {
+pub(super) struct Interpolant<'a> {
     begin: &'a End,
     end: &'a End,
     bumps: Numbers,
 }
 
-impl<'a> Course<'a> {
+impl<'a> Interpolant<'a> {
     /// The course from one end to the other through the point in the `middle`.
     #[inline(never)]
-    pub fn through(begin: &'a End, middle: Option<Sample>, end: &'a End) -> Course<'a> {
-        let course = Course { begin, end, bumps: [0.0; SLOW] };
+    pub fn through(begin: &'a End, middle: Option<Sample>, end: &'a End) -> Interpolant<'a> {
+        let course = Interpolant { begin, end, bumps: [0.0; SLOW] };
         let Some((root, slow)) = middle else { return course };
         let (plain, mut bumps) = (course.at(root), slow.numbers());
         let part = (root - begin.root) / (end.root - begin.root);
@@ -94,13 +94,13 @@ impl<'a> Course<'a> {
         for (bump, value) in bumps.iter_mut().zip(plain.numbers()) {
             *bump = quotient(*bump - value, inner * inner, inner > 0.0, 0.0);
         }
-        Course { bumps, ..course }
+        Interpolant { bumps, ..course }
     }
 
     /// The slow numbers at a `root` of the indentation \[m^0.5\].
     #[inline(never)]
     pub fn at(&self, root: f64) -> Slow {
-        let Course { begin, end, bumps } = self;
+        let Interpolant { begin, end, bumps } = self;
         let length = end.root - begin.root;
         let part = (root - begin.root) / length;
         let rest = 1.0 - part;
@@ -209,7 +209,7 @@ impl Table {
             let ends = table.rows.map(|row| row.end);
             for ((row, next), middle) in table.rows.iter_mut().zip(ends.iter().skip(1)).zip(middles).take(table.pieces)
             {
-                row.bumps = Course::through(&row.end, middle, next).bumps;
+                row.bumps = Interpolant::through(&row.end, middle, next).bumps;
             }
         }
         table
@@ -252,6 +252,6 @@ impl Table {
     /// The slow numbers at `indentation` \[m\]; `None` outside of the table.
     pub fn slow(&self, pair: &Pair, indentation: f64) -> Option<Slow> {
         let (row, next) = self.row(pair, indentation).filter(|_| self.has_slow)?;
-        Some(Course { begin: &row.end, end: &next.end, bumps: row.bumps }.at(sqrt(indentation)))
+        Some(Interpolant { begin: &row.end, end: &next.end, bumps: row.bumps }.at(sqrt(indentation)))
     }
 }

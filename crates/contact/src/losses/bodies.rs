@@ -3,7 +3,7 @@
 use super::history::History;
 use super::{Loss, Model};
 use crate::loading::Loading;
-use crate::motion::{Drive, NoMotion, Outcome};
+use crate::motion::{ExternalLoad, NoMotion, Outcome};
 use crate::numbers::largest;
 use crate::regime::TooDeep;
 use crate::shared::{self, InverseMasses, Refused, SharedContact, Work};
@@ -38,14 +38,14 @@ pub(super) fn alone<M, C: SharedContact<M>>(
 pub fn follow<C: SharedContact<M>, M>(
     contact: &mut C,
     model: &M,
-    drive: &Drive,
+    load: &ExternalLoad,
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
-    let inverse_mass = 1.0 / drive.mass;
-    let (speed, evaluations, work) = alone(contact, model, (inverse_mass, drive.acceleration, speed), step)?;
-    let taken = largest(work.impulse() * inverse_mass, 0.0);
-    Ok(Outcome { speed, taken, evaluations, deepest: work.deepest() })
+    let inverse_mass = 1.0 / load.mass;
+    let (speed, evaluations, work) = alone(contact, model, (inverse_mass, load.acceleration, speed), step)?;
+    let speed_removed = largest(work.impulse() * inverse_mass, 0.0);
+    Ok(Outcome { speed, speed_removed, evaluations, deepest: work.deepest() })
 }
 
 /// Moves the contact on a plate through `step` \[s\] of bodies that close at `rate` \[m/s\], whatever the force. Returns its impulse

@@ -63,7 +63,7 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
     }
     let mut contact = History::start(model, 0.0).ok()?;
     contact.swiftest = speed;
-    let mut bodies = Bodies { contact, model, inverse_mass: 1.0 / mass, speed, time: 0.0, deepest: 0.0 };
+    let mut bodies = DampedImpact { contact, model, inverse_mass: 1.0 / mass, speed, time: 0.0, deepest: 0.0 };
     let depth = depth_of(model, energy);
     let mut part = depth / speed / PARTS;
     let (many, growth) = MANY;
@@ -125,7 +125,7 @@ fn depth_of<L: Loading, U, K>(model: &Model<L, U, K>, energy: f64) -> f64 {
 }
 
 /// The bodies at an instant of their impact.
-struct Bodies<'a, L, U, K> {
+struct DampedImpact<'a, L, U, K> {
     contact: History<K>,
     model: &'a Model<L, U, K>,
     inverse_mass: f64,
@@ -137,15 +137,15 @@ struct Bodies<'a, L, U, K> {
     deepest: f64,
 }
 
-impl<L, U, K: Copy> Clone for Bodies<'_, L, U, K> {
+impl<L, U, K: Copy> Clone for DampedImpact<'_, L, U, K> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<L, U, K: Copy> Copy for Bodies<'_, L, U, K> {}
+impl<L, U, K: Copy> Copy for DampedImpact<'_, L, U, K> {}
 
-impl<L: Loading, U: Unloading, K: Loss> Bodies<'_, L, U, K> {
+impl<L: Loading, U: Unloading, K: Loss> DampedImpact<'_, L, U, K> {
     /// The bodies `time` \[s\] later; `None` beyond the range of the law.
     fn after(&self, time: f64) -> Option<Self> {
         let mut next = *self;
@@ -158,7 +158,7 @@ impl<L: Loading, U: Unloading, K: Loss> Bodies<'_, L, U, K> {
     }
 
     fn state(&self) -> State<K> {
-        let Bodies { time, speed, contact, .. } = *self;
+        let DampedImpact { time, speed, contact, .. } = *self;
         State { time, indentation: contact.plastic.indentation(), speed, contact }
     }
 

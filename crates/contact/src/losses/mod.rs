@@ -2,8 +2,8 @@
 //!
 //! | loss | force | parameter |
 //! |---|---|---|
-//! | [`Fitted`] | `F = F_s (1 + chi v/v0)` | a coefficient of restitution |
-//! | [`Waves`] | `F = F_s + kappa K_s^2 v` | density and moduli of the target: a half-space |
+//! | [`RestitutionFitted`] | `F = F_s (1 + chi v/v0)` | a coefficient of restitution |
+//! | [`HalfSpaceRadiation`] | `F = F_s + kappa K_s^2 v` | density and moduli of the target: a half-space |
 //! | [`Plate`] | `F = F_s`, but the target yields at the speed `alpha F` | density, moduli and thickness of the target |
 //! | [`Damper`] | that of a [rate-dependent law](super::damped), on an elastic contact | those of the law |
 //!
@@ -168,12 +168,12 @@ pub struct Solid {
 ///
 /// Reference: K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440-445.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fitted {
+pub struct RestitutionFitted {
     /// Coefficient of restitution without yield, from 0.001 to 1.
     pub restitution: f64,
 }
 
-impl Loss for Fitted {
+impl Loss for RestitutionFitted {
     const FOLLOWS_RATE: bool = true;
 
     #[inline(always)]
@@ -200,7 +200,7 @@ impl Loss for Fitted {
 /// Reference: G. F. Miller, H. Pursey, *Proc. R. Soc. A* 223 (1954) 521-541, for the radiation; S. C. Hunter, *J. Mech.
 /// Phys. Solids* 5 (1957) 162-171, and J. Reed, *J. Phys. D* 18 (1985) 2329-2337, for the impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Waves {
+pub struct HalfSpaceRadiation {
     /// The half-space.
     pub target: Solid,
 }
@@ -208,7 +208,7 @@ pub struct Waves {
 /// The coefficients of `Q(nu)`, from `data/fit/fit_waves.py`.
 const RADIATION: [f64; 6] = [0.213974, -0.297563, 0.120823, 0.045239, 0.040769, 0.017964];
 
-impl Loss for Waves {
+impl Loss for HalfSpaceRadiation {
     const FOLLOWS_RATE: bool = true;
 
     #[inline(always)]
@@ -287,10 +287,10 @@ impl Loss for Damper {
 pub enum AnyLoss {
     /// [`Damper`].
     Damper(Damper),
-    /// [`Fitted`].
-    Fitted(Fitted),
-    /// [`Waves`].
-    Waves(Waves),
+    /// [`RestitutionFitted`].
+    RestitutionFitted(RestitutionFitted),
+    /// [`HalfSpaceRadiation`].
+    HalfSpaceRadiation(HalfSpaceRadiation),
     /// [`Plate`].
     Plate(Plate),
 }
@@ -301,8 +301,8 @@ impl Loss for AnyLoss {
     fn form(&self) -> Form {
         match self {
             AnyLoss::Damper(loss) => loss.form(),
-            AnyLoss::Fitted(loss) => loss.form(),
-            AnyLoss::Waves(loss) => loss.form(),
+            AnyLoss::RestitutionFitted(loss) => loss.form(),
+            AnyLoss::HalfSpaceRadiation(loss) => loss.form(),
             AnyLoss::Plate(loss) => loss.form(),
         }
     }
@@ -310,8 +310,8 @@ impl Loss for AnyLoss {
     fn is_scaled_by_touch(&self) -> bool {
         match self {
             AnyLoss::Damper(loss) => loss.is_scaled_by_touch(),
-            AnyLoss::Fitted(loss) => loss.is_scaled_by_touch(),
-            AnyLoss::Waves(loss) => loss.is_scaled_by_touch(),
+            AnyLoss::RestitutionFitted(loss) => loss.is_scaled_by_touch(),
+            AnyLoss::HalfSpaceRadiation(loss) => loss.is_scaled_by_touch(),
             AnyLoss::Plate(loss) => loss.is_scaled_by_touch(),
         }
     }
@@ -319,8 +319,8 @@ impl Loss for AnyLoss {
     fn factor(&self) -> f64 {
         match self {
             AnyLoss::Damper(loss) => loss.factor(),
-            AnyLoss::Fitted(loss) => loss.factor(),
-            AnyLoss::Waves(loss) => loss.factor(),
+            AnyLoss::RestitutionFitted(loss) => loss.factor(),
+            AnyLoss::HalfSpaceRadiation(loss) => loss.factor(),
             AnyLoss::Plate(loss) => loss.factor(),
         }
     }

@@ -1,16 +1,16 @@
 //! The motion of bodies of known mass under the contact force.
 //!
 //! An impact takes some tens of microseconds, a step of a multibody tool about a millisecond. This module solves
-//! `m x'' = m a - F(x)` within the step, however many times the bodies touch in it: from event to event (`bodies`), in flight
+//! `m x'' = m a - F(x)` within the step, however many times the bodies touch in it: from event to event (`integrator`), in flight
 //! (`flight`) and on the smooth pieces of the law (`stretch`). There is no time stepping: between two events, the speed is a
 //! function of the position (`field`, `turning`), and the time is an integral over the position (`travel`). A `short` motion on
 //! one segment needs no integral: it is a sine and a cosine on a `line`, and a power series in time on a `curve`.
 
-mod bodies;
 mod curve;
 mod field;
 mod fit;
 pub(crate) mod flight;
+mod integrator;
 mod line;
 mod moment;
 mod moments;
@@ -27,15 +27,15 @@ use super::loading::Loading;
 use super::numbers::largest;
 use super::regime::{Regime, TooDeep};
 use super::unloading::Unloading;
-use bodies::Bodies;
 use core::borrow::Borrow;
 use field::Start;
 use field::{Ended, Stretch};
 use flight::Flight;
+use integrator::Integrator;
 
 /// The inputs of the motion of the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drive {
+pub struct ExternalLoad {
     /// Effective mass \[kg\] > 0: `1/m = 1/m1 + 1/m2`.
     pub mass: f64,
     /// Closing acceleration by all forces except the contact force \[m/s^2\], constant over the step.
@@ -49,7 +49,7 @@ pub struct Outcome {
     pub speed: f64,
     /// Closing speed removed by the contact force \[m/s\]: its impulse over the mass. It is zero without contact, and never
     /// negative.
-    pub taken: f64,
+    pub speed_removed: f64,
     /// Number of evaluations of the force of a segment or of its work. An evaluation of a law without segments counts as ten.
     pub evaluations: u32,
     /// The largest indentation during the step \[m\], which a fresh surface forgets.
@@ -57,7 +57,7 @@ pub struct Outcome {
 }
 
 /// The type of [`follow`] for the history and the model of a scene.
-pub type Follow<H, M> = fn(&mut H, &M, &Drive, f64, f64) -> Result<Outcome, NoMotion>;
+pub type Follow<H, M> = fn(&mut H, &M, &ExternalLoad, f64, f64) -> Result<Outcome, NoMotion>;
 
 /// The reason why a step could not be computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -162,28 +162,28 @@ impl<L: Loading, U: Unloading> PlasticContact<Model<L, U>> for History {
 pub fn follow<C: PlasticContact<M>, M>(
     contact: &mut C,
     model: &M,
-    drive: &Drive,
+    load: &ExternalLoad,
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
-    if let Some(outcome) = at_once(contact.plastic_mut(), drive, speed, step) {
+    if let Some(outcome) = at_once(contact.plastic_mut(), load, speed, step) {
         return Ok(outcome);
     }
-    let mut whole = Outcome { speed, taken: 0.0, evaluations: 0, deepest: 0.0 };
+    let mut whole = Outcome { speed, speed_removed: 0.0, evaluations: 0, deepest: 0.0 };
     let (mut left, mut plastic, mut known) = (step, contact.plastic_model(model), *contact);
     for _ in 0..MOST_IMPACTS {
-        let mut bodies = Bodies::new(contact.plastic_mut(), plastic.borrow(), drive, whole.speed, left)?;
-        let is_new = |speed: f64| known.is_new(&Impact { mass: drive.mass, speed });
+        let mut bodies = Integrator::new(contact.plastic_mut(), plastic.borrow(), load, whole.speed, left)?;
+        let is_new = |speed: f64| known.is_new(&Impact { mass: load.mass, speed });
         let mut touch = bodies.before_touch(is_new);
         while touch.is_none() && bodies.go_on()? {
             touch = bodies.before_touch(is_new);
         }
-        let Outcome { speed, taken, evaluations, deepest } = bodies.stop()?;
-        whole.taken += taken;
+        let Outcome { speed, speed_removed, evaluations, deepest } = bodies.stop()?;
+        whole.speed_removed += speed_removed;
         whole.evaluations = whole.evaluations.saturating_add(evaluations);
         (whole.speed, whole.deepest) = (speed, largest(whole.deepest, deepest));
         let Some((speed, rest)) = touch else { return Ok(whole) };
-        let (found, spent) = contact.strengthen(model, &Impact { mass: drive.mass, speed })?;
+        let (found, spent) = contact.strengthen(model, &Impact { mass: load.mass, speed })?;
         whole.evaluations = whole.evaluations.saturating_add(spent);
         if whole.evaluations > MOST_EVALUATIONS {
             break;
@@ -196,12 +196,12 @@ pub fn follow<C: PlasticContact<M>, M>(
 /// The time \[s\] from the touch of an untouched surface to the largest indentation; `None` if it is not shorter than `longest` \[s\].
 pub(crate) fn time_to_turn<L: Loading, U: Unloading>(
     model: &Model<L, U>,
-    drive: &Drive,
+    load: &ExternalLoad,
     speed: f64,
     longest: f64,
 ) -> Option<f64> {
     let mut history = History::start(model, 0.0).ok()?;
-    let mut bodies = Bodies::new(&mut history, model, drive, speed, longest).ok()?;
+    let mut bodies = Integrator::new(&mut history, model, load, speed, longest).ok()?;
     while bodies.go_on().ok()? {
         if let Some(left) = bodies.after_turn() {
             return Some(longest - left);
@@ -211,8 +211,8 @@ pub(crate) fn time_to_turn<L: Loading, U: Unloading>(
 }
 
 /// The step of bodies that stay in flight or on one branch of the law, if it is short. Otherwise it changes nothing.
-pub(crate) fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f64) -> Option<Outcome> {
-    let Drive { mass, acceleration } = *drive;
+pub(crate) fn at_once(history: &mut History, load: &ExternalLoad, speed: f64, time: f64) -> Option<Outcome> {
+    let ExternalLoad { mass, acceleration } = *load;
     let indentation = history.indentation();
     if history.regime() == Regime::Apart {
         let flight = Flight { speed, acceleration };
@@ -220,7 +220,7 @@ pub(crate) fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f6
         // if the bodies turn, the turning point is farther than the end
         let done = speed * end >= 0.0 && history.advance_on_branch(flight.way(time));
         let deepest = history.max_indentation();
-        return done.then_some(Outcome { speed: end, taken: 0.0, evaluations: 0, deepest });
+        return done.then_some(Outcome { speed: end, speed_removed: 0.0, evaluations: 0, deepest });
     }
     let (segment, is_loading) = (history.branch(), history.is_loading());
     let inverse_mass = 1.0 / mass;
@@ -236,6 +236,6 @@ pub(crate) fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f6
     let (Stretch { way, speed: end, gain, ended, .. }, evaluations) =
         short::stretch(segment, &start, sign, bound, false)?;
     let done = ended == Ended::WithStep && history.advance_on_branch(way);
-    let taken = largest(acceleration * time - gain, 0.0);
-    done.then_some(Outcome { speed: end, taken, evaluations, deepest: history.max_indentation() })
+    let speed_removed = largest(acceleration * time - gain, 0.0);
+    done.then_some(Outcome { speed: end, speed_removed, evaluations, deepest: history.max_indentation() })
 }

@@ -4,7 +4,7 @@ use super::{Factors, History, Model, Slow, are_factors};
 use crate::behaviour::Contact;
 use crate::impact::Impact;
 use crate::motion::PlasticContact;
-use crate::path::Course;
+use crate::path::RatePolynomial;
 use crate::regime::{Regime, TooDeep};
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
@@ -54,7 +54,12 @@ impl<M: Slow, C: Contact<M> + PlasticContact<M>> Contact<Model<M>> for History<C
         Contact::<M>::short_step(&mut self.contact, increment)
     }
 
-    fn step<B: Borrow<Model<M>>>(&mut self, course: &Course, step: f64, model: impl Fn() -> B) -> Result<f64, TooDeep> {
+    fn step<B: Borrow<Model<M>>>(
+        &mut self,
+        course: &RatePolynomial,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<f64, TooDeep> {
         let factors = self.factors;
         self.contact.step(course, step, || model().borrow().at(factors))
     }

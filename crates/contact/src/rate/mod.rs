@@ -16,7 +16,7 @@ pub use history::History;
 use super::impact::{self, Impact, Prediction};
 use super::loading::Loading;
 use super::losses;
-use super::motion::{Drive, time_to_turn};
+use super::motion::{ExternalLoad, time_to_turn};
 use super::numbers::{largest, quotient};
 use super::unloading::Unloading;
 use crate::Pair;
@@ -370,7 +370,7 @@ impl<M: Slow> Model<M> {
             let (_, deepest) = impact::turning_point(&model, impact)?;
             // with a constant force it would be twice as long as without any
             let longest = 4.0 * deepest / speed;
-            let loading_time = time_to_turn(&model, &Drive { mass, acceleration: 0.0 }, speed, longest)?;
+            let loading_time = time_to_turn(&model, &ExternalLoad { mass, acceleration: 0.0 }, speed, longest)?;
             let (radius, share) = model.loading.width(&model.pair, deepest);
             Some((loading_time, strains_of(radius / model.pair.radius, share)))
         })

@@ -42,8 +42,8 @@
 //! pressed.
 //!
 //! # Rest
-//! Bodies come to rest with a [fitted](crate::losses::Fitted) loss, as fast as it damps a lasting contact. The
-//! [waves](crate::losses::Waves) alone take minutes for it; on a plate the bodies sink on at the rate at which it gives way;
+//! Bodies come to rest with a [fitted](crate::losses::RestitutionFitted) loss, as fast as it damps a lasting contact. The
+//! [waves](crate::losses::HalfSpaceRadiation) alone take minutes for it; on a plate the bodies sink on at the rate at which it gives way;
 //! without a loss they bounce for ever. The fitted loss also damps the swing of contacts that stick.
 //!
 //! # Limits
@@ -97,7 +97,7 @@ use crate::Model;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
-use crate::motion::{self, Drive, NoMotion, PlasticContact};
+use crate::motion::{self, ExternalLoad, NoMotion, PlasticContact};
 use crate::numbers::largest;
 use crate::regime::TooDeep;
 use crate::segment::Segment;
@@ -263,14 +263,14 @@ fn follow_alone<C: SharedContact<M>, M>(member: &mut Work<C>, model: &M, step: f
     let Work { acceleration, inverse_mass, .. } = *member;
     let [before, rate, ..] = member.now.numbers;
     let mass = 1.0 / inverse_mass;
-    let drive = Drive { mass, acceleration };
-    let motion::Outcome { speed, taken, evaluations, deepest } =
-        motion::follow(&mut member.contact, model, &drive, rate, step)?;
+    let load = ExternalLoad { mass, acceleration };
+    let motion::Outcome { speed, speed_removed, evaluations, deepest } =
+        motion::follow(&mut member.contact, model, &load, rate, step)?;
     let after = member.contact.plastic().indentation();
     // what the force has kept the bodies from coming closer
     let kept = step * (rate + 0.5 * acceleration * step) - (after - before);
-    let moment = if taken > 0.0 { mass * largest(kept, 0.0) } else { 0.0 };
-    member.now.numbers = [after, speed, mass * taken, moment];
+    let moment = if speed_removed > 0.0 { mass * largest(kept, 0.0) } else { 0.0 };
+    member.now.numbers = [after, speed, mass * speed_removed, moment];
     member.deepest = deepest;
     Ok(evaluations)
 }

@@ -3,21 +3,21 @@
 use super::contact::is_share;
 use super::parts::{MOST_PARTS, ends_of_parts, next_of};
 use super::vector::{add, dot};
-use super::{Mean, Normal, Quantity, Rough, RoughModel, Sliding, SpringsOf};
+use super::{Frictional, FrictionalModel, Mean, Normal, Quantity, Sliding, SpringsOf};
 use crate::Model;
 use crate::behaviour::{Contact, slopes};
 use crate::history::History;
 use crate::loading::Loading;
 use crate::material::YieldPoint;
 use crate::numbers::largest;
-use crate::path::{Course, Sum};
+use crate::path::{RatePolynomial, Sum};
 use crate::regime::{Regime, TooDeep};
 use crate::unloading::Unloading;
 use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
 impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
-    Contact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
+    Contact<FrictionalModel<L, U, N::Loss>> for Frictional<D, M, MEAN, N>
 {
     const FOLLOWS_RATE: bool = N::FOLLOWS_RATE;
     const DERIVATIVES: i32 = N::DERIVATIVES;
@@ -28,23 +28,33 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
     /// Where the contact begins to yield.
     type Kept = YieldPoint;
 
-    fn kept(model: &RoughModel<L, U, N::Loss>) -> YieldPoint {
+    fn kept(model: &FrictionalModel<L, U, N::Loss>) -> YieldPoint {
         model.normal.yield_point()
     }
 
     fn prepared(
-        model: RoughModel<L, U, N::Loss>,
-        before: Option<&RoughModel<L, U, N::Loss>>,
-    ) -> RoughModel<L, U, N::Loss> {
-        RoughModel { normal: model.normal.prepared_after(before.map(|before| &before.normal)), ..model }
+        model: FrictionalModel<L, U, N::Loss>,
+        before: Option<&FrictionalModel<L, U, N::Loss>>,
+    ) -> FrictionalModel<L, U, N::Loss> {
+        FrictionalModel { normal: model.normal.prepared_after(before.map(|before| &before.normal)), ..model }
     }
 
-    fn start(model: &RoughModel<L, U, N::Loss>, gap: f64) -> Result<Self, TooDeep> {
+    fn start(model: &FrictionalModel<L, U, N::Loss>, gap: f64) -> Result<Self, TooDeep> {
         let normal = N::start(&model.normal, &model.loss, gap)?;
         let springs = SpringsOf::start(model, normal.plastic());
-        let (none, courses) = (Sum::new(0.0), [Course::held(0.0); D]);
+        let (none, courses) = (Sum::new(0.0), [RatePolynomial::held(0.0); D]);
         let (mean_force, impulse) = ([0.0; D], [none; D]);
-        Ok(Rough { normal, springs, share: 1.0, courses, ends: courses, mean_force, impulse, work: none, lost: 0.0 })
+        Ok(Frictional {
+            normal,
+            springs,
+            share: 1.0,
+            courses,
+            ends: courses,
+            mean_force,
+            impulse,
+            work: none,
+            lost: 0.0,
+        })
     }
 
     /// Always false: the springs follow each step.
@@ -61,16 +71,16 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
     ///
     /// A course with a changing rate is divided where springs may begin to stick or to slip. Each part counts as
     /// straight. Slip is then exact at the end of a part; stick is of second order in the length of the part.
-    fn step<B: Borrow<RoughModel<L, U, N::Loss>>>(
+    fn step<B: Borrow<FrictionalModel<L, U, N::Loss>>>(
         &mut self,
-        course: &Course,
+        course: &RatePolynomial,
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<f64, TooDeep> {
         let model = model();
         let model = model.borrow();
         let tangential = self.courses;
-        let is_held = course.is_held() && tangential.iter().all(Course::is_held);
+        let is_held = course.is_held() && tangential.iter().all(RatePolynomial::is_held);
         let ends = match is_held {
             true => [step; MOST_PARTS],
             false => ends_of_parts(course, &tangential, model.friction.scale(), step),
@@ -83,7 +93,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         let (mut impulse, mut work) = ([0.0; D], 0.0);
         for _ in 0..MOST_PARTS {
             let Some(end) = next_of(&ends, start) else { break };
-            let way = |course: &Course| course.way(end) - course.way(start);
+            let way = |course: &RatePolynomial| course.way(end) - course.way(start);
             let (increment, slip) = (way(course), tangential.map(|course| way(&course)));
             // within a divided step the ratio of the held rates is the same to the last bit
             let rates = if is_held { (course.rate, tangential.map(|course| course.rate)) } else { (increment, slip) };
@@ -108,15 +118,15 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
             }
             moved.work = moved.work.plus(work);
         }
-        moved.courses = tangential.map(|course| Course::held(course.rate));
-        moved.ends = tangential.map(|course| Course { bend: 0.0, ..course.after(step) });
+        moved.courses = tangential.map(|course| RatePolynomial::held(course.rate));
+        moved.ends = tangential.map(|course| RatePolynomial { bend: 0.0, ..course.after(step) });
         *self = moved;
         Ok(deepest)
     }
 
-    fn step_with_mean_force<B: Borrow<RoughModel<L, U, N::Loss>>>(
+    fn step_with_mean_force<B: Borrow<FrictionalModel<L, U, N::Loss>>>(
         &mut self,
-        course: &Course,
+        course: &RatePolynomial,
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<(f64, f64), TooDeep> {
@@ -125,17 +135,17 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         Ok((self.step(course, step, model)?, mean))
     }
 
-    fn step_held<B: Borrow<RoughModel<L, U, N::Loss>>>(
+    fn step_held<B: Borrow<FrictionalModel<L, U, N::Loss>>>(
         &mut self,
         rate: f64,
         step: f64,
         _kept: &YieldPoint,
         model: impl Fn() -> B,
     ) -> Result<(), TooDeep> {
-        self.step(&Course::held(rate), step, model).map(|_| ())
+        self.step(&RatePolynomial::held(rate), step, model).map(|_| ())
     }
 
-    fn mean_force(&self, model: &RoughModel<L, U, N::Loss>, rate: f64, step: f64) -> Result<f64, TooDeep> {
+    fn mean_force(&self, model: &FrictionalModel<L, U, N::Loss>, rate: f64, step: f64) -> Result<f64, TooDeep> {
         self.normal().mean_force(&model.normal, rate, step)
     }
 
@@ -151,7 +161,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         self.normal().max_indentation()
     }
 
-    fn residual_indentation(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+    fn residual_indentation(&self, model: &FrictionalModel<L, U, N::Loss>) -> f64 {
         self.normal().residual_indentation(&model.normal)
     }
 
@@ -171,57 +181,60 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         self.normal.stiffness(rate)
     }
 
-    fn curvature(&self, model: &RoughModel<L, U, N::Loss>, rate: f64) -> f64 {
+    fn curvature(&self, model: &FrictionalModel<L, U, N::Loss>, rate: f64) -> f64 {
         match N::FOLLOWS_RATE {
             true => {
-                slopes(self, model, |contact: &Self| Contact::<RoughModel<L, U, N::Loss>>::stiffness(contact, rate)).0
+                slopes(self, model, |contact: &Self| {
+                    Contact::<FrictionalModel<L, U, N::Loss>>::stiffness(contact, rate)
+                })
+                .0
             }
             false => self.normal().curvature(&model.normal),
         }
     }
 
-    fn contact_radius(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+    fn contact_radius(&self, model: &FrictionalModel<L, U, N::Loss>) -> f64 {
         self.normal().contact_radius(&model.normal)
     }
 
-    fn elastic_energy(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+    fn elastic_energy(&self, model: &FrictionalModel<L, U, N::Loss>) -> f64 {
         self.normal().elastic_energy(&model.normal)
     }
 
-    fn dissipated_energy(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+    fn dissipated_energy(&self, model: &FrictionalModel<L, U, N::Loss>) -> f64 {
         self.normal().dissipated_energy(&model.normal) + self.normal.heat()
     }
 
-    fn smooth_piece(&self, model: &RoughModel<L, U, N::Loss>) -> (f64, f64) {
+    fn smooth_piece(&self, model: &FrictionalModel<L, U, N::Loss>) -> (f64, f64) {
         self.normal().smooth_piece(&model.normal)
     }
 
     /// The springs stay as they are.
-    fn moved_to(&self, model: &RoughModel<L, U, N::Loss>, indentation: f64) -> Self {
-        Rough { normal: self.normal.moved_to(&model.normal, &model.loss, indentation), ..*self }
+    fn moved_to(&self, model: &FrictionalModel<L, U, N::Loss>, indentation: f64) -> Self {
+        Frictional { normal: self.normal.moved_to(&model.normal, &model.loss, indentation), ..*self }
     }
 
-    fn tangential_course(&self, direction: usize) -> Course {
+    fn tangential_course(&self, direction: usize) -> RatePolynomial {
         self.courses.get(direction).copied().unwrap_or_default()
     }
 
-    fn set_tangential_course(&mut self, direction: usize, course: &Course) {
+    fn set_tangential_course(&mut self, direction: usize, course: &RatePolynomial) {
         if let Some(slot) = self.courses.get_mut(direction) {
             *slot = *course;
         }
     }
 
-    fn tangential_end(&self, direction: usize) -> Course {
+    fn tangential_end(&self, direction: usize) -> RatePolynomial {
         self.ends.get(direction).copied().unwrap_or_default()
     }
 
-    fn set_tangential_end(&mut self, direction: usize, end: &Course) {
+    fn set_tangential_end(&mut self, direction: usize, end: &RatePolynomial) {
         for (course, slot) in self.courses.iter_mut().zip(&mut self.ends).skip(direction).take(1) {
-            (*course, *slot) = (Course::held(course.rate), *end);
+            (*course, *slot) = (RatePolynomial::held(course.rate), *end);
         }
     }
 
-    fn tangential(&self, model: &RoughModel<L, U, N::Loss>, quantity: Quantity, rate: f64) -> f64 {
+    fn tangential(&self, model: &FrictionalModel<L, U, N::Loss>, quantity: Quantity, rate: f64) -> f64 {
         let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
         match quantity {
             Quantity::Force(direction) => of(self.tangential_forces(model, rate), direction),
@@ -235,31 +248,31 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
 
     fn tangential_derivatives(
         &self,
-        model: &RoughModel<L, U, N::Loss>,
+        model: &FrictionalModel<L, U, N::Loss>,
         quantity: Quantity,
-        normal: &Course,
-        tangential: &[Course; 2],
+        normal: &RatePolynomial,
+        tangential: &[RatePolynomial; 2],
     ) -> (f64, f64) {
         let of = |direction: usize| tangential.get(direction).copied().unwrap_or_default();
         self.derivatives_of(model, quantity, normal, &core::array::from_fn(of))
     }
 
     fn sliding(&self) -> Sliding {
-        Rough::sliding(self)
+        Frictional::sliding(self)
     }
 
-    fn depth_of(model: &RoughModel<L, U, N::Loss>, contact_radius: f64) -> f64 {
+    fn depth_of(model: &FrictionalModel<L, U, N::Loss>, contact_radius: f64) -> f64 {
         model.normal.depth_of(contact_radius)
     }
 
-    fn may_refuse(model: &RoughModel<L, U, N::Loss>) -> bool {
+    fn may_refuse(model: &FrictionalModel<L, U, N::Loss>) -> bool {
         N::FOLLOWS_RATE || <History as Contact<Model<L, U>>>::may_refuse(&model.normal)
     }
 
     fn save(&self, store: &mut impl FnMut(u64)) {
         self.normal.save(store);
         self.springs.save(store);
-        let Rough { courses, ends, mean_force, impulse, work, lost, share, .. } = self;
+        let Frictional { courses, ends, mean_force, impulse, work, lost, share, .. } = self;
         for (course, end) in courses.iter().zip(ends) {
             // the bend of the end is that of the course, which is over
             store_numbers(&[course.rate, course.slope, course.bend, end.rate, end.slope], store);
@@ -274,18 +287,18 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         }
     }
 
-    fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U, N::Loss>) -> Option<Self> {
+    fn load(words: &mut impl Iterator<Item = u64>, model: &FrictionalModel<L, U, N::Loss>) -> Option<Self> {
         let normal = N::load(words, &model.normal, &model.loss)?;
         let springs = SpringsOf::load(words, model, normal.plastic())?;
-        let mut courses = [Course::default(); D];
+        let mut courses = [RatePolynomial::default(); D];
         let mut ends = courses;
         for (course, end) in courses.iter_mut().zip(&mut ends) {
             let [rate, slope, bend, end_rate, end_slope] = load_numbers(words)?;
-            *course = Course { rate, slope, bend };
-            *end = Course { rate: end_rate, slope: end_slope, bend: 0.0 };
+            *course = RatePolynomial { rate, slope, bend };
+            *end = RatePolynomial { rate: end_rate, slope: end_slope, bend: 0.0 };
         }
         let none = Sum::new(0.0);
-        let mut loaded = Rough {
+        let mut loaded = Frictional {
             normal,
             springs,
             share: 1.0,

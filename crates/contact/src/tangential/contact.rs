@@ -1,12 +1,12 @@
 //! A contact with friction: a normal contact, its springs, and the tangential rates.
 
 use super::vector::within;
-use super::{Friction, Normal, RoughModel, Sliding, SpringsOf};
+use super::{Friction, FrictionalModel, Normal, Sliding, SpringsOf};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::numbers::{largest, quotient};
-use crate::path::{Course, Sum};
+use crate::path::{RatePolynomial, Sum};
 use crate::regime::TooDeep;
 use crate::unloading::Unloading;
 
@@ -34,15 +34,15 @@ pub(super) fn is_share(share: f64) -> bool {
 /// rates. There is no [short step](Contact::short_step). Without `MEAN`, the mean force, the impulse and the work of friction
 /// are not computed and stay zero. The normal part `N` may have a loss, for bodies that [move together](crate::shared).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rough<const D: usize, const M: usize, const MEAN: bool, N = History> {
+pub struct Frictional<const D: usize, const M: usize, const MEAN: bool, N = History> {
     pub(super) normal: N,
     pub(super) springs: SpringsOf<D, M, true>,
     /// The normal force as a part of the elastic one, by which the springs have their limits; 1 without a loss.
     pub(super) share: f64,
     /// Tangential rates over the next step \[m/s\].
-    pub(super) courses: [Course; D],
+    pub(super) courses: [RatePolynomial; D],
     /// Tangential rates at the end of the last step \[m/s\].
-    pub(super) ends: [Course; D],
+    pub(super) ends: [RatePolynomial; D],
     /// Mean tangential force of the last step \[N\].
     pub(super) mean_force: [f64; D],
     /// \[N.s\]
@@ -54,12 +54,12 @@ pub struct Rough<const D: usize, const M: usize, const MEAN: bool, N = History> 
 }
 
 /// A contact with friction in one direction.
-pub type RoughContact<const M: usize, const MEAN: bool = true, N = History> = Rough<1, M, MEAN, N>;
+pub type FrictionalContact<const M: usize, const MEAN: bool = true, N = History> = Frictional<1, M, MEAN, N>;
 
 /// A contact with friction in two directions.
-pub type PlaneContact<const M: usize, const MEAN: bool = true, N = History> = Rough<2, M, MEAN, N>;
+pub type PlaneContact<const M: usize, const MEAN: bool = true, N = History> = Frictional<2, M, MEAN, N>;
 
-impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
+impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Frictional<D, M, MEAN, N> {
     /// The elastoplastic normal contact.
     pub fn normal(&self) -> &History {
         self.normal.plastic()
@@ -72,13 +72,13 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
 
     /// Sets the tangential rates \[m/s\] for the next steps; finite numbers.
     pub fn set_tangential_rates(&mut self, rates: [f64; D]) {
-        self.courses = rates.map(Course::held);
+        self.courses = rates.map(RatePolynomial::held);
     }
 
     /// Tangential forces \[N\] of bodies that close at this `rate` \[m/s\]; positive against positive rates.
     pub fn tangential_forces<L: Loading + Copy, U: Unloading + Copy>(
         &self,
-        model: &RoughModel<L, U, N::Loss>,
+        model: &FrictionalModel<L, U, N::Loss>,
         rate: f64,
     ) -> [f64; D] {
         let indentation = self.normal().indentation();
@@ -92,7 +92,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     }
 
     /// The friction by which the springs have their limits.
-    pub(super) fn friction<L, U>(&self, model: &RoughModel<L, U, N::Loss>) -> Friction {
+    pub(super) fn friction<L, U>(&self, model: &FrictionalModel<L, U, N::Loss>) -> Friction {
         Friction { coefficient: self.share * model.friction.coefficient, ..model.friction }
     }
 
@@ -120,17 +120,20 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     /// As for [`Contact::step`].
     pub fn predicted_tangential_forces<L: Loading + Copy, U: Unloading + Copy>(
         &self,
-        model: &RoughModel<L, U, N::Loss>,
+        model: &FrictionalModel<L, U, N::Loss>,
         rate: f64,
         step: f64,
     ) -> Result<[f64; D], TooDeep> {
         let mut moved = *self;
-        moved.step(&Course::held(rate), step, || model)?;
+        moved.step(&RatePolynomial::held(rate), step, || model)?;
         Ok(moved.tangential_forces(model, rate))
     }
 
     /// Elastic energy of the tangential strain \[J\].
-    pub fn tangential_energy<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+    pub fn tangential_energy<L: Loading + Copy, U: Unloading + Copy>(
+        &self,
+        model: &FrictionalModel<L, U, N::Loss>,
+    ) -> f64 {
         self.springs.energy(&self.friction(model), self.normal().indentation())
     }
 
@@ -138,12 +141,12 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     ///
     /// It never falls. Where the springs of a growing dent or of a full list move approximately, they may store more than the
     /// work; the energy lost then stays until slip has lost as much as was stored too much.
-    pub fn friction_work<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+    pub fn friction_work<L: Loading + Copy, U: Unloading + Copy>(&self, model: &FrictionalModel<L, U, N::Loss>) -> f64 {
         largest(self.lost, self.work.total() - self.tangential_energy(model))
     }
 
     /// Radius of the stick area \[m\].
-    pub fn stick_radius<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U, N::Loss>) -> f64 {
+    pub fn stick_radius<L: Loading + Copy, U: Unloading + Copy>(&self, model: &FrictionalModel<L, U, N::Loss>) -> f64 {
         self.springs.stick_radius(self.normal().contact_radius(&model.normal), self.normal().indentation())
     }
 
@@ -153,7 +156,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     }
 }
 
-impl<const N: usize, const MEAN: bool> RoughContact<N, MEAN> {
+impl<const N: usize, const MEAN: bool> FrictionalContact<N, MEAN> {
     /// Relative tangential speed of the two contact points \[m/s\], for a ball `v + omega R`.
     pub fn tangential_rate(&self) -> f64 {
         let [rate] = self.tangential_rates();
@@ -166,7 +169,7 @@ impl<const N: usize, const MEAN: bool> RoughContact<N, MEAN> {
     }
 
     /// Tangential force \[N\]; positive against a positive rate.
-    pub fn tangential_force<L: Loading + Copy, U: Unloading + Copy>(&self, model: &RoughModel<L, U>) -> f64 {
+    pub fn tangential_force<L: Loading + Copy, U: Unloading + Copy>(&self, model: &FrictionalModel<L, U>) -> f64 {
         let [force] = self.tangential_forces(model, 0.0);
         force
     }
@@ -183,13 +186,13 @@ impl<const N: usize, const MEAN: bool> RoughContact<N, MEAN> {
         impulse
     }
 
-    /// [`Rough::predicted_tangential_forces`] in one direction \[N\].
+    /// [`Frictional::predicted_tangential_forces`] in one direction \[N\].
     ///
     /// # Errors
     /// As for [`Contact::step`].
     pub fn predicted_tangential_force<L: Loading + Copy, U: Unloading + Copy>(
         &self,
-        model: &RoughModel<L, U>,
+        model: &FrictionalModel<L, U>,
         rate: f64,
         step: f64,
     ) -> Result<f64, TooDeep> {

@@ -33,9 +33,9 @@ pub(super) struct Point<const D: usize> {
     pub height: f64,
     /// Largest tension of the springs before the way \[m\].
     limit: f64,
-    /// Stuck offset before the way \[m\].
+    /// PlayOperator offset before the way \[m\].
     pub before: [f64; D],
-    /// Stuck offset after the way \[m\].
+    /// PlayOperator offset after the way \[m\].
     after: [f64; D],
     /// Whether the springs at the point slip, at least in the end.
     slips: bool,

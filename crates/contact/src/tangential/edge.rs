@@ -5,7 +5,7 @@
 
 use super::list::Apex;
 use super::vector::{add, difference, direction, dot, length, times};
-use super::{Motion, SAME, Stuck, TINY, Vertex};
+use super::{Motion, PlayOperator, SAME, TINY, Vertex};
 use crate::numbers::{quotient, smallest};
 use crate::path::Sum;
 use crate::segment::Segment;
@@ -28,7 +28,7 @@ impl<const D: usize> Vertex<D> {
     }
 }
 
-impl<const D: usize, const N: usize> Stuck<D, N> {
+impl<const D: usize, const N: usize> PlayOperator<D, N> {
     /// Cuts the polyline with the cone of the current point.
     ///
     /// Only the end point matters: on a straight way its cone cuts off as much of the polyline as the cones of all
@@ -104,7 +104,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
             let to = if passes <= next { last.height } else { from + (next - time) * speed };
             let stuck = curve.mean_force(from, to);
             let whole = curve.mean_force(here, at(next).indentation);
-            let mean = add(super::stuck::pull(left, stuck), whole - stuck, slip);
+            let mean = add(super::play_operator::pull(left, stuck), whole - stuck, slip);
             sum = add(sum, next - time, mean);
             time = next;
             if next >= end {

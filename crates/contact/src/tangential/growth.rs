@@ -12,9 +12,9 @@
 use super::cut::{Cut, Point};
 use super::list::Apex;
 use super::merge::Merging;
-use super::stuck::pull;
+use super::play_operator::pull;
 use super::vector::{add, difference, length};
-use super::{Motion, Stuck, TINY, Vertex};
+use super::{Motion, PlayOperator, TINY, Vertex};
 use crate::numbers::{largest, quotient, root};
 use crate::segment::Segment;
 use libm::fabs;
@@ -49,7 +49,7 @@ fn height_with(path: &Segment, stiffness: f64) -> f64 {
     largest(path.origin + q * q, path.lower)
 }
 
-impl<const D: usize, const N: usize> Stuck<D, N> {
+impl<const D: usize, const N: usize> PlayOperator<D, N> {
     /// Moves the contact on its `way` along the loading curve, while its dent grows: from the end of the `old` path
     /// to the end of the `new` one.
     ///
@@ -68,7 +68,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
     /// The segments after such a way; the displacement is already that at its end.
     fn grown<'a>(&mut self, old: &Segment, new: &'a Segment, way: &'a Motion<D>) -> Cut<'a, D, N> {
         if self.list.vertices().is_empty() {
-            *self = Stuck::pressed(old, way.to);
+            *self = PlayOperator::pressed(old, way.to);
         }
         let before = self.displaced();
         let pull = self.pull(old, way.from);

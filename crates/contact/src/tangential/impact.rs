@@ -4,12 +4,12 @@
 //! computed in steps: the contact moves over `(v0 + v1)/2` times the step, with `v1 = v0 - step T/m_t` for the mean
 //! force `T` of the step. With this, the kinetic energy changes by exactly the work of the tangential force.
 
-use super::{Mean, Normal, RoughContact, RoughModel, Sliding, Springs};
+use super::{FrictionalContact, FrictionalModel, Mean, Normal, Sliding, Springs};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::impact::{self, Impact};
 use crate::loading::Loading;
-use crate::motion::{Drive, follow};
+use crate::motion::{ExternalLoad, follow};
 use crate::numbers::{largest, quotient};
 use crate::shared::{InverseMasses, Work, follow as follow_together};
 use crate::unloading::Unloading;
@@ -107,13 +107,13 @@ pub struct Moment {
 
 /// The impact of `ball` on an untouched contact; `None` beyond the range of the law, or for numbers that are not finite
 /// or positive as [`Ball`] requires.
-pub fn predict<L: Loading, U: Unloading>(model: &RoughModel<L, U>, ball: &Ball) -> Option<Rebound> {
+pub fn predict<L: Loading, U: Unloading>(model: &FrictionalModel<L, U>, ball: &Ball) -> Option<Rebound> {
     in_steps(model, ball, STEPS, |_| {})
 }
 
 /// The same, with `steps` steps for the loading and as many for the unloading. Calls `each` at the end of each step.
 pub fn in_steps<L: Loading, U: Unloading>(
-    model: &RoughModel<L, U>,
+    model: &FrictionalModel<L, U>,
     ball: &Ball,
     steps: u32,
     mut each: impl FnMut(&Moment),
@@ -175,13 +175,13 @@ pub struct Meeting {
 ///
 /// Only forces of the contact act on them. The accuracy is that of [`shared`](crate::shared).
 pub fn meet<L: Loading + Copy, U: Unloading + Copy, N: Normal>(
-    model: &RoughModel<L, U, N::Loss>,
+    model: &FrictionalModel<L, U, N::Loss>,
     masses: &[f64; 3],
     rates: [f64; 2],
     time: f64,
 ) -> Option<Meeting> {
     let masses = InverseMasses::new(2, masses).ok()?;
-    let mut contact: [RoughContact<SEGMENTS, true, N>; 1] = [Contact::start(model, 0.0).ok()?];
+    let mut contact: [FrictionalContact<SEGMENTS, true, N>; 1] = [Contact::start(model, 0.0).ok()?];
     let mut now = Meeting {
         rates,
         impulses: [0.0; 2],
@@ -190,13 +190,13 @@ pub fn meet<L: Loading + Copy, U: Unloading + Copy, N: Normal>(
         sliding_part: 0.0,
         contact_time: 0.0,
     };
-    let go = |contact: &mut [RoughContact<SEGMENTS, true, N>; 1], rates: &mut [f64; 2], step: f64| {
+    let go = |contact: &mut [FrictionalContact<SEGMENTS, true, N>; 1], rates: &mut [f64; 2], step: f64| {
         let mut work = [Work::new(contact[0])];
         follow_together(contact, |_| model, &masses, &[0.0; 2], rates, &mut work, step).ok()?;
         let [work] = work;
         Some([work.impulse(), work.tangential_impulse(0)])
     };
-    let has_ended = |contact: &[RoughContact<SEGMENTS, true, N>; 1], rates: &[f64; 2]| {
+    let has_ended = |contact: &[FrictionalContact<SEGMENTS, true, N>; 1], rates: &[f64; 2]| {
         let [contact] = contact;
         contact.normal.force(rates[0]) == 0.0 && rates[0] <= 0.0
     };
@@ -236,7 +236,7 @@ pub fn meet<L: Loading + Copy, U: Unloading + Copy, N: Normal>(
 
 /// An impact under way.
 struct Run<'a, L, U> {
-    model: &'a RoughModel<L, U>,
+    model: &'a FrictionalModel<L, U>,
     /// The exact normal motion.
     normal: History,
     /// Closing speed \[m/s\].
@@ -252,7 +252,7 @@ struct Run<'a, L, U> {
 }
 
 impl<'a, L: Loading, U: Unloading> Run<'a, L, U> {
-    fn start(model: &'a RoughModel<L, U>, ball: &Ball) -> Option<Self> {
+    fn start(model: &'a FrictionalModel<L, U>, ball: &Ball) -> Option<Self> {
         let normal = History::start(&model.normal, 0.0).ok()?;
         let springs = Springs::start(model, &normal);
         let (speed, contact, ball) = (ball.normal, normal, *ball);
@@ -261,14 +261,14 @@ impl<'a, L: Loading, U: Unloading> Run<'a, L, U> {
 
     /// Moves the ball through `step` \[s\].
     fn step(&mut self, step: f64) -> Option<()> {
-        let drive = Drive { mass: self.ball.mass, acceleration: 0.0 };
+        let load = ExternalLoad { mass: self.ball.mass, acceleration: 0.0 };
         let (from, before) = (self.contact.indentation(), self.springs.sliding());
-        let outcome = follow(&mut self.normal, &self.model.normal, &drive, self.speed, step).ok()?;
+        let outcome = follow(&mut self.normal, &self.model.normal, &load, self.speed, step).ok()?;
         self.speed = outcome.speed;
         let increment = self.normal.indentation() - from;
         // friction follows the impulse of the exact motion, which a straight step misses slightly
         let straight = self.contact.mean_force(&self.model.normal, increment / step, step).ok()?;
-        let part = quotient(outcome.taken * self.ball.mass, straight * step, straight > 0.0, 1.0);
+        let part = quotient(outcome.speed_removed * self.ball.mass, straight * step, straight > 0.0, 1.0);
         let limit = self.model.friction.coefficient * straight;
         let (slip, stiffness) = (self.ball.slip(), 0.5 * step / self.ball.tangential_mass());
         let mut mean = self.springs.force(&self.model.friction, from);

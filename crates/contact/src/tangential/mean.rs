@@ -6,7 +6,7 @@
 
 use super::pursuit::{FARTHEST, GAUSS, Spring};
 use super::vector::{add, difference, direction, dot, length, times};
-use super::{Motion, Stuck, Vertex};
+use super::{Motion, PlayOperator, Vertex};
 use crate::numbers::{largest, quotient, root};
 use crate::segment::Segment;
 
@@ -72,7 +72,7 @@ fn breaks<const D: usize>(vertex: &Vertex<D>, end: (f64, [f64; D]), way: &Motion
     [separation, inside(sum, square), inside(constant, sum), relaxed, 1.0]
 }
 
-impl<const D: usize, const N: usize> Stuck<D, N> {
+impl<const D: usize, const N: usize> PlayOperator<D, N> {
     /// Mean tangential force of a step on this `way` that is yet to come, divided by the coefficient of friction \[N\]; exact
     /// along one line.
     pub fn mean_pull(&self, curve: &Segment, way: &Motion<D>) -> [f64; D] {
@@ -82,7 +82,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
         }
         let is_new = self.list.vertices().is_empty();
         if is_new && way.from > surface {
-            return Stuck::<D, N>::pressed(curve, way.from).mean_pull(curve, way);
+            return PlayOperator::<D, N>::pressed(curve, way.from).mean_pull(curve, way);
         }
         if is_new || length(way.shift) > FARTHEST {
             // all springs either stick or slip: they are new, or the way is longer than any tension

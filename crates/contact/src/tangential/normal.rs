@@ -320,7 +320,7 @@ impl Straight {
     }
 
     /// The damping of a tangential motion \[N.s/m\] for the mean `elastic` force \[N\], with as much loss as that of the normal motion:
-    /// only a [fitted](losses::Fitted) loss has one.
+    /// only a [fitted](losses::RestitutionFitted) loss has one.
     pub fn tangential(&self, elastic: f64) -> f64 {
         let Damping { form, factor, swiftest } = self.damping;
         let damping = factor * elastic;

@@ -1,6 +1,6 @@
 //! The parts of a step with changing rates.
 
-use crate::path::Course;
+use crate::path::RatePolynomial;
 
 /// Parts of a step in two directions with changing rates.
 const PARTS: usize = 8;
@@ -14,8 +14,8 @@ pub(super) const MOST_PARTS: usize = 11;
 /// the times at which the rate of the indentation is zero or as large as the tangential rate times `scale`. In two directions
 /// the way may turn all the time. The step is divided evenly, and where the rate of the indentation is zero.
 pub(super) fn ends_of_parts<const D: usize>(
-    normal: &Course,
-    tangential: &[Course; D],
+    normal: &RatePolynomial,
+    tangential: &[RatePolynomial; D],
     scale: f64,
     step: f64,
 ) -> [f64; MOST_PARTS] {
@@ -29,7 +29,7 @@ pub(super) fn ends_of_parts<const D: usize>(
         return ends;
     };
     for scale in [0.0, scale, -scale] {
-        let difference = Course {
+        let difference = RatePolynomial {
             rate: normal.rate - scale * tangential.rate,
             slope: normal.slope - scale * tangential.slope,
             bend: normal.bend - scale * tangential.bend,

@@ -1,10 +1,10 @@
 //! Time derivatives of the quantities of friction.
 
-use super::{Normal, Quantity, Rough, RoughModel};
+use super::{Frictional, FrictionalModel, Normal, Quantity};
 use crate::behaviour::Contact;
 use crate::loading::Loading;
 use crate::numbers::quotient;
-use crate::path::Course;
+use crate::path::RatePolynomial;
 use crate::unloading::Unloading;
 use libm::fabs;
 
@@ -15,7 +15,7 @@ const WIDTH: f64 = 1.0 / 8192.0;
 /// The longest trial step \[s\], for motions that are slower than any physical one.
 const LONGEST: f64 = 1e50;
 
-impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
+impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Frictional<D, M, MEAN, N> {
     /// First and second time derivative of `quantity`, for motions that continue on these courses along the normal and in
     /// the tangential directions.
     ///
@@ -24,10 +24,10 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     /// derivative), if the branch of the law and the segments that slip remain the same.
     pub(super) fn derivatives_of<L: Loading + Copy, U: Unloading + Copy>(
         &self,
-        model: &RoughModel<L, U, N::Loss>,
+        model: &FrictionalModel<L, U, N::Loss>,
         quantity: Quantity,
-        normal: &Course,
-        tangential: &[Course; D],
+        normal: &RatePolynomial,
+        tangential: &[RatePolynomial; D],
     ) -> (f64, f64) {
         let rates = (normal.rate, tangential.map(|course| course.rate));
         let accelerations = (normal.slope, tangential.map(|course| course.slope));
@@ -56,10 +56,10 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     /// The derivatives from trial steps.
     fn by_trial<L: Loading + Copy, U: Unloading + Copy>(
         &self,
-        model: &RoughModel<L, U, N::Loss>,
+        model: &FrictionalModel<L, U, N::Loss>,
         quantity: Quantity,
-        normal: &Course,
-        tangential: &[Course; D],
+        normal: &RatePolynomial,
+        tangential: &[RatePolynomial; D],
     ) -> (f64, f64) {
         let indentation = self.normal().indentation();
         let scale = model.friction.scale();

@@ -1,15 +1,15 @@
 //! The springs of a contact as words for storage.
 
-use super::{Stuck, Vertex};
+use super::{PlayOperator, Vertex};
 use crate::path::Sum;
 use crate::segment::Segment;
 use crate::words::{load_numbers, store_numbers};
 
-impl<const D: usize, const N: usize> Stuck<D, N> {
+impl<const D: usize, const N: usize> PlayOperator<D, N> {
     /// Number of words in the saved springs of a contact. Along a line, the springs that slipped follow from the slopes.
     pub const WORDS: usize = 2 * D + (D > 1) as usize + 1 + (1 + 2 * D) * N;
 
-    /// Passes [`Stuck::WORDS`] words to `store`. Forces are not saved: they follow from the curve.
+    /// Passes [`PlayOperator::WORDS`] words to `store`. Forces are not saved: they follow from the curve.
     pub fn save(&self, store: &mut impl FnMut(u64)) {
         for sum in self.displacement {
             store_numbers(&[sum.value, sum.rest], store);
@@ -26,10 +26,10 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
         }
     }
 
-    /// The springs that [`Stuck::save`] has stored, on the same `curve`. `None` if a word is not a finite number, or
+    /// The springs that [`PlayOperator::save`] has stored, on the same `curve`. `None` if a word is not a finite number, or
     /// if there are more segments than fit into the list.
     pub fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self> {
-        let mut stuck = Stuck::APART;
+        let mut stuck = PlayOperator::APART;
         for sum in &mut stuck.displacement {
             let [value, rest] = load_numbers(words)?;
             *sum = Sum { value, rest };

@@ -3,7 +3,7 @@
 use super::contact::share_of;
 use super::normal::Straight;
 use super::vector::{add, direction, length, times, within};
-use super::{Friction, Mean, Normal, Rough, RoughModel};
+use super::{Friction, Frictional, FrictionalModel, Mean, Normal};
 use crate::Model;
 use crate::behaviour::Contact;
 use crate::history::History;
@@ -18,16 +18,16 @@ use crate::unloading::Unloading;
 use libm::fabs;
 
 impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
-    PlasticContact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
+    PlasticContact<FrictionalModel<L, U, N::Loss>> for Frictional<D, M, MEAN, N>
 {
     type Loading = L;
     type Unloading = U;
     type PlasticModel<'a>
         = &'a Model<L, U>
     where
-        RoughModel<L, U, N::Loss>: 'a;
+        FrictionalModel<L, U, N::Loss>: 'a;
 
-    fn plastic_model<'a>(&self, model: &'a RoughModel<L, U, N::Loss>) -> &'a Model<L, U> {
+    fn plastic_model<'a>(&self, model: &'a FrictionalModel<L, U, N::Loss>) -> &'a Model<L, U> {
         &model.normal
     }
 
@@ -41,7 +41,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
 }
 
 impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
-    SharedContact<RoughModel<L, U, N::Loss>> for Rough<D, M, MEAN, N>
+    SharedContact<FrictionalModel<L, U, N::Loss>> for Frictional<D, M, MEAN, N>
 {
     const DIRECTIONS: usize = D;
 
@@ -49,7 +49,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         self.normal.loss()
     }
 
-    fn lose(&mut self, model: &RoughModel<L, U, N::Loss>, swiftest: f64, heat: f64) -> Result<(), TooDeep> {
+    fn lose(&mut self, model: &FrictionalModel<L, U, N::Loss>, swiftest: f64, heat: f64) -> Result<(), TooDeep> {
         self.normal.lose(&model.normal, &model.loss, swiftest, heat)
     }
 
@@ -57,15 +57,15 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         self.springs.curve()
     }
 
-    fn stiffness_ratio(model: &RoughModel<L, U, N::Loss>) -> f64 {
+    fn stiffness_ratio(model: &FrictionalModel<L, U, N::Loss>) -> f64 {
         model.friction.stiffness_ratio
     }
 
-    fn slip_scale(&self, model: &RoughModel<L, U, N::Loss>) -> Option<f64> {
+    fn slip_scale(&self, model: &FrictionalModel<L, U, N::Loss>) -> Option<f64> {
         self.springs.slips_from_edge().then(|| self.friction(model).scale())
     }
 
-    fn set_forces(&self, model: &RoughModel<L, U, N::Loss>, rows: &mut [Row; 3]) {
+    fn set_forces(&self, model: &FrictionalModel<L, U, N::Loss>, rows: &mut [Row; 3]) {
         let [normal, ..] = *rows;
         let tangential = self.springs.forces(&self.friction(model), self.normal().indentation());
         for (row, force) in rows.iter_mut().zip([self.normal.force(normal.rate())].into_iter().chain(tangential)) {
@@ -73,7 +73,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         }
     }
 
-    fn stiffnesses(&self, model: &RoughModel<L, U, N::Loss>) -> [[f64; 2]; 3] {
+    fn stiffnesses(&self, model: &FrictionalModel<L, U, N::Loss>) -> [[f64; 2]; 3] {
         let normal = self.normal();
         let (stick, edge) = self.springs.stiffnesses(normal.indentation());
         let mut rows = [[normal.stiffness(), 0.0], [0.0; 2], [0.0; 2]];
@@ -86,7 +86,7 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
 
     fn go_straight(
         &mut self,
-        model: &RoughModel<L, U, N::Loss>,
+        model: &FrictionalModel<L, U, N::Loss>,
         rows: &mut [Row; 3],
         time: f64,
     ) -> Result<(), TooDeep> {
@@ -145,7 +145,7 @@ pub(super) struct Gone<const D: usize> {
     gives: f64,
 }
 
-impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, MEAN, N> {
+impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Frictional<D, M, MEAN, N> {
     /// Moves the contact on a short straight way: the bodies close by the first length and slip by the others \[m\], in a
     /// `time` \[s\] and under a mean normal `force` \[N\] that matters to a target that gives way. Returns the mean normal
     /// force and the mean tangential forces \[N\]. The rates change evenly by `changes` \[m/s\].
@@ -154,7 +154,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
     /// much as the normal one, within Coulomb's bound.
     pub(super) fn go_with_loss<L: Loading + Copy, U: Unloading + Copy>(
         &mut self,
-        model: &RoughModel<L, U, N::Loss>,
+        model: &FrictionalModel<L, U, N::Loss>,
         (way, slip): (f64, [f64; D]),
         (change, changes): (f64, [f64; D]),
         (force, time): (f64, f64),
@@ -183,7 +183,7 @@ impl<const D: usize, const M: usize, const MEAN: bool, N: Normal> Rough<D, M, ME
             self.share_limits(from, share.unwrap_or_else(|| share_of(normal, elastic)));
         }
         let stick = self.springs.stiffnesses(from).0;
-        let springs_model = RoughModel { friction: self.friction(model), ..*model };
+        let springs_model = FrictionalModel { friction: self.friction(model), ..*model };
         let to = self.normal().indentation();
         // at half of the time, both ways are behind by an eighth of what the rates change; half of the indentation is done later
         let steepness = slip.map(|slip| quotient(slip, increment, increment > 1e-100 * fabs(slip), 0.0));

@@ -146,7 +146,7 @@ fn flags(scene: &Scene) -> u64 {
         (Flag::Shared, scene.inverse_masses.is_some()),
         (Flag::InverseMassInputs, scene.inverse_masses == Some(InverseMasses::Inputs)),
         (Flag::Momentum, outputs(&["impulse", "mean_force"])),
-        (Flag::Course, has_course(scene)),
+        (Flag::InputDerivatives, has_course(scene)),
         (Flag::Forces, keeps_forces(scene)),
         (Flag::Paired, scene.is_paired()),
         (Flag::FollowsRate, scene.follows_rate()),

@@ -19,13 +19,13 @@ pub fn of(scene: &Scene) -> String {
     let laws = format!("{loading}, {unloading}");
     let loss = match scene.loss {
         _ if scene.damped.is_some() => Some("contact::losses::Damper"),
-        Some(Loss::Fitted(_)) => Some("contact::losses::Fitted"),
-        Some(Loss::Waves) => Some("contact::losses::Waves"),
+        Some(Loss::Fitted(_)) => Some("contact::losses::RestitutionFitted"),
+        Some(Loss::Waves) => Some("contact::losses::HalfSpaceRadiation"),
         Some(Loss::Plate(_)) => Some("contact::losses::Plate"),
         None => None,
     };
     match loss {
-        _ if scene.has_friction() => rough(scene, &laws, loss),
+        _ if scene.has_friction() => frictional(scene, &laws, loss),
         _ => {
             let plain = loss.map_or(format!("kinds::Plastic<{laws}>"), |loss| format!("kinds::Lossy<{laws}, {loss}>"));
             if scene.finds_strength() { format!("kinds::Rated<{plain}>") } else { plain }
@@ -34,13 +34,13 @@ pub fn of(scene: &Scene) -> String {
 }
 
 /// Laws with friction. The mean tangential force is computed only if an output needs it.
-fn rough(scene: &Scene, laws: &str, loss: Option<&str>) -> String {
+fn frictional(scene: &Scene, laws: &str, loss: Option<&str>) -> String {
     let needs_mean = ["mean_tangential_force", "tangential_impulse", "friction_work"];
     let mean = scene.outputs.iter().any(|output| needs_mean.contains(&output.as_str()));
-    let contact = if scene.directions > 1 { "PlaneContact" } else { "RoughContact" };
+    let contact = if scene.directions > 1 { "PlaneContact" } else { "FrictionalContact" };
     let normal = loss.map_or(String::new(), |loss| format!(", contact::losses::History<{loss}>"));
     let loss = loss.unwrap_or("()");
-    format!("kinds::Rough<contact::tangential::{contact}<{MEMORY}, {mean}{normal}>, {laws}, {loss}>")
+    format!("kinds::Frictional<contact::tangential::{contact}<{MEMORY}, {mean}{normal}>, {laws}, {loss}>")
 }
 
 /// The type of a law in a `module`: the variant of the enum that holds it.

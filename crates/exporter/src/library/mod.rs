@@ -71,7 +71,7 @@ fn kind_of(scene: &Scene, data: &Data) -> [(&'static str, String); 10] {
         ("Sizes", format!("kinds::Fixed<{contacts}, {rows}, {groups}, {values}, {entries}>")),
         ("Forces", has(Flag::Forces)),
         ("Momentum", has(Flag::Momentum)),
-        ("Course", has(Flag::Course)),
+        ("InputDerivatives", has(Flag::InputDerivatives)),
         ("Prediction", has(Flag::Predicts)),
         ("Coupling", coupling),
         ("Watch", presence(scene.watches)),

@@ -11,7 +11,7 @@ use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::tangential::impact::{Ball, Rebound, meet, predict};
-use brinell_contact::tangential::{self, Friction, RoughModel};
+use brinell_contact::tangential::{self, Friction, FrictionalModel};
 use brinell_contact::unloading::AnyUnloading;
 
 /// The coefficient of friction, a parameter of the scene.
@@ -166,7 +166,7 @@ pub fn one(
     let others: Vec<_> = values.iter().copied().filter(|(axis, _)| !is_quantity(axis.name)).collect();
     let (choice, impact) = varied(scene, choice, impact, &others)?;
     let named: Vec<_> = others.iter().map(|(axis, value)| (axis.name, *value)).collect();
-    let model = rough(scene, &choice, setting.coefficient, &named)?;
+    let model = frictional(scene, &choice, setting.coefficient, &named)?;
     let moving = Moving::of(scene, impact, &setting, &named)?;
     let Impact { mass, speed } = impact;
     let normal = Impact { mass, speed: moving.rates[0] };
@@ -210,7 +210,7 @@ pub fn one(
     let time = prediction.ok_or_else(beyond)?.contact_time();
     let met = match choice.model.lossy() {
         Some(lossy) => {
-            let model = RoughModel { normal: lossy.plastic, friction, loss: lossy.loss };
+            let model = FrictionalModel { normal: lossy.plastic, friction, loss: lossy.loss };
             meet::<_, _, losses::History<AnyLoss>>(&model, &masses, rates, time)
         }
         None => meet::<_, _, History>(&model, &masses, rates, time),
@@ -280,17 +280,17 @@ impl Moving {
 ///
 /// # Errors
 /// [`PredictError::NoFriction`]
-pub fn rough(
+pub fn frictional(
     scene: &Scene,
     choice: &Choice,
     coefficient: f64,
     values: &[(&str, f64)],
-) -> Result<RoughModel<AnyLoading, AnyUnloading>, PredictError> {
+) -> Result<FrictionalModel<AnyLoading, AnyUnloading>, PredictError> {
     let none = || PredictError::NoFriction { law: choice.laws.clone(), why: refusal(choice).unwrap_or_default() };
     let normal = choice.model.elastoplastic().filter(|_| refusal(choice).is_none()).ok_or_else(none)?;
     let [impactor, target] = scene.bodies_with(0, values);
     let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
-    Ok(RoughModel { normal: *normal, friction, loss: () })
+    Ok(FrictionalModel { normal: *normal, friction, loss: () })
 }
 
 impl Outcome {

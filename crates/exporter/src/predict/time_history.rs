@@ -5,7 +5,7 @@ use crate::columns::{Column, Columns};
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use brinell_contact::impact::{Impact, Prediction};
-use brinell_contact::motion::{Drive, follow};
+use brinell_contact::motion::{ExternalLoad, follow};
 use brinell_contact::{History, Model, losses};
 
 /// Number of moments during the loading; there are as many during the unloading.
@@ -55,14 +55,14 @@ fn followed<L: brinell_contact::Loading, U: brinell_contact::Unloading>(
     impact: &Impact,
     prediction: &Prediction,
 ) -> Option<Vec<Moment>> {
-    let drive = Drive { mass: impact.mass, acceleration: 0.0 };
+    let load = ExternalLoad { mass: impact.mass, acceleration: 0.0 };
     let mut history = History::start(model, 0.0).ok()?;
     let mut speed = impact.speed;
     let mut all = vec![Moment { time: 0.0, indentation: 0.0, force: 0.0, speed }];
     let (loading, unloading) = (prediction.loading_time, prediction.unloading_time);
     for moment in 1..=2 * MOMENTS {
         let step = if moment <= MOMENTS { loading } else { unloading } / f64::from(MOMENTS);
-        speed = follow(&mut history, model, &drive, speed, step).ok()?.speed;
+        speed = follow(&mut history, model, &load, speed, step).ok()?.speed;
         let time = match moment {
             moment if moment <= MOMENTS => loading * f64::from(moment) / f64::from(MOMENTS),
             moment => loading + unloading * f64::from(moment - MOMENTS) / f64::from(MOMENTS),

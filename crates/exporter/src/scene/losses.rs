@@ -9,7 +9,7 @@ use crate::model::AnyModel;
 use crate::numbers::{out_of_range, quantity};
 use brinell_contact::damped::Damped;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::losses::{self, AnyLoss, HalfSpaceRadiation, Plate, RestitutionFitted, Solid};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, Model};
 use toml::Value;
@@ -134,8 +134,8 @@ impl Scene {
         let density = self.contacts[group].density.unwrap_or(f64::NAN);
         let target = Solid { density, youngs_modulus, poissons_ratio };
         Some(match self.loss? {
-            Loss::Fitted(_) => AnyLoss::Fitted(Fitted { restitution: value(RESTITUTION) }),
-            Loss::Waves => AnyLoss::Waves(Waves { target }),
+            Loss::Fitted(_) => AnyLoss::RestitutionFitted(RestitutionFitted { restitution: value(RESTITUTION) }),
+            Loss::Waves => AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target }),
             Loss::Plate(_) => AnyLoss::Plate(Plate { target, thickness: value(THICKNESS) }),
         })
     }

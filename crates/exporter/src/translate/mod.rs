@@ -34,7 +34,7 @@ use law::Scales;
 use motion::{Outcome, Promise, Stepping};
 use numbers::Radii;
 use serde::Serialize;
-use tools::{Tool, Way};
+use tools::{Tool, ToolNumbers};
 
 /// What is asked for.
 #[derive(Clone, Debug)]
@@ -264,7 +264,7 @@ impl Case {
     }
 
     /// The numbers of one way.
-    fn by(&self, way: &'static Way, request: &Request) -> Result<Translated, String> {
+    fn by(&self, way: &'static ToolNumbers, request: &Request) -> Result<Translated, String> {
         if way.flat_only && self.radii.other.is_some() {
             return Err("its numbers are for a ball on a flat, and here two spheres meet".into());
         }
@@ -325,7 +325,7 @@ impl Case {
     /// The numbers as they are typed, and the block with them.
     fn typed(
         &self,
-        way: &'static Way,
+        way: &'static ToolNumbers,
         fitted: Option<&Fitted>,
         promised: &[Promise],
         request: &Request,

@@ -5,7 +5,7 @@ use super::law::Law;
 use super::motion::{Outcome, PHASES, Promise, Stepping, exact};
 use super::numbers::Radii;
 use super::text::change;
-use super::tools::{Tool, Way};
+use super::tools::{Tool, ToolNumbers};
 use super::{Case, Request, Translated, doubts};
 use crate::numbers::{quantity, significant};
 use crate::scene::Scene;
@@ -22,7 +22,7 @@ fn three(value: f64) -> String {
 }
 
 /// What a number of this way can do and can't, and its remarks.
-pub fn of_way(case: &Case, way: &Way, fitted: Option<&Fitted>, translated: &Translated) -> Vec<String> {
+pub fn of_way(case: &Case, way: &ToolNumbers, fitted: Option<&Fitted>, translated: &Translated) -> Vec<String> {
     let mut notes = vec![met(case, fitted, translated)];
     notes.extend(chosen(way));
     notes.push(falls(case, translated));
@@ -80,7 +80,7 @@ fn met(case: &Case, fitted: Option<&Fitted>, translated: &Translated) -> String 
 }
 
 /// The law as it is for a mass that is `part` of that of the fit; `None` where the tool makes the damping from mass and restitution.
-fn with_part_of_mass(law: &Law, way: &Way, part: f64) -> Option<Law> {
+fn with_part_of_mass(law: &Law, way: &ToolNumbers, part: f64) -> Option<Law> {
     let is_typed = |key: &str| way.block.contains(&format!("{{{key}}}"));
     let scaled = |key: &str| if is_typed(key) { part } else { 1.0 };
     match *law {
@@ -98,7 +98,7 @@ fn with_part_of_mass(law: &Law, way: &Way, part: f64) -> Option<Law> {
 }
 
 /// That the numbers hold for one mass only, where another one has another restitution than by the scene's law.
-fn other_masses(case: &Case, way: &Way, fitted: &Fitted) -> Option<String> {
+fn other_masses(case: &Case, way: &ToolNumbers, fitted: &Fitted) -> Option<String> {
     let stepping = if fitted.is_fine { Stepping::Own } else { way.stepping };
     let theirs = |part: f64| {
         let law = with_part_of_mass(&fitted.law, way, part)?;
@@ -124,7 +124,7 @@ fn other_masses(case: &Case, way: &Way, fitted: &Fitted) -> Option<String> {
 }
 
 /// What else was chosen.
-fn chosen(way: &Way) -> Option<String> {
+fn chosen(way: &ToolNumbers) -> Option<String> {
     let what = match way.form?.chooses() {
         (true, true) => "Exponent and penetration depth are those",
         (true, false) => "The exponent is the one",
@@ -202,7 +202,7 @@ fn softened(case: &Case, fitted: &Fitted, translated: &Translated) -> Option<Str
 }
 
 /// What depends on the step.
-fn steps(case: &Case, way: &Way, translated: &Translated) -> Vec<String> {
+fn steps(case: &Case, way: &ToolNumbers, translated: &Translated) -> Vec<String> {
     let mut notes = Vec::new();
     let Some(step) = translated.step else { return notes };
     let widest = translated.promised.iter().max_by(|one, other| {

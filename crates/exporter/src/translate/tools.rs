@@ -19,13 +19,13 @@ pub struct Tool {
     /// The system of units that it may have beside SI.
     pub units: Option<String>,
     #[serde(rename = "way")]
-    pub ways: Vec<Way>,
+    pub ways: Vec<ToolNumbers>,
 }
 
 /// One set of numbers.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Way {
+pub struct ToolNumbers {
     pub name: String,
     pub title: String,
     /// `None` if a restitution is all that is typed.
@@ -47,7 +47,7 @@ pub struct Way {
     pub block: String,
 }
 
-impl Way {
+impl ToolNumbers {
     /// The lines of the block for a ball on a flat, or for two spheres.
     pub fn block_for(&self, two_spheres: bool) -> String {
         let lines = self.block.trim_matches('\n').lines().filter_map(|line| for_target(line, two_spheres));

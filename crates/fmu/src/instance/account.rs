@@ -50,7 +50,7 @@ impl Ending {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Account {
     /// Impulse that the contact has exerted and the importer has not yet applied \[N.s\].
-    pub debt: f64,
+    pub pending_impulse: f64,
     /// Lower limit of the assumed length of the next step \[s\].
     span: f64,
 }
@@ -66,23 +66,23 @@ impl Account {
     /// Records a step \[s\] in which the contact has exerted `impulse` \[N.s\] and the importer has applied the force `applied`
     /// \[N\]. Returns the force to apply over the next step \[N\].
     fn book(&mut self, impulse: f64, applied: f64, step: f64) -> f64 {
-        self.debt += impulse - applied * step;
+        self.pending_impulse += impulse - applied * step;
         let longest = if step > self.span { step } else { self.span };
         let faded = FADING * longest;
         self.span = if step > faded { step } else { faded };
-        let force = self.debt / longest;
+        let force = self.pending_impulse / longest;
         // the debt remains until steps are long enough for it
         if force.is_finite() { force } else { 0.0 }
     }
 
     pub fn save(&self, store: &mut impl FnMut(u64)) {
-        store_numbers(&[self.debt, self.span], store);
+        store_numbers(&[self.pending_impulse, self.span], store);
     }
 
     /// The account that [`Account::save`] has stored; `None` if a word is not a finite number.
     pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Account> {
-        let [debt, span] = load_numbers(words)?;
-        Some(Account { debt, span })
+        let [pending_impulse, span] = load_numbers(words)?;
+        Some(Account { pending_impulse, span })
     }
 }
 
@@ -109,10 +109,10 @@ impl<S: Scene> Instance<S> {
     }
 
     /// The part of the given rate of a row that the importer has yet to remove \[m/s\].
-    pub(super) fn owed(&self, row: usize) -> f64 {
+    pub(super) fn pending_rate(&self, row: usize) -> f64 {
         let accounts = self.contacts.accounts.as_ref();
         match S::is_parallel() {
-            true => self.response(row, |other| accounts.get(other).map_or(0.0, |account| account.debt)),
+            true => self.response(row, |other| accounts.get(other).map_or(0.0, |account| account.pending_impulse)),
             false => 0.0,
         }
     }

@@ -1,7 +1,7 @@
 //! The data for accurate coupling that a contact stores in addition to its state: the course of its input within a step, and
 //! the momentum of the last step.
 
-use brinell_contact::path::{Course, Sum};
+use brinell_contact::path::{RatePolynomial, Sum};
 use brinell_contact::words::{load_kept, store_kept};
 
 /// The course of the input over the next step, and the end of the last step.
@@ -25,12 +25,12 @@ impl Curve {
     }
 
     /// The course of the next step, for a contact with this `rate` \[m/s\].
-    pub fn course(&self, rate: f64) -> Course {
-        Course { rate, slope: self.slope, bend: self.bend }
+    pub fn course(&self, rate: f64) -> RatePolynomial {
+        RatePolynomial { rate, slope: self.slope, bend: self.bend }
     }
 
     /// Records the end of a step of length `step` \[s\] along `course`. Derivatives apply to one step only.
-    pub fn end_of(&mut self, course: &Course, step: f64) {
+    pub fn end_of(&mut self, course: &RatePolynomial, step: f64) {
         *self = Curve {
             end_rate: course.rate_after(step),
             end_slope: course.slope + course.bend * step,

@@ -6,7 +6,7 @@ use crate::scene::Real;
 use brinell_contact::Regime;
 use brinell_contact::behaviour::slopes;
 use brinell_contact::numbers::largest;
-use brinell_contact::path::Course;
+use brinell_contact::path::RatePolynomial;
 use brinell_contact::tangential::Quantity;
 use core::f64::consts::PI;
 
@@ -126,7 +126,7 @@ impl<S: Scene> Instance<S> {
         // for a function of the indentation with these derivatives
         let by_time = |(first, second): (f64, f64)| (first * rate, second * rate * rate + first * slope);
         if let (true, Some(quantity)) = (S::Contact::HAS_FRICTION, output.quantity()) {
-            let normal = Course { rate, slope, bend: 0.0 };
+            let normal = RatePolynomial { rate, slope, bend: 0.0 };
             let tangential = [0, 1].map(|direction| self.tangential_end_of(contact, direction));
             return Some(history.tangential_derivatives(&model, quantity, &normal, &tangential));
         }
@@ -178,7 +178,7 @@ impl<S: Scene> Instance<S> {
         let Some(history) = self.histories().get(contact) else { return 0.0 };
         let (rate, slope) = self.end_of(contact);
         let Some(direction) = direction else { return history.stiffness(rate) * rate };
-        let normal = Course { rate, slope, bend: 0.0 };
+        let normal = RatePolynomial { rate, slope, bend: 0.0 };
         let tangential = [0, 1].map(|direction| self.tangential_end_of(contact, direction));
         history.tangential_derivatives(&self.model(contact), Quantity::Force(direction), &normal, &tangential).0
     }
@@ -327,7 +327,7 @@ impl<S: Scene> Instance<S> {
                 Some((other, rate)) if other == direction => rate,
                 _ => self.tangential_end_of(contact, direction).rate,
             };
-            next.set_tangential_course(direction, &Course::held(held));
+            next.set_tangential_course(direction, &RatePolynomial::held(held));
         }
         // where the law ends, the state does not change
         let _ = next.step_held(rate, self.last_step(), &S::Contact::kept(&model), || &*model);

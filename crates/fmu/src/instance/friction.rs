@@ -4,14 +4,14 @@
 
 use super::*;
 use crate::scene::Real;
-use brinell_contact::path::Course;
+use brinell_contact::path::RatePolynomial;
 use brinell_contact::tangential::Quantity;
 
 impl<S: Scene> Instance<S> {
     /// Sets the tangential rate of `contact` in this `direction` \[m/s\].
     pub(super) fn set_tangential_rate(&mut self, contact: usize, direction: usize, rate: f64) {
         if let Some(history) = self.contacts.histories.as_mut().get_mut(contact) {
-            history.set_tangential_course(direction, &Course { rate, ..history.tangential_course(direction) });
+            history.set_tangential_course(direction, &RatePolynomial { rate, ..history.tangential_course(direction) });
         }
     }
 
@@ -28,7 +28,7 @@ impl<S: Scene> Instance<S> {
     pub(super) fn forget_tangential_rates(&mut self) {
         for history in self.contacts.histories.as_mut() {
             for direction in 0..S::Contact::DIRECTIONS {
-                history.set_tangential_course(direction, &Course::held(0.0));
+                history.set_tangential_course(direction, &RatePolynomial::held(0.0));
             }
         }
     }
@@ -40,11 +40,11 @@ impl<S: Scene> Instance<S> {
     }
 
     /// The tangential rate of `contact` in this `direction` at the present time: from the end of the last step, or the input.
-    pub(super) fn tangential_end_of(&self, contact: usize, direction: usize) -> Course {
+    pub(super) fn tangential_end_of(&self, contact: usize, direction: usize) -> RatePolynomial {
         match self.histories().get(contact) {
             Some(history) if self.clock.curved => history.tangential_end(direction),
-            Some(history) => Course::held(history.tangential_course(direction).rate),
-            None => Course::held(0.0),
+            Some(history) => RatePolynomial::held(history.tangential_course(direction).rate),
+            None => RatePolynomial::held(0.0),
         }
     }
 
@@ -75,7 +75,7 @@ impl<S: Scene> Instance<S> {
             .iter()
             .flat_map(|history| (0..S::Contact::DIRECTIONS).map(move |direction| (history, direction)))
         {
-            let Course { rate, slope, bend } = history.tangential_course(direction);
+            let RatePolynomial { rate, slope, bend } = history.tangential_course(direction);
             let largest = rate.abs() + step * (slope.abs() + 0.5 * bend.abs() * step);
             check_tangential_rate(largest)?;
         }

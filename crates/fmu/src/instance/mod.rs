@@ -57,7 +57,7 @@ struct Contacts<S: Scene> {
     /// Forces \[N\].
     forces: IfPresent<S::Forces, S, f64>,
     momenta: IfPresent<S::Momentum, S, Momentum>,
-    curves: IfPresent<S::Course, S, Curve>,
+    curves: IfPresent<S::InputDerivatives, S, Curve>,
     /// Length of the last step \[s\], if a force is predicted from it.
     last_step: <S::Prediction as Presence>::Of<f64, [f64; 1]>,
     endings: RowsIfPresent<<S::Coupling as Coupling>::Ending, S, Ending>,

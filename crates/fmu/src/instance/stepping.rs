@@ -4,9 +4,9 @@ use super::clock::Guarded;
 use super::stability::{Ahead, watch};
 use super::*;
 use crate::scene::Real;
-use brinell_contact::motion::{Drive, NoMotion};
+use brinell_contact::motion::{ExternalLoad, NoMotion};
 use brinell_contact::numbers::largest;
-use brinell_contact::path::Course;
+use brinell_contact::path::RatePolynomial;
 
 /// Result of an attempt at a plain step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub enum Plain {
 struct Moved<C> {
     history: C,
     /// A course with the same end as the step.
-    course: Course,
+    course: RatePolynomial,
     mean_force: f64,
     /// Closing speed of the bodies at the end, if the FMU moves them \[m/s\].
     speed: f64,
@@ -307,16 +307,16 @@ impl<S: Scene> Instance<S> {
         let failed = |deep| too_deep(contact, deep);
         if let Some(follow) = S::follow() {
             let mass = self.mass(contact);
-            let drive = Drive { mass, acceleration: self.acceleration(contact, course.slope) };
-            let speed = rate - self.owed(contact);
-            let outcome = follow(&mut history, &model, &drive, speed, step).map_err(|reason| match reason {
+            let load = ExternalLoad { mass, acceleration: self.acceleration(contact, course.slope) };
+            let speed = rate - self.pending_rate(contact);
+            let outcome = follow(&mut history, &model, &load, speed, step).map_err(|reason| match reason {
                 NoMotion::TooDeep(deep) => failed(deep),
                 NoMotion::TooLong => Fault::TooLong { contact, step },
             })?;
-            let mean_force = mass * outcome.taken / step;
+            let mean_force = mass * outcome.speed_removed / step;
             // as if the rate had changed linearly to this value
-            let slope = drive.acceleration - history.force(outcome.speed) / mass;
-            course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
+            let slope = load.acceleration - history.force(outcome.speed) / mass;
+            course = RatePolynomial { rate: outcome.speed - slope * step, slope, bend: 0.0 };
             return Ok(Moved { history, course, mean_force, speed: outcome.speed, deepest: outcome.deepest });
         }
         let (deepest, mean_force) = match S::has_momentum() {

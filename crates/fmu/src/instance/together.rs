@@ -2,7 +2,7 @@
 
 use super::*;
 use brinell_contact::numbers::largest;
-use brinell_contact::path::Course;
+use brinell_contact::path::RatePolynomial;
 use brinell_contact::shared::{InverseMasses, Refused};
 use brinell_contact::tangential::Quantity;
 
@@ -63,7 +63,7 @@ impl<S: Scene> Instance<S> {
                     history.map_or(0.0, |history| history.tangential_course(direction).slope)
                 }
             };
-            let rate = self.given_rate(row) - self.owed(row);
+            let rate = self.given_rate(row) - self.pending_rate(row);
             self.note(Number::Rate, row, rate);
             self.note(Number::Acceleration, row, self.acceleration(row, slope));
         }
@@ -97,13 +97,13 @@ impl<S: Scene> Instance<S> {
             let Contacts { histories, endings, curves, forces, .. } = &mut self.contacts;
             endings.as_mut().get_mut(row).into_iter().for_each(|ending| ending.jump = jump);
             if let Some(direction) = direction {
-                let end = Course { rate, slope, bend: 0.0 };
+                let end = RatePolynomial { rate, slope, bend: 0.0 };
                 let history = histories.as_mut().get_mut(contact);
                 history.into_iter().for_each(|history| history.set_tangential_end(direction, &end));
                 continue;
             }
             // as if the rate had changed linearly to this value
-            let course = Course { rate: rate - slope * step, slope, bend: 0.0 };
+            let course = RatePolynomial { rate: rate - slope * step, slope, bend: 0.0 };
             curves.as_mut().get_mut(contact).into_iter().for_each(|curve| curve.end_of(&course, step));
             forces.as_mut().get_mut(contact).into_iter().for_each(|slot| *slot = force);
         }

@@ -3,7 +3,7 @@
 use super::friction::check_tangential_rate;
 use super::*;
 use crate::scene::{Integer, Real};
-use brinell_contact::path::Course;
+use brinell_contact::path::RatePolynomial;
 use brinell_contact::shared::NotInverseMasses;
 
 impl<S: Scene> Instance<S> {
@@ -268,7 +268,10 @@ impl<S: Scene> Instance<S> {
         let history = *self.histories().get(contact)?;
         let mut next = history;
         for direction in 0..S::Contact::DIRECTIONS {
-            next.set_tangential_course(direction, &Course::held(self.tangential_end_of(contact, direction).rate));
+            next.set_tangential_course(
+                direction,
+                &RatePolynomial::held(self.tangential_end_of(contact, direction).rate),
+            );
         }
         let step = self.last_step();
         if S::Contact::FINDS_STRENGTH {

@@ -230,7 +230,7 @@ impl<S: Scene> Instance<S> {
         else {
             return;
         };
-        let expected = ending.speed + self.owed(contact);
+        let expected = ending.speed + self.pending_rate(contact);
         // a serial importer has already applied the new force, a parallel one still the old force
         let jump = if S::is_parallel() { -ending.jump } else { ending.jump };
         let left = Left { right: rate - expected, other: rate - expected - jump, none: rate - ending.free };
@@ -290,7 +290,7 @@ impl<S: Scene> Instance<S> {
             else {
                 continue;
             };
-            let expected = ending.speed + self.owed(contact);
+            let expected = ending.speed + self.pending_rate(contact);
             let (beyond, size) = (rate - expected, rate.abs() + ending.speed.abs() + expected.abs());
             let tells = beyond.abs() > TELLING * size;
             let ratio = quotient(beyond, force, tells, 0.0);

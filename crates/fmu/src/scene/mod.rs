@@ -15,7 +15,7 @@ pub use variable::{Integer, Parameter, Real, Settable};
 
 use brinell_contact::motion::Follow;
 use brinell_contact::shared::{InverseMasses, Outcome, Refused, Work};
-use brinell_contact::tangential::{Friction, RoughModel};
+use brinell_contact::tangential::{Friction, FrictionalModel};
 use brinell_contact::{Body, Contact, Model, OtherBody, Pair, TwoBodies};
 use core::borrow::Borrow;
 
@@ -49,7 +49,7 @@ pub trait Scene: Sized {
     /// Whether an output needs the momentum of a step.
     type Momentum: Presence;
     /// Whether the input may have derivatives. Contacts whose force depends on the rate have none; others may do without.
-    type Course: Presence;
+    type InputDerivatives: Presence;
     /// Whether an output predicts the force at the end of the next step.
     type Prediction: Presence;
 
@@ -106,7 +106,7 @@ pub trait Scene: Sized {
     /// Whether the input may have derivatives.
     #[inline(always)]
     fn has_course() -> bool {
-        Self::Course::IS_PRESENT
+        Self::InputDerivatives::IS_PRESENT
     }
 
     /// Whether an output predicts the force at the end of the next step.
@@ -341,7 +341,11 @@ pub trait Scene: Sized {
 }
 
 /// The model `normal` with friction between its bodies, and a `loss` or `()`; `value` gives the parameters of the scene.
-pub fn with_friction<L, U, X>(normal: Model<L, U>, loss: X, value: impl Fn(Parameter) -> f64) -> RoughModel<L, U, X> {
+pub fn with_friction<L, U, X>(
+    normal: Model<L, U>,
+    loss: X,
+    value: impl Fn(Parameter) -> f64,
+) -> FrictionalModel<L, U, X> {
     let body = |youngs_modulus, poissons_ratio| Body {
         radius: f64::INFINITY,
         youngs_modulus: value(youngs_modulus),
@@ -351,7 +355,7 @@ pub fn with_friction<L, U, X>(normal: Model<L, U>, loss: X, value: impl Fn(Param
     let target = body(Parameter::TargetYoungsModulus, Parameter::TargetPoissonsRatio);
     let coefficient = value(Parameter::FrictionCoefficient);
     let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
-    RoughModel { normal, friction, loss }
+    FrictionalModel { normal, friction, loss }
 }
 
 /// Whether the impactor is the softer body, which a [`Pair`] describes; `value` gives the parameters of the scene. Of equally strong

@@ -6,7 +6,7 @@ use brinell_contact::loading::{AnyLoading, Elastic};
 use brinell_contact::losses::{self, AnyLoss, Damper};
 use brinell_contact::motion::{Follow, follow};
 use brinell_contact::rate;
-use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
+use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel, PlaneContact};
 use brinell_contact::unloading::{AnyUnloading, ContactRadius};
 use brinell_contact::{Body, Contact, History, Model, Pair};
 use brinell_fmu::scene::{Absent, Coupled, Coupling, Presence, Present};
@@ -19,7 +19,7 @@ pub type Acts<C, M> = fn(&C, &M) -> bool;
 pub trait Kind {
     type Model: Copy;
     type Contact: Contact<Self::Model>;
-    type Course: Presence;
+    type InputDerivatives: Presence;
     type Coupling: Coupling;
     type Watch: Presence;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
@@ -38,10 +38,10 @@ pub struct Massive<C = Coupled>(PhantomData<C>);
 pub struct Rated<C = Coupled>(PhantomData<C>);
 
 /// The same with friction; the mean tangential force is an output if `MEAN`.
-pub struct Rough<const MEAN: bool = true>;
+pub struct Frictional<const MEAN: bool = true>;
 
 /// The same with friction in two directions.
-pub struct RoughPlane<const MEAN: bool = true>;
+pub struct FrictionalPlane<const MEAN: bool = true>;
 
 /// A rate-dependent law.
 pub struct Damped;
@@ -54,7 +54,7 @@ fn elastoplastic(pair: Pair) -> Model<AnyLoading, AnyUnloading> {
 impl Kind for Elastoplastic {
     type Model = Model<AnyLoading, AnyUnloading>;
     type Contact = History;
-    type Course = Present;
+    type InputDerivatives = Present;
     type Coupling = Absent;
     type Watch = Present;
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
@@ -65,7 +65,7 @@ impl Kind for Elastoplastic {
 impl<C: Coupling> Kind for Massive<C> {
     type Model = Model<AnyLoading, AnyUnloading>;
     type Contact = History;
-    type Course = Present;
+    type InputDerivatives = Present;
     type Coupling = C;
     type Watch = Absent;
     const FOLLOW: Option<Follow<History, Self::Model>> = Some(follow);
@@ -77,7 +77,7 @@ impl<C: Coupling> Kind for Massive<C> {
 impl<C: Coupling> Kind for Rated<C> {
     type Model = rate::Model<Model<AnyLoading, AnyUnloading>>;
     type Contact = rate::History;
-    type Course = Present;
+    type InputDerivatives = Present;
     type Coupling = C;
     type Watch = Absent;
     const FOLLOW: Option<Follow<rate::History, Self::Model>> = Some(follow);
@@ -86,35 +86,35 @@ impl<C: Coupling> Kind for Rated<C> {
     }
 }
 
-impl<const MEAN: bool> Kind for Rough<MEAN> {
-    type Model = RoughModel<AnyLoading, AnyUnloading>;
-    type Contact = RoughContact<16, MEAN>;
-    type Course = Present;
+impl<const MEAN: bool> Kind for Frictional<MEAN> {
+    type Model = FrictionalModel<AnyLoading, AnyUnloading>;
+    type Contact = FrictionalContact<16, MEAN>;
+    type InputDerivatives = Present;
     type Coupling = Absent;
     type Watch = Present;
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
         let rigid = Body { radius: 1.0, youngs_modulus: f64::INFINITY, poissons_ratio: 0.0 };
         let target = Body { youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio, ..rigid };
         let friction = Friction::between(&rigid, &target, pair.modulus, chosen().friction);
-        RoughModel { normal: elastoplastic(pair), friction, loss: () }
+        FrictionalModel { normal: elastoplastic(pair), friction, loss: () }
     }
 }
 
-impl<const MEAN: bool> Kind for RoughPlane<MEAN> {
-    type Model = <Rough as Kind>::Model;
+impl<const MEAN: bool> Kind for FrictionalPlane<MEAN> {
+    type Model = <Frictional as Kind>::Model;
     type Contact = PlaneContact<16, MEAN>;
-    type Course = Present;
+    type InputDerivatives = Present;
     type Coupling = Absent;
     type Watch = Present;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
-        <Rough>::model(pair, restitution, mass)
+        <Frictional>::model(pair, restitution, mass)
     }
 }
 
 impl Kind for Damped {
     type Model = losses::Model<Elastic, ContactRadius, Damper>;
     type Contact = losses::History<Damper>;
-    type Course = Absent;
+    type InputDerivatives = Absent;
     type Coupling = Absent;
     type Watch = Absent;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
@@ -128,7 +128,7 @@ pub struct DampedMassive<C = Coupled>(PhantomData<C>);
 impl<C: Coupling> Kind for DampedMassive<C> {
     type Model = losses::Model<Elastic, ContactRadius, Damper>;
     type Contact = losses::History<Damper>;
-    type Course = Present;
+    type InputDerivatives = Present;
     type Coupling = C;
     type Watch = Absent;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(losses::follow);
@@ -148,7 +148,7 @@ type LossyModel = losses::Model<AnyLoading, AnyUnloading, AnyLoss>;
 impl Kind for Lossy {
     type Model = LossyModel;
     type Contact = losses::History<AnyLoss>;
-    type Course = Absent;
+    type InputDerivatives = Absent;
     type Coupling = Absent;
     type Watch = Absent;
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
@@ -159,7 +159,7 @@ impl Kind for Lossy {
 impl<C: Coupling> Kind for LossyMassive<C> {
     type Model = LossyModel;
     type Contact = losses::History<AnyLoss>;
-    type Course = Present;
+    type InputDerivatives = Present;
     type Coupling = C;
     type Watch = Absent;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(losses::follow);
@@ -174,7 +174,7 @@ pub struct Guarded;
 impl Kind for Guarded {
     type Model = Model<AnyLoading, AnyUnloading>;
     type Contact = History;
-    type Course = Absent;
+    type InputDerivatives = Absent;
     type Coupling = Absent;
     type Watch = Absent;
     const GUARD: Option<Acts<History, Self::Model>> = Some(History::is_held_back);
@@ -189,7 +189,7 @@ pub struct Held<K>(PhantomData<K>);
 impl<K: Kind> Kind for Held<K> {
     type Model = K::Model;
     type Contact = K::Contact;
-    type Course = Absent;
+    type InputDerivatives = Absent;
     type Coupling = K::Coupling;
     type Watch = K::Watch;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;

@@ -5,7 +5,7 @@ use crate::Model as Plastic;
 use crate::behaviour::{Contact, slopes};
 use crate::loading::Loading;
 use crate::losses::{Loss, Model};
-use crate::path::Course;
+use crate::path::RatePolynomial;
 use crate::unloading::Unloading;
 use crate::validity::largest_radius;
 use crate::words::{load_numbers, store_numbers};
@@ -45,7 +45,7 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
     /// The rate must be constant: the inputs of these contacts have no derivatives.
     fn step<B: Borrow<Model<L, U, K>>>(
         &mut self,
-        course: &Course,
+        course: &RatePolynomial,
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<f64, TooDeep> {

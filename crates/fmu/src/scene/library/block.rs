@@ -286,9 +286,9 @@ impl RateNumbers {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Loss {
-    /// [`Fitted`](brinell_contact::losses::Fitted).
+    /// [`RestitutionFitted`](brinell_contact::losses::RestitutionFitted).
     Fitted = 0,
-    /// [`Waves`](brinell_contact::losses::Waves).
+    /// [`HalfSpaceRadiation`](brinell_contact::losses::HalfSpaceRadiation).
     Waves = 1,
     /// [`Plate`](brinell_contact::losses::Plate).
     Plate = 2,
@@ -315,7 +315,7 @@ pub enum Flag {
     /// An output needs the momentum of a step.
     Momentum = 6,
     /// The input may have derivatives.
-    Course = 7,
+    InputDerivatives = 7,
     /// Forces are stored.
     Forces = 8,
     /// The laws take each of two bodies for itself.

@@ -9,11 +9,11 @@ use crate::scene::{
 };
 use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::loading::{AnyLoading, Elastic, Loading};
-use brinell_contact::losses::{self, AnyLoss, Damper, Fitted, Plate, Solid, Waves};
+use brinell_contact::losses::{self, AnyLoss, Damper, HalfSpaceRadiation, Plate, RestitutionFitted, Solid};
 use brinell_contact::motion::{self, Follow};
 use brinell_contact::rate::{self, Slow};
 use brinell_contact::shared::{self, InverseMasses, Outcome, Refused, SharedContact, Work};
-use brinell_contact::tangential::{PlaneContact, RoughContact, RoughModel};
+use brinell_contact::tangential::{FrictionalContact, FrictionalModel, PlaneContact};
 use brinell_contact::unloading::{AnyUnloading, Unloading};
 use brinell_contact::{Contact, History, LawNumbers, Model, Numbered};
 use core::borrow::Borrow;
@@ -32,7 +32,7 @@ pub struct Lossy<L, U, X>(PhantomData<(L, U, X)>);
 pub struct Rated<X>(PhantomData<X>);
 
 /// Contacts with friction, of the type `C`, and a loss below yield or `()`.
-pub struct Rough<C, L, U, X = ()>(PhantomData<(C, L, U, X)>);
+pub struct Frictional<C, L, U, X = ()>(PhantomData<(C, L, U, X)>);
 
 /// The law with these numbers.
 #[inline(always)]
@@ -80,17 +80,17 @@ impl OfScene for () {
     fn of_scene(_data: &Data, _given: &Given, _value: impl Fn(Parameter) -> f64 + Copy) {}
 }
 
-impl OfScene for Fitted {
+impl OfScene for RestitutionFitted {
     #[inline(always)]
-    fn of_scene(_data: &Data, _given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Fitted {
-        Fitted { restitution: value(Parameter::ElasticRestitution) }
+    fn of_scene(_data: &Data, _given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> RestitutionFitted {
+        RestitutionFitted { restitution: value(Parameter::ElasticRestitution) }
     }
 }
 
-impl OfScene for Waves {
+impl OfScene for HalfSpaceRadiation {
     #[inline(always)]
-    fn of_scene(_data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> Waves {
-        Waves { target: target(given, value) }
+    fn of_scene(_data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> HalfSpaceRadiation {
+        HalfSpaceRadiation { target: target(given, value) }
     }
 }
 
@@ -123,10 +123,12 @@ impl OfScene for Damper {
 impl OfScene for AnyLoss {
     fn of_scene(data: &Data, given: &Given, value: impl Fn(Parameter) -> f64 + Copy) -> AnyLoss {
         match data.loss {
-            waves if waves == Loss::Waves as u64 => AnyLoss::Waves(Waves::of_scene(data, given, value)),
+            waves if waves == Loss::Waves as u64 => {
+                AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation::of_scene(data, given, value))
+            }
             plate if plate == Loss::Plate as u64 => AnyLoss::Plate(Plate::of_scene(data, given, value)),
             damper if damper == Loss::Damper as u64 => AnyLoss::Damper(Damper::of_scene(data, given, value)),
-            _ => AnyLoss::Fitted(Fitted::of_scene(data, given, value)),
+            _ => AnyLoss::RestitutionFitted(RestitutionFitted::of_scene(data, given, value)),
         }
     }
 
@@ -230,11 +232,11 @@ where
     }
 }
 
-impl<C, L: Loading + Numbered, U: Unloading + Numbered, X: OfScene> Laws for Rough<C, L, U, X>
+impl<C, L: Loading + Numbered, U: Unloading + Numbered, X: OfScene> Laws for Frictional<C, L, U, X>
 where
-    C: Contact<RoughModel<L, U, X>> + SharedContact<RoughModel<L, U, X>>,
+    C: Contact<FrictionalModel<L, U, X>> + SharedContact<FrictionalModel<L, U, X>>,
 {
-    type Model = RoughModel<L, U, X>;
+    type Model = FrictionalModel<L, U, X>;
     type Contact = C;
     together!();
 
@@ -293,10 +295,10 @@ type AnyLaws = Plastic<AnyLoading, AnyUnloading>;
 type AnyLossy = Lossy<AnyLoading, AnyUnloading, AnyLoss>;
 
 /// The same as [`AnyLaws`] with friction.
-type AnyRough<C> = Rough<C, AnyLoading, AnyUnloading>;
+type AnyFrictional<C> = Frictional<C, AnyLoading, AnyUnloading>;
 
 /// The same with a loss below yield.
-type AnyLossyRough<C> = Rough<C, AnyLoading, AnyUnloading, AnyLoss>;
+type AnyLossyFrictional<C> = Frictional<C, AnyLoading, AnyUnloading, AnyLoss>;
 
 /// The state of a contact with a loss.
 type LossyHistory = losses::History<AnyLoss>;
@@ -312,7 +314,7 @@ impl Kind for State {
     type Sizes = One;
     type Forces = Absent;
     type Momentum = Absent;
-    type Course = Present;
+    type InputDerivatives = Present;
     type Prediction = Present;
     type Coupling = Absent;
     type Watch = Present;
@@ -329,7 +331,7 @@ impl<L: Laws, C: Coupling, W: Presence, S: Presence> Kind for Contacts<L, C, W, 
     type Sizes = Spans;
     type Forces = Present;
     type Momentum = Present;
-    type Course = Present;
+    type InputDerivatives = Present;
     type Prediction = Present;
     type Coupling = C;
     type Watch = W;
@@ -354,13 +356,13 @@ pub type Strengths = Contacts<Rated<AnyLaws>, Any, Absent>;
 pub type LossyStrengths = Contacts<Rated<AnyLossy>, Any, Absent>;
 
 /// The library `friction`: contacts with friction in one direction, which may move their bodies together.
-pub type Friction = Contacts<AnyRough<RoughContact<MEMORY, true>>>;
+pub type Friction = Contacts<AnyFrictional<FrictionalContact<MEMORY, true>>>;
 
 /// The library `friction-2`: the same with friction in two directions.
-pub type Friction2 = Contacts<AnyRough<PlaneContact<MEMORY, true>>>;
+pub type Friction2 = Contacts<AnyFrictional<PlaneContact<MEMORY, true>>>;
 
 /// The library `lossy-friction`: the same as [`Friction`] with losses below yield.
-pub type LossyFriction = Contacts<AnyLossyRough<RoughContact<MEMORY, true, LossyHistory>>>;
+pub type LossyFriction = Contacts<AnyLossyFrictional<FrictionalContact<MEMORY, true, LossyHistory>>>;
 
 /// The library `lossy-friction-2`: the same as [`Friction2`] with losses below yield.
-pub type LossyFriction2 = Contacts<AnyLossyRough<PlaneContact<MEMORY, true, LossyHistory>>>;
+pub type LossyFriction2 = Contacts<AnyLossyFrictional<PlaneContact<MEMORY, true, LossyHistory>>>;

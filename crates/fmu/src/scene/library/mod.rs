@@ -81,7 +81,7 @@ pub trait Kind {
     /// Whether outputs may need the momentum of a step.
     type Momentum: Presence;
     /// Whether the input may have derivatives.
-    type Course: Presence;
+    type InputDerivatives: Presence;
     /// Whether outputs may predict the force.
     type Prediction: Presence;
     /// The coupling with an importer.
@@ -175,7 +175,7 @@ impl<K: Kind, B: Memory> Scene for LibraryScene<K, B> {
 
     type Forces = K::Forces;
     type Momentum = K::Momentum;
-    type Course = K::Course;
+    type InputDerivatives = K::InputDerivatives;
     type Prediction = K::Prediction;
     type Coupling = K::Coupling;
     type Watch = K::Watch;
@@ -217,7 +217,7 @@ impl<K: Kind, B: Memory> Scene for LibraryScene<K, B> {
 
     #[inline(always)]
     fn has_course() -> bool {
-        <K::Course as Presence>::IS_PRESENT && Self::data().has(Flag::Course)
+        <K::InputDerivatives as Presence>::IS_PRESENT && Self::data().has(Flag::InputDerivatives)
     }
 
     #[inline(always)]

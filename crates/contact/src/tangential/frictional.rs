@@ -3,7 +3,7 @@
 use super::growth_steps::next_of_lattice;
 use super::trial::{TOLERANCE, mean_over};
 use super::vector::{add, times};
-use super::{Friction, Motion, Sliding, Stuck};
+use super::{Friction, Motion, PlayOperator, Sliding};
 use crate::history::History;
 use crate::loading::Loading;
 use crate::numbers::{largest, next_above, quotient, smallest};
@@ -34,7 +34,7 @@ fn middle<const D: usize>(one: [f64; D], other: [f64; D]) -> [f64; D] {
 
 /// The parameters of a contact with friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RoughModel<L, U, X = ()> {
+pub struct FrictionalModel<L, U, X = ()> {
     /// The bodies and the laws of the normal force.
     pub normal: Model<L, U>,
     /// Friction between the bodies.
@@ -49,7 +49,7 @@ pub struct RoughModel<L, U, X = ()> {
 /// With `LATTICE`, a growing dent is divided at fixed depths. The result then hardly depends on the time steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringsOf<const D: usize, const N: usize, const LATTICE: bool> {
-    stuck: Stuck<D, N>,
+    stuck: PlayOperator<D, N>,
     /// The unloading path of the current dent, up to its largest indentation. Before yield: Hertz's curve up to the
     /// yield point.
     curve: Segment,
@@ -61,7 +61,7 @@ pub type Springs<const N: usize, const LATTICE: bool = true> = SpringsOf<1, N, L
 /// The springs of a contact in two directions, in a list of `N` segments.
 pub type PlaneSprings<const N: usize, const LATTICE: bool = true> = SpringsOf<2, N, LATTICE>;
 
-impl<L: Loading, U: Unloading, X> RoughModel<L, U, X> {
+impl<L: Loading, U: Unloading, X> FrictionalModel<L, U, X> {
     /// The unloading curve of a contact whose largest indentation was `largest` \[m\].
     fn curve_below(&self, largest: f64) -> Segment {
         let yields_at = self.normal.yield_point().indentation;
@@ -82,7 +82,7 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
     pub fn advance<L: Loading, U: Unloading, X>(
         &mut self,
         contact: &mut History,
-        model: &RoughModel<L, U, X>,
+        model: &FrictionalModel<L, U, X>,
         (increment, slip): (f64, f64),
         rates: (f64, f64),
         asked: Mean,
@@ -100,9 +100,9 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
 
 impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTICE> {
     /// The springs of a `contact` that has just started: no tangential displacement.
-    pub fn start<L: Loading, U: Unloading, X>(model: &RoughModel<L, U, X>, contact: &History) -> Self {
+    pub fn start<L: Loading, U: Unloading, X>(model: &FrictionalModel<L, U, X>, contact: &History) -> Self {
         let curve = model.curve_below(contact.max_indentation());
-        SpringsOf { stuck: Stuck::pressed(&curve, contact.indentation()), curve }
+        SpringsOf { stuck: PlayOperator::pressed(&curve, contact.indentation()), curve }
     }
 
     /// Moves a `contact` and its springs by `increment` along the normal and by `slip` in the tangential directions
@@ -114,7 +114,7 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     pub fn advance_along<L: Loading, U: Unloading, X>(
         &mut self,
         contact: &mut History,
-        model: &RoughModel<L, U, X>,
+        model: &FrictionalModel<L, U, X>,
         (increment, slip): (f64, [f64; D]),
         rates: (f64, [f64; D]),
         asked: Mean,
@@ -129,7 +129,7 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     #[inline]
     pub(super) fn follow<L: Loading, U: Unloading, X>(
         &mut self,
-        model: &RoughModel<L, U, X>,
+        model: &FrictionalModel<L, U, X>,
         (from, to): (f64, f64),
         (slip, bend): ([f64; D], [f64; D]),
         rates: (f64, [f64; D]),
@@ -155,7 +155,7 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     /// pieces of the growth. Returns their mean force \[N\].
     fn go_along<L: Loading, U: Unloading, X>(
         &mut self,
-        model: &RoughModel<L, U, X>,
+        model: &FrictionalModel<L, U, X>,
         (way, bend): (&Motion<D>, [f64; D]),
         asked: Mean,
     ) -> [f64; D] {
@@ -195,7 +195,7 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
 
     /// Moves the springs to the path that begins at the indentation `here` \[m\]: that of the old dent may end there with another
     /// one, at yield and at corners of some laws.
-    fn jump<L: Loading, U: Unloading, X>(&mut self, model: &RoughModel<L, U, X>, here: f64, to: f64) {
+    fn jump<L: Loading, U: Unloading, X>(&mut self, model: &FrictionalModel<L, U, X>, here: f64, to: f64) {
         let way = Motion::straight(here, largest(next_above(here), f64::EPSILON * to), [0.0; D]);
         let curve = model.curve_below(way.to);
         self.stuck.grow(&self.curve, &curve, &way);
@@ -219,7 +219,7 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     /// Moves the springs on a `way` with a growing dent. Returns their mean force \[N\].
     fn grow<L: Loading, U: Unloading, X>(
         &mut self,
-        model: &RoughModel<L, U, X>,
+        model: &FrictionalModel<L, U, X>,
         way: &Motion<D>,
         asked: Mean,
     ) -> [f64; D] {
@@ -319,7 +319,7 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     }
 
     /// Number of words in the saved springs.
-    pub const WORDS: usize = Stuck::<D, N>::WORDS;
+    pub const WORDS: usize = PlayOperator::<D, N>::WORDS;
 
     /// Passes [`SpringsOf::WORDS`] words to `store`.
     pub fn save(&self, store: &mut impl FnMut(u64)) {
@@ -329,10 +329,10 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
     /// The springs of a `contact` that [`SpringsOf::save`] has stored; `None` if a word is not a finite number.
     pub fn load<L: Loading, U: Unloading, X>(
         words: &mut impl Iterator<Item = u64>,
-        model: &RoughModel<L, U, X>,
+        model: &FrictionalModel<L, U, X>,
         contact: &History,
     ) -> Option<Self> {
         let curve = model.curve_below(contact.max_indentation());
-        Some(SpringsOf { stuck: Stuck::load(words, &curve)?, curve })
+        Some(SpringsOf { stuck: PlayOperator::load(words, &curve)?, curve })
     }
 }

@@ -3,7 +3,7 @@
 use super::field::Start;
 use super::field::{Ended, Stretch};
 use super::flight::Flight;
-use super::{COSTLY, Drive, MOST_EVALUATIONS, MOST_PERIODS, NoMotion, Outcome};
+use super::{COSTLY, ExternalLoad, MOST_EVALUATIONS, MOST_PERIODS, NoMotion, Outcome};
 use crate::history::History;
 use crate::loading::Loading;
 use crate::numbers::{largest, quotient, smallest};
@@ -15,10 +15,10 @@ use core::cell::Cell;
 use libm::{fabs, floor};
 
 /// The bodies during a step. The history is updated only where necessary: when a dent is left behind, and at the end.
-pub struct Bodies<'a, L, U> {
+pub struct Integrator<'a, L, U> {
     history: &'a mut History,
     model: &'a Model<L, U>,
-    drive: &'a Drive,
+    load: &'a ExternalLoad,
     /// Inverse of the effective mass \[1/kg\].
     inverse_mass: f64,
     /// Present indentation \[m\].
@@ -34,7 +34,7 @@ pub struct Bodies<'a, L, U> {
     /// Whether the last event was a turning point.
     turned: bool,
     /// Closing speed removed by the contact force so far \[m/s\].
-    taken: f64,
+    speed_removed: f64,
     /// Time left \[s\].
     left: f64,
     /// The largest indentation so far of a dent that was left behind \[m\].
@@ -67,7 +67,7 @@ const PIECE: u32 = 10;
 /// Largest number of events in a step. Flights need no evaluations, so [`MOST_EVALUATIONS`] does not limit them.
 const MOST_EVENTS: u32 = MOST_EVALUATIONS / PIECE;
 
-impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
+impl<'a, L: Loading, U: Unloading> Integrator<'a, L, U> {
     /// The bodies at the start of a step.
     ///
     /// # Errors
@@ -75,28 +75,28 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
     pub fn new(
         history: &'a mut History,
         model: &'a Model<L, U>,
-        drive: &'a Drive,
+        load: &'a ExternalLoad,
         speed: f64,
         step: f64,
-    ) -> Result<Bodies<'a, L, U>, TooDeep> {
+    ) -> Result<Integrator<'a, L, U>, TooDeep> {
         let (indentation, largest) = (history.indentation(), history.max_indentation());
-        if let Some(&number) = [speed, step, drive.acceleration].iter().find(|number| !number.is_finite()) {
+        if let Some(&number) = [speed, step, load.acceleration].iter().find(|number| !number.is_finite()) {
             return Err(TooDeep { indentation: number });
         }
         let path = if model.unloading.is_segmented() { history.path_of_dent() } else { None };
         let back = path.map(|path| Piece::on_path(model, path));
-        Ok(Bodies {
+        Ok(Integrator {
             history,
             model,
-            drive,
-            inverse_mass: 1.0 / drive.mass,
+            load,
+            inverse_mass: 1.0 / load.mass,
             indentation,
             speed,
             largest,
             back,
             rising: speed > 0.0,
             turned: false,
-            taken: 0.0,
+            speed_removed: 0.0,
             left: step,
             deepest: 0.0,
             turn: None,
@@ -150,8 +150,8 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         }
         let deepest = largest(self.deepest, self.history.max_indentation());
         // the contact only pushes: a negative value is rounding
-        let taken = largest(self.taken, 0.0);
-        Ok(Outcome { speed: self.speed, taken, evaluations: self.evaluations.get(), deepest })
+        let speed_removed = largest(self.speed_removed, 0.0);
+        Ok(Outcome { speed: self.speed, speed_removed, evaluations: self.evaluations.get(), deepest })
     }
 
     /// Updates the history to the present position of the bodies.
@@ -170,7 +170,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
 
     /// The piece on which the bodies continue.
     fn piece(&mut self, rising: bool) -> Piece<'a, L, U> {
-        let Bodies { indentation, largest, model, .. } = *self;
+        let Integrator { indentation, largest, model, .. } = *self;
         let on_loading = rising && indentation >= largest;
         let piece = if on_loading { Piece::at(model, indentation, largest, true) } else { self.back().clone() };
         piece.part(indentation, rising)
@@ -184,7 +184,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
     /// Whether there is no contact: the bodies are apart, or at the surface and not closing.
     fn is_apart(&mut self) -> bool {
         let indentation = self.indentation;
-        let closes = self.speed > 0.0 || (self.speed == 0.0 && self.drive.acceleration > 0.0);
+        let closes = self.speed > 0.0 || (self.speed == 0.0 && self.load.acceleration > 0.0);
         // on the loading curve, the surface of the dent is far below
         if closes && indentation > 0.0 && indentation >= self.largest {
             return false;
@@ -196,7 +196,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
     /// Flight: until the bodies touch the surface, until a fresh surface forgets its dent, or until the end of the step.
     fn fly(&mut self) -> Result<(), TooDeep> {
         let (surface, indentation) = (self.surface(), self.indentation);
-        let flight = Flight { speed: self.speed, acceleration: self.drive.acceleration };
+        let flight = Flight { speed: self.speed, acceleration: self.load.acceleration };
         let closing = flight.arrival(surface - indentation, self.left);
         let end = closing.map_or(self.left, |arrival| arrival.time);
         let forgets = self.model.surface == Surface::Fresh && indentation > 0.0;
@@ -241,13 +241,13 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
 
     /// Bodies at rest stay where they are: the forces are in balance.
     fn rest(&mut self) {
-        self.taken += self.drive.acceleration * self.left;
+        self.speed_removed += self.load.acceleration * self.left;
         (self.speed, self.left) = (0.0, 0.0);
     }
 
     /// Total acceleration of the bodies at their present position on `piece` \[m/s^2\].
     fn net(&self, piece: &Piece<'a, L, U>) -> f64 {
-        self.drive.acceleration - piece.force(self.indentation) * self.inverse_mass
+        self.load.acceleration - piece.force(self.indentation) * self.inverse_mass
     }
 
     /// Whether the motion in contact goes deeper. At rest, it is the direction of the total force; `None` in equilibrium.
@@ -271,8 +271,8 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         let piece = self.piece(rising);
         let found = if piece.whole().is_some() { PIECE } else { COSTLY * PIECE };
         self.evaluations.set(self.evaluations.get().saturating_add(found));
-        let Bodies { indentation, speed, inverse_mass, left: time, .. } = *self;
-        let (acceleration, net) = (self.drive.acceleration, self.net(&piece));
+        let Integrator { indentation, speed, inverse_mass, left: time, .. } = *self;
+        let (acceleration, net) = (self.load.acceleration, self.net(&piece));
         let start = Start { indentation, speed, net, acceleration, inverse_mass, time };
         let stretch = Stretch::new(&piece, &start, rising, &self.evaluations)?;
         let turns = stretch.ended == Ended::Turned;
@@ -281,7 +281,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
             self.rest();
             return Ok(());
         }
-        self.taken += acceleration * stretch.time - stretch.gain;
+        self.speed_removed += acceleration * stretch.time - stretch.gain;
         self.pass(stretch.time);
         self.indentation = match (stretch.ended, rising) {
             (Ended::AtBorder, true) => piece.upper,
@@ -316,7 +316,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
             return Err(NoMotion::TooLong);
         }
         let periods = floor(quotient(self.left, ago, known, 0.0)) * ago;
-        self.taken += self.drive.acceleration * periods;
+        self.speed_removed += self.load.acceleration * periods;
         self.left = if periods < self.left { self.left - periods } else { 0.0 };
         Ok(())
     }

@@ -21,7 +21,7 @@ const NONE: f64 = f64::MAX;
 /// the unloading path of a dent. It has to be the same in all calls until the contact separates or its dent grows. Its stiffness
 /// must not fall with the indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stuck<const D: usize, const N: usize> {
+pub struct PlayOperator<const D: usize, const N: usize> {
     /// Scaled tangential displacement \[m\] since the first touch or since the whole contact last slipped.
     pub(super) displacement: [Sum; D],
     pub(super) list: List<D, N>,
@@ -29,13 +29,13 @@ pub struct Stuck<const D: usize, const N: usize> {
     pub(super) slips_from: f64,
 }
 
-impl<const D: usize, const N: usize> Stuck<D, N> {
+impl<const D: usize, const N: usize> PlayOperator<D, N> {
     /// No contact.
-    pub const APART: Self = Stuck { displacement: [Sum::new(0.0); D], list: List::EMPTY, slips_from: NONE };
+    pub const APART: Self = PlayOperator { displacement: [Sum::new(0.0); D], list: List::EMPTY, slips_from: NONE };
 
     /// A contact that is pressed in without tangential displacement, at `indentation` \[m\].
     pub fn pressed(curve: &Segment, indentation: f64) -> Self {
-        let mut stuck = Stuck::APART;
+        let mut stuck = PlayOperator::APART;
         if indentation > curve.lower {
             stuck.list.add(Vertex::new(curve, curve.lower, [0.0; D], [0.0; D]));
         }
@@ -63,7 +63,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
     /// `bend` \[m\].
     pub(super) fn advance_bent(&mut self, curve: &Segment, way: &Motion<D>, bend: [f64; D]) {
         if way.to <= curve.lower {
-            *self = Stuck::APART;
+            *self = PlayOperator::APART;
             return;
         }
         if !way.moves() {
@@ -71,7 +71,7 @@ impl<const D: usize, const N: usize> Stuck<D, N> {
         }
         let is_new = self.list.vertices().is_empty();
         if is_new {
-            *self = Stuck::pressed(curve, way.to);
+            *self = PlayOperator::pressed(curve, way.to);
         }
         // a contact that starts with an indentation already has springs
         let is_fresh = is_new && way.from <= curve.lower;
