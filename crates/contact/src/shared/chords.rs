@@ -94,6 +94,21 @@ const CLOSE: f64 = 1e-13;
 /// The same for a chord after which others follow.
 const NEARLY: f64 = 1e-9;
 
+/// Contacts of a block.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Among {
+    All,
+    /// Those that don't fly along the chord.
+    Touching,
+}
+
+impl Among {
+    #[inline(always)]
+    fn has<C>(self, member: &Work<C>, block: usize) -> bool {
+        member.block == block && !(self == Among::Touching && member.flies)
+    }
+}
+
 /// A block of contacts with friction that are coupled, in a row of contacts that may have others in between.
 pub(super) struct Chords<'a, C, M, B, F> {
     work: &'a mut [Work<C>],
@@ -106,6 +121,8 @@ pub(super) struct Chords<'a, C, M, B, F> {
     /// Evaluations so far.
     pub evaluations: u32,
     scales: Scales,
+    /// The contacts of the system that is solved.
+    sought: Among,
     /// The energy \[J\] and the sum of the largest indentations \[m\] for which the time of the scales was found.
     energy: f64,
     depths: f64,
@@ -132,6 +149,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             left: step,
             evaluations: 0,
             scales,
+            sought: Among::All,
             energy: 0.0,
             depths: f64::NAN,
             tolerance: ELASTIC,
@@ -276,31 +294,60 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
         self.scales.root_energy = sqrt(2.0 * energy);
     }
 
-    /// Finds the accelerations for the forces of all rows.
-    fn accelerate(&mut self) {
-        for (_, member) in self.members_mut() {
+    /// Finds the accelerations for the forces of all rows that are `among` these.
+    fn accelerate(&mut self, among: Among) {
+        for member in self.among_mut(among) {
             member.rows_mut().iter_mut().for_each(|row| row.net = row.acceleration);
         }
-        self.respond(|row| row.force, |row| &mut row.net);
+        self.respond(among, |row| row.force, |row| &mut row.net);
     }
 
-    /// Subtracts the response of the bodies to the numbers `of` all rows, such as their forces, from others.
-    fn respond(&mut self, of: impl Fn(&Row) -> f64, from: impl Fn(&mut Row) -> &mut f64) {
-        let count = self.work.len();
-        for (at, entries) in places_from((0, 0), count).zip(self.masses.rows(0)) {
-            if self.work.get(at.0).is_none_or(|member| member.block != self.block) {
-                continue;
-            }
-            let force = row_at(self.work, at).map_or(0.0, |row| of(row));
-            let mut own = 0.0;
-            for (other, &entry) in places_from(at, count).zip(entries).filter(|(_, entry)| **entry != 0.0) {
-                let Some(row) = row_at(self.work, other) else { continue };
-                own += entry * of(row);
-                if other != at {
-                    *from(row) -= entry * force;
+    /// The contacts of the block that are `among` these.
+    fn among_mut(&mut self, among: Among) -> impl Iterator<Item = &mut Work<C>> {
+        let block = self.block;
+        self.work.iter_mut().filter(move |member| among.has(member, block))
+    }
+
+    /// Subtracts the response of the bodies to the numbers `of` all rows `among` these, such as their forces, from others.
+    fn respond(&mut self, among: Among, of: impl Fn(&Row) -> f64, from: impl Fn(&mut Row) -> &mut f64) {
+        let (block, count) = (self.block, self.work.len());
+        let mut all = self.masses.rows(0);
+        // all normals, then all tangents in the first direction, and so on
+        for axis in 0..=C::DIRECTIONS {
+            for place in 0..count {
+                let Some((own, entries)) = all.next().and_then(<[f64]>::split_first) else { return };
+                let Some(row) = self
+                    .work
+                    .get(place)
+                    .filter(|member| among.has(member, block))
+                    .and_then(|member| member.rows.get(axis))
+                else {
+                    continue;
+                };
+                let force = of(row);
+                let couple = |others: &mut [Work<C>], axis: usize, entries: &[f64]| {
+                    let mut sum = 0.0;
+                    for (other, &entry) in others.iter_mut().zip(entries) {
+                        if entry == 0.0 || !among.has(other, block) {
+                            continue;
+                        }
+                        let Some(row) = other.rows.get_mut(axis) else { continue };
+                        sum += entry * of(row);
+                        *from(row) -= entry * force;
+                    }
+                    sum
+                };
+                let after = self.work.get_mut(place + 1..).unwrap_or_default();
+                let mut sum = own * force + couple(after, axis, entries);
+                let mut entries = entries.get(count - place - 1..).unwrap_or_default();
+                for axis in axis + 1..=C::DIRECTIONS {
+                    sum += couple(self.work, axis, entries);
+                    entries = entries.get(count..).unwrap_or_default();
+                }
+                if let Some(row) = self.work.get_mut(place).and_then(|member| member.rows.get_mut(axis)) {
+                    *from(row) -= sum;
                 }
             }
-            row_at(self.work, at).into_iter().for_each(|row| *from(row) -= own);
         }
     }
 
@@ -323,8 +370,9 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
         }
         let (bent, mut spent) = (time * time / 12.0, 0);
         for turn in 0..ITERATIONS {
-            self.set_ways(time);
-            for (place, member) in self.members_mut() {
+            let among = if turn > 0 { Among::Touching } else { Among::All };
+            self.set_ways(time, among);
+            for (place, member) in self.members_mut().filter(|(_, member)| among == Among::All || !member.flies) {
                 member.flies = member.stays_apart(member.contact.plastic(), member.contact.path().lower);
                 if member.flies {
                     member.rows_mut().iter_mut().for_each(Row::loosen);
@@ -337,7 +385,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 member.moved.go_straight(model(place).borrow(), &mut member.rows, time).map_err(refused)?;
                 spent += if C::DIRECTIONS > 1 { two } else { one };
             }
-            self.respond(|row| row.found, |row| &mut row.curved);
+            self.respond(Among::Touching, |row| row.found, |row| &mut row.curved);
             let mut change = 0.0;
             for (place, member) in self.members_mut().filter(|(_, member)| !member.flies) {
                 let ([normal, ..], tangent) = (member.rows, member.stiffest_tangent(time));
@@ -367,8 +415,11 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             let close = if time >= self.left { CLOSE } else { NEARLY };
             if change <= close * scales.root_energy && turn > 0 {
                 self.take_found(time);
-                self.count(spent)?;
-                return Ok(self.error(time));
+                if self.all_stay_apart() {
+                    self.count(spent)?;
+                    return Ok(self.error(time));
+                }
+                continue;
             }
             for (_, member) in self.members_mut() {
                 member.rows_mut().iter_mut().for_each(|row| row.stiffness = row.stiffness_next);
@@ -381,12 +432,12 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
     }
 
     /// Sets the ways of a chord of this `time` \[s\] by the forces of all rows, with what their bends change.
-    fn set_ways(&mut self, time: f64) {
+    fn set_ways(&mut self, time: f64, among: Among) {
         let bent = time * time / 12.0;
         // in a plane, the way between the ends of the chord has another direction of slip: with this term the median error is twice as large
         let bends_beside = C::DIRECTIONS == 1;
-        self.accelerate();
-        for (_, member) in self.members_mut() {
+        self.accelerate(among);
+        for member in self.among_mut(among) {
             member.set_ways(time);
             let [Row { way: normal, .. }, ..] = member.rows;
             for row in member.rows_mut() {
@@ -396,7 +447,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 row.way += row.lag;
             }
         }
-        self.respond(|row| -row.bend, |row| &mut row.way);
+        self.respond(among, |row| -row.bend, |row| &mut row.way);
     }
 
     /// Moves the bodies by the forces that were found on the ways of the contacts. What the contacts have not gone of the ways of the
@@ -416,7 +467,17 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             // a contact that flies moves at last
             member.moved.take_up(beside);
         }
-        self.set_ways(time);
+        self.set_ways(time, Among::All);
+    }
+
+    /// Whether the contacts that fly along the chord do so on the ways that were found; those that touch do not fly then.
+    fn all_stay_apart(&mut self) -> bool {
+        let mut all = true;
+        for (_, member) in self.members_mut().filter(|(_, member)| member.flies) {
+            member.flies = member.stays_apart(member.contact.plastic(), member.contact.path().lower);
+            all = all && member.flies;
+        }
+        all
     }
 
     /// Takes the forces that were found for the next turn, less their response to themselves: a step of Newton's method.
@@ -426,23 +487,23 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
     /// taken, and `(2/h^2 D^-1 + W) z = W res`.
     fn improve(&mut self, time: f64) {
         let half = 0.5 * time * time;
-        for (_, member) in self.members_mut() {
+        for member in self.among_mut(Among::Touching) {
             for row in member.rows_mut() {
                 (row.net, row.found) = (0.0, quotient(row.found - row.force, 1.0 + row.gives, row.gives >= 0.0, 0.0));
             }
         }
-        self.respond(|row| -row.found, |row| &mut row.net);
-        for (_, member) in self.members_mut() {
-            let flies = member.flies;
+        self.respond(Among::Touching, |row| -row.found, |row| &mut row.net);
+        for member in self.among_mut(Among::Touching) {
             for row in member.rows_mut() {
                 let stiff = half * row.slope;
-                let is_sought = !flies && stiff * row.inverse_mass > LOOSE;
+                let is_sought = stiff * row.inverse_mass > LOOSE;
                 let own = quotient(1.0 + row.gives, stiff, is_sought, 0.0);
                 row.solution = Unknown { own, ..Unknown::new(own + row.inverse_mass, row.net, is_sought) };
             }
         }
+        self.sought = Among::Touching;
         gradients::solve(self, NEWTON);
-        for (_, member) in self.members_mut() {
+        for member in self.among_mut(Among::Touching) {
             let [Row { net, solution, .. }, ..] = member.rows;
             let normal = half * (net - solution.product);
             for row in member.rows_mut() {
@@ -540,7 +601,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
             member.rows_mut().iter_mut().for_each(|row| row.force = row.start);
             member.rows_mut().iter_mut().take(1).for_each(|row| row.force = force);
         }
-        self.accelerate();
+        self.accelerate(Among::All);
         let (balanced, left) = (slow * sqrt(stiffest), self.left);
         self.members().all(|(_, member)| {
             let is_pressed = member.contact.plastic().force() > 0.0;
@@ -589,6 +650,7 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
                 row.solution = Unknown::new(row.inverse_mass, side(row), is_pressed);
             }
         }
+        self.sought = Among::All;
         gradients::solve(self, SOLVED);
     }
 
@@ -627,26 +689,16 @@ impl<'a, M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> Chords<'a, C, 
 
 impl<M, C: SharedContact<M>, B: Borrow<M>, F: Fn(usize) -> B> System for Chords<'_, C, M, B, F> {
     fn visit(&mut self, mut each: impl FnMut(&mut Unknown)) {
-        self.members_mut().for_each(|(_, member)| member.rows_mut().iter_mut().for_each(|row| each(&mut row.solution)));
+        self.among_mut(self.sought)
+            .for_each(|member| member.rows_mut().iter_mut().for_each(|row| each(&mut row.solution)));
     }
 
     fn multiply(&mut self) {
         self.visit(|unknown| unknown.image = 0.0);
         // the response with its sign
-        self.respond(|row| -row.solution.direction, |row| &mut row.solution.image);
+        self.respond(self.sought, |row| -row.solution.direction, |row| &mut row.solution.image);
         self.visit(|unknown| unknown.reply = unknown.own * unknown.direction + unknown.image);
     }
-}
-
-/// Contact and axis of each row of the matrix from this one on: all normals, then all tangents in the first direction, and so on.
-fn places_from(first: (usize, usize), count: usize) -> impl Iterator<Item = (usize, usize)> {
-    core::iter::successors(Some(first), move |&(contact, axis)| {
-        Some(if contact + 1 < count { (contact + 1, axis) } else { (0, axis + 1) })
-    })
-}
-
-fn row_at<C>(work: &mut [Work<C>], (contact, axis): (usize, usize)) -> Option<&mut Row> {
-    work.get_mut(contact)?.rows_mut().get_mut(axis)
 }
 
 /// The part of a chord of this `time` \[s\] at which the sum of the rates of the normal and, times `scale`, of the tangent changes
