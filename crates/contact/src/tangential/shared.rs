@@ -4,7 +4,7 @@ use super::contact::share_of;
 use super::normal::Straight;
 use super::vector::{add, direction, length, times, within};
 use super::{Friction, Frictional, FrictionalModel, Mean, Normal};
-use crate::Model;
+use crate::{Model, Surface};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
@@ -91,6 +91,13 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         time: f64,
     ) -> Result<(), TooDeep> {
         let [normal, tangents @ ..] = rows;
+        let (before, surface) = (self.normal().indentation(), self.springs.curve().lower);
+        let is_apart = self.normal().force() == 0.0 && before < surface && before + normal.way < surface;
+        // a fresh surface may forget its dent
+        if is_apart && (before < 0.0 || model.normal.surface == Surface::Dented) {
+            normal.share = self.share;
+            return self.normal.plastic_mut().advance(&model.normal, normal.way).map(drop);
+        }
         let (mut slip, mut changes) = ([0.0; D], [0.0; D]);
         for ((slip, change), row) in slip.iter_mut().zip(&mut changes).zip(&*tangents) {
             (*slip, *change) = (row.way, time * row.net);
