@@ -18,6 +18,9 @@
 //! and what the contacts then have not gone of the ways of the bodies is left for the next chord. Of the work, which is a sum of forces times
 //! ways, this leaves the change of a force from chord to chord times a small part of a way. The last chord of a step is exact.
 //!
+//! A turn of this iteration looks at the contacts that touch alone. Those that fly along the chord are looked at in the first turn and again
+//! at its end; one that touches then joins.
+//!
 //! The springs keep what they passed on the bent way: two straight lines in place of a parabola (`tangential`).
 //!
 //! # Length

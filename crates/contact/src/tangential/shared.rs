@@ -4,7 +4,6 @@ use super::contact::share_of;
 use super::normal::Straight;
 use super::vector::{add, direction, length, times, within};
 use super::{Friction, Frictional, FrictionalModel, Mean, Normal};
-use crate::{Model, Surface};
 use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
@@ -15,6 +14,7 @@ use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::shared::{Row, SharedContact};
 use crate::unloading::Unloading;
+use crate::{Model, Surface};
 use libm::fabs;
 
 impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>
