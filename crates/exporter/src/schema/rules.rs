@@ -58,12 +58,16 @@ fn of_scene(rule: &Rule) -> Value {
         let any = any(keys.iter().map(|key| is(&key.path, key)));
         if keys[0].no { not(any) } else { any }
     };
-    // each condition that fails is enough, or one of what is needed
-    let exceptions = || each.iter().flat_map(|keys| keys.iter()).map(|key| (!key.no, key));
-    let wanted: Vec<Vec<(bool, &Key)>> = match rule.forbids {
-        true => rule.what.iter().map(|key| exceptions().chain([(true, key)]).collect()).collect(),
-        false => vec![exceptions().chain(rule.what.iter().map(|key| (false, key))).collect()],
+    // a condition that fails is enough, or one of what is needed; a condition of several keys fails if each of them does
+    let mut wanted: Vec<Vec<(bool, &Key)>> = match rule.forbids {
+        true => rule.what.iter().map(|key| vec![(true, key)]).collect(),
+        false => vec![rule.what.iter().map(|key| (false, key)).collect()],
     };
+    for keys in each.into_iter().rev() {
+        let keys = keys.iter().map(|key| (!key.no, key));
+        let or_rest = |key| wanted.iter().map(move |rest| [key].into_iter().chain(rest.iter().copied()).collect());
+        wanted = keys.flat_map(or_rest).collect();
+    }
     let then = wanted.iter().flat_map(|literals| {
         let mut clauses = vec![Clause::default()];
         literals.iter().for_each(|(is_not, key)| clauses = with(std::mem::take(&mut clauses), *is_not, key));
