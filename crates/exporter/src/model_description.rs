@@ -1,7 +1,6 @@
 //! `modelDescription.xml`: capabilities of the FMU, units, variables, and the structure of the model.
 
 use crate::interface::{Entry, is_tunable};
-use crate::library;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::table::{Causality, Type, UNITS, Unit};
@@ -78,7 +77,7 @@ fn output_order(scene: &Scene) -> &'static str {
 }
 
 fn co_simulation(xml: &mut Xml<'_>, scene: &Scene, source: Option<&str>) -> io::Result<()> {
-    let takes_derivatives = library::has_course(scene) && !scene.has_input("external_acceleration");
+    let takes_derivatives = scene.has_course() && !scene.has_input("external_acceleration");
     let attributes = [
         ("modelIdentifier", scene.name.as_str()),
         ("needsExecutionTool", "false"),

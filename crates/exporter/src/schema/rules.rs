@@ -1,10 +1,11 @@
 //! What one key of a scene says about others: the rules of the check, as far as a schema can express them, and what goes with each law.
 
 use super::{complete_constants, object};
-use crate::measured::{self, TEST_RATE};
+use crate::measured::TEST_RATE;
 use crate::model::Dampings;
 use crate::pairing;
 use crate::parameters::{self, LawConstant};
+use crate::reading;
 use crate::scene::rules::{BODIES, Is, Key, Level, RULES, Rule};
 use crate::scene::{GROUND, taken_names};
 use crate::table;
@@ -138,7 +139,7 @@ fn of_readings() -> [Value; 2] {
     let slow = json!({ "properties": { "rate": { "properties": { "reference_rate": { "const": TEST_RATE } } } } });
     [
         implies(any(["hardness", "tensile_strength", "tensile_test"].map(has)), slow),
-        implies(key("hardness", json!({ "pattern": measured::of_impacts() })), not(has("rate"))),
+        implies(key("hardness", json!({ "pattern": reading::of_impacts() })), not(has("rate"))),
     ]
 }
 
