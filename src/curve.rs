@@ -3,15 +3,12 @@
 use crate::files::{self, deliver, ending};
 use crate::messages::WrongCall;
 use crate::scene_file;
-use crate::truth;
-use brinell_contact::impact::Impact;
 use brinell_contact::{Loading, TooDeep};
 use brinell_exporter::columns::Columns;
 use brinell_exporter::curve::{self, columns};
 use brinell_exporter::laws::{self, Choice};
 use brinell_exporter::layout::json_line;
 use brinell_exporter::numbers::in_message;
-use brinell_exporter::plot::{Picture, Series};
 use brinell_exporter::scene::{Scene, plausible};
 use brinell_exporter::{predict, units, validity};
 use std::error::Error;
@@ -35,15 +32,7 @@ pub struct Arguments {
     /// Largest indentation [m] [default: that of the scene's impact]
     #[arg(long, allow_hyphen_values = true, value_parser = units::lengths)]
     pub to: Option<f64>,
-    /// Add the finite-element loading curve as dots to the picture
-    #[arg(long)]
-    pub truth: bool,
 }
-
-/// The finite elements of `--truth` are those of another pair of bodies.
-const OTHER_BODIES: &str = "the dots are finite elements of a rigid sphere on a body that does not harden, with a Poisson's ratio of \
-                            0.3, at small strain. They are drawn for the effective modulus and the softer strength of this scene, whose \
-                            bodies are others or whose contact is wide";
 
 /// The command: draws or tabulates the curve for these arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
@@ -60,12 +49,9 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
     let doubt = arguments.to.and_then(|to| plausible::of_depth("to", to, radius));
     doubt.into_iter().chain(too_wide(&scene, &choices, largest)).for_each(|warning| crate::messages::warn(&warning));
-    if arguments.truth && !truth::is_of(&scene, largest) {
-        crate::messages::warn(OTHER_BODIES);
-    }
     let too_deep = |_: TooDeep| WrongCall(format!("to = {} m is too deep for the law", in_message(largest)));
     let text = match (output, format) {
-        (Some(_), "svg") => picture(&choices, largest, impact, arguments.truth).map_err(too_deep)?.svg(860, 480),
+        (Some(_), "svg") => curve::picture(&choices, largest, impact).map_err(too_deep)?.svg(860, 480),
         (Some(_), _) => columns(&choices, largest, impact).map_err(too_deep)?.csv(),
         (None, _) => {
             let columns = columns(&choices, largest, impact).map_err(too_deep)?;
@@ -97,23 +83,4 @@ fn table(columns: &Columns) -> String {
     let count = columns.laws.iter().map(|(_, rows)| rows.len()).max().unwrap_or(0);
     let text = columns.text(&names, TABLE_ROWS);
     format!("{text}\n{TABLE_ROWS} of {count} points; -o FILE.csv writes all of them with all digits\n")
-}
-
-/// The curves as a picture; with `dots`, the finite-element loading curve of the same bodies is added.
-///
-/// # Errors
-/// As for [`curve::picture`].
-pub fn picture(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) -> Result<Picture, TooDeep> {
-    let mut picture = curve::picture(choices, largest, impact)?;
-    let elastoplastic = choices.iter().find_map(|choice| choice.model.elastoplastic());
-    if let (true, Some(model)) = (dots, elastoplastic) {
-        let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
-        let all = truth::loading().into_iter().map(|point| (point.x * unit.indentation, point.f * unit.force));
-        let inside: Vec<_> = all.filter(|(d, _)| *d <= largest).map(|(d, f)| (1e6 * d, f)).collect();
-        // about thirty dots; more would look like a line
-        let every = (inside.len() / 30).max(1);
-        let points = inside.into_iter().step_by(every).collect();
-        picture.series.push(Series { label: "finite elements".into(), points, dots: true });
-    }
-    Ok(picture)
 }

@@ -1,5 +1,6 @@
 //! Reading and writing of files for the user.
 
+pub use crate::temporary::FileError;
 use crate::temporary::draft_in;
 use brinell_exporter::layout::shown;
 use brinell_exporter::nearest::nearest;
@@ -8,21 +9,6 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
-
-/// A file that cannot be read or written.
-#[derive(Debug, thiserror::Error)]
-#[error("{path}: {source}", path = shown(path))]
-pub struct FileError {
-    pub path: PathBuf,
-    pub source: io::Error,
-}
-
-impl FileError {
-    /// For `map_err`: the error at `path`.
-    pub fn at(path: &Path) -> impl Fn(io::Error) -> FileError {
-        move |source| FileError { path: path.into(), source }
-    }
-}
 
 /// Writes a temporary file and renames it. The target is never incomplete. A symbolic link is kept, and the file it points to is
 /// written. A device or a pipe is written to, not replaced. A new file gets the permissions of the umask.

@@ -39,7 +39,6 @@ mod ssp;
 mod summary;
 mod temporary;
 mod translate;
-mod truth;
 mod unpack;
 
 use arguments::{Arguments, Command, PlatformArguments, TableArguments};

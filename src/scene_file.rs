@@ -18,9 +18,6 @@ const OF_USER: &str = "materials.toml in the user's configuration folder";
 /// The variable by which Python says where the texts of workbooks are, by the names that a scene gives them.
 const WORKBOOKS: &str = "BRINELL_WORKBOOKS";
 
-/// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
-pub const LARGEST: u64 = 256_000_000;
-
 /// The largest table of materials or tensile test [bytes]. A machine that writes three numbers a thousand times a second for ten minutes
 /// makes half of it.
 const LARGEST_BESIDE: u64 = 40_000_000;
@@ -72,7 +69,7 @@ impl Source {
     fn read(path: &Path) -> Result<Source, SceneError> {
         let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
         files::check_readable(path, &files::SCENE).map_err(unreadable)?;
-        let bytes = bytes(path, LARGEST, "scene")?;
+        let bytes = bytes(path, importer::LARGEST_SCENE, "scene")?;
         if !bytes.starts_with(ARCHIVE) {
             return Ok(Source { text: mistake::text(bytes, path)?, path: path.into(), is_alone: false });
         }

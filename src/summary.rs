@@ -10,7 +10,7 @@ use brinell_exporter::layout::{paragraph, shown};
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::package::Packed;
 use brinell_exporter::plan::{FixedParameter, Plan};
-use brinell_exporter::scene::{Body, Group, InImpact, Parameter, Scene};
+use brinell_exporter::scene::{Body, Group, InImpact, Parameter, Scene, SceneLaws};
 use brinell_exporter::table::{self, Causality, VARIABLES};
 use serde_json::{Value, json};
 
@@ -168,18 +168,14 @@ impl Summary<'_> {
 
 impl OtherLaws {
     fn of(scene: &Scene) -> OtherLaws {
-        let used = match scene.damped {
-            Some((name, _)) => [Some(name), None],
-            None => [Some(scene.loading.0), scene.unloading.map(|(name, _)| name)],
-        };
-        let [first, second] = used;
+        let (first, second) = (scene.laws.name(), scene.laws.unloading().map(|(name, _)| name));
         let loading = AnyLoading::ALL.iter().map(|(name, _)| *name);
         let unloading = AnyUnloading::ALL.iter().map(|(name, _)| *name);
         let damped = AnyDamped::ALL.iter().map(|(name, _)| *name);
         OtherLaws {
-            loading: loading.filter(|name| Some(*name) != first).collect(),
+            loading: loading.filter(|name| *name != first).collect(),
             unloading: unloading.filter(|name| Some(*name) != second).collect(),
-            damped: damped.filter(|name| Some(*name) != first).collect(),
+            damped: damped.filter(|name| *name != first).collect(),
         }
     }
 }
@@ -188,9 +184,9 @@ impl OtherLaws {
 fn features(scene: &Scene) -> Vec<&'static str> {
     let surface = |asked: Surface| scene.contacts.iter().any(|group| group.surface == asked);
     // an elastic contact leaves no dent to remember
-    let dents = scene.unloading.is_some();
+    let dents = scene.laws.unloading().is_some();
     [
-        (!scene.passivity_guard, "passivity guard"),
+        (!scene.laws.is_guarded(), "passivity guard"),
         (!scene.has_friction(), "friction"),
         (!(dents && surface(Surface::Dented)), "surface that keeps its dents"),
         (!(dents && surface(Surface::Fresh)), "surface that is fresh at every contact"),
@@ -260,10 +256,10 @@ fn by_name(scene: &Scene) -> bool {
 const MOST_STRENGTHS: usize = 20;
 
 fn law(scene: &Scene) -> String {
-    let laws = match (scene.damped, scene.unloading) {
-        (Some((damped, _)), _) => format!("{damped} (the force depends on the rate)"),
-        (None, Some((unloading, _))) => format!("{}/{unloading} (loading/unloading)", scene.loading.0),
-        (None, None) => format!("{} (elastic)", scene.loading.0),
+    let laws = match scene.laws {
+        SceneLaws::Damped(name, _) => format!("{name} (the force depends on the rate)"),
+        SceneLaws::Plastic { loading, unloading, .. } => format!("{}/{} (loading/unloading)", loading.0, unloading.0),
+        SceneLaws::Elastic { .. } => "hertz (elastic)".into(),
     };
-    scene.loss.map_or(laws.clone(), |loss| format!("{laws}, with {}", loss.name()))
+    scene.laws.loss().map_or(laws.clone(), |loss| format!("{laws}, with {}", loss.name()))
 }

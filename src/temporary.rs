@@ -3,12 +3,27 @@
 //! Whoever uses one holds a lock on it, which ends with the process. One without a lock is left over, unless it was made just now: it
 //! is locked after it is made. Where there are no locks, its age decides.
 
-use crate::files::FileError;
+use brinell_exporter::layout::shown;
 use std::fs::{self, File, TryLockError};
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use tempfile::{NamedTempFile, TempDir};
+
+/// A file that cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}: {source}", path = shown(path))]
+pub struct FileError {
+    pub path: PathBuf,
+    pub source: io::Error,
+}
+
+impl FileError {
+    /// For `map_err`: the error at `path`.
+    pub fn at(path: &Path) -> impl Fn(io::Error) -> FileError {
+        move |source| FileError { path: path.into(), source }
+    }
+}
 
 /// From this age on it has its lock, if the file system has locks.
 pub const LOCKED: Duration = Duration::from_secs(10);

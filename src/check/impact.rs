@@ -28,7 +28,7 @@ const FORGOTTEN: u32 = 120;
 
 /// The way to couple an FMU of `scene`.
 pub fn way_of(scene: &Scene) -> &'static CouplingMethod {
-    match scene.coupling {
+    match &scene.coupling {
         Some(coupling) if coupling.parallel => &JACOBI_MASS,
         Some(_) => &MASS_KNOWN,
         None if scene.follows_rate() => &LEAP_FROG_FOLLOWED,

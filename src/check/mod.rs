@@ -187,7 +187,7 @@ fn try_out(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, Imp
         assumption: scene.assumption(),
         prediction: scene.any_model().method(),
         steps_per_contact: STEPS_PER_CONTACT,
-        moves_together: scene.inverse_masses.is_some(),
+        moves_together: scene.inverse_masses().is_some(),
         plain: plain.into_iter().next(),
         contacts,
         wrong_starts,

@@ -73,7 +73,7 @@ impl Start<'_> {
 /// impact each.
 pub fn entries(masses: &scene::InverseMasses, scene: &Scene) -> Vec<f64> {
     match masses {
-        scene::InverseMasses::Constant(entries) => entries.clone(),
+        scene::InverseMasses::Constant { entries, .. } => entries.clone(),
         scene::InverseMasses::Inputs => {
             let inverse = 0.5 / scene.impact.mass;
             let (count, rows) = (scene.contact_count(), scene.rows());
@@ -191,7 +191,7 @@ fn simulate(archive: &Archive, unit: &Unit, start: &Start, step: f64) -> Result<
         instance.set_real(reference, entries[place(count, row, column)])?;
     }
     instance.call("fmi2ExitInitializationMode")?;
-    let parallel = scene.coupling.is_some_and(|coupling| coupling.parallel);
+    let parallel = scene.is_parallel();
     let mut before = forces.iter().map(|force| instance.real(*force)).collect::<Result<Vec<_>, _>>()?;
     let (mut applied, mut impulses) = (vec![0.0; count], Vec::new());
     for index in 0..STEPS {

@@ -39,7 +39,7 @@ impl Trial {
         let name = given.name.is_some().then(|| prefix.trim_end_matches('.').to_string());
         let mut trial =
             Trial { contact: name, count: given.count, skipped: None, step, rows: Vec::new(), disturbed: Vec::new() };
-        if let Some(masses) = &scene.inverse_masses {
+        if let Some(masses) = scene.inverse_masses() {
             trial.rows = together::compare(archive, unit, scene, group, &together::entries(masses, scene))?;
             return Ok(trial);
         }
@@ -56,14 +56,14 @@ impl Trial {
         let at_rest = others_at_rest(scene, group, &archive.description)?;
         let before = forces(&mut contact, &at_rest)?;
         // the force of a line ends nearly straight
-        let power = if scene.line.is_some() { 1.0 } else { 1.5 };
+        let power = if scene.is_line() { 1.0 } else { 1.5 };
         let simulated = simulate(&mut contact, way_of(scene), &scene.impact_of(group), (gap, power), step)?;
         trial.rows = compare(prediction, &simulated);
         if scene.follows_rate() {
             // the force ends before the bodies reach the dent, or there is none
             trial.rows.retain(|row| row.quantity != "dent");
         }
-        if scene.loss.is_some_and(|loss| !loss.follows_rate()) {
+        if scene.laws.loss().is_some_and(|loss| !loss.follows_rate()) {
             // the bodies move farther than the indentation, by the distance that the plate gives way
             trial.rows.retain(|row| !["largest indentation", "dent"].contains(&row.quantity.as_ref()));
         }

@@ -7,7 +7,6 @@ mod description;
 mod unit;
 
 use crate::files::{self, FMU};
-use crate::scene_file;
 use crate::temporary::PrivateFolder;
 use brinell_exporter::layout::{shortened, without_middle};
 use brinell_exporter::numbers::in_message;
@@ -97,6 +96,9 @@ impl ImportError {
 /// The scene of an FMU that this program has made.
 pub const SCENE: &str = "resources/scene.toml";
 
+/// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
+pub const LARGEST_SCENE: u64 = 256_000_000;
+
 /// The model description of an FMU.
 pub const DESCRIPTION: &str = "modelDescription.xml";
 
@@ -137,7 +139,7 @@ pub fn description_in(path: &Path) -> Result<Description, ImportError> {
 
 /// The scene in an archive.
 fn scene_of(archive: &mut BoundedArchive<impl io::Read + io::Seek>) -> Result<Option<String>, ImportError> {
-    let Some(bytes) = archive.read(SCENE, scene_file::LARGEST)? else { return Ok(None) };
+    let Some(bytes) = archive.read(SCENE, LARGEST_SCENE)? else { return Ok(None) };
     let wrong = |_| ImportError::Part { name: SCENE, source: io::Error::other("it isn't UTF-8") };
     String::from_utf8(bytes).map(Some).map_err(wrong)
 }

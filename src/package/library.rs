@@ -37,7 +37,7 @@ const MANY_CONTACTS: usize = 16;
 /// Whether the steps of the FMU are more than a few lines: loops over many contacts, or the integration of bodies that contacts share,
 /// which takes a third of the time at the higher level.
 fn is_busy(scene: &Scene) -> bool {
-    scene.contact_count() >= MANY_CONTACTS || scene.inverse_masses.is_some()
+    scene.contact_count() >= MANY_CONTACTS || scene.inverse_masses().is_some()
 }
 
 /// Optimized for size: the few lines of a plain step are the same at any level.

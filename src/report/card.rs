@@ -15,11 +15,8 @@ pub type Fact = (&'static str, String);
 /// The bodies and the impact.
 pub fn facts(scene: &Scene) -> Vec<Fact> {
     let (impactor, target) = bodies::words(scene, 0);
-    let law = match (scene.damped, scene.unloading) {
-        (Some((name, _)), _) => name.to_string(),
-        (None, Some((unloading, _))) => format!("{}, unloading by {unloading}", scene.loading.0),
-        (None, None) => scene.loading.0.to_string(),
-    };
+    let unloading = scene.laws.unloading().map(|(name, _)| format!(", unloading by {name}"));
+    let law = format!("{}{}", scene.laws.name(), unloading.unwrap_or_default());
     let mut facts = vec![
         ("Contact", format!("{impactor} on {target}")),
         ("Effective mass", quantity(scene.impact.mass, "kg")),
@@ -58,12 +55,12 @@ pub fn outcome(scene: &Scene, prediction: &Prediction) -> Vec<Fact> {
         ("Largest force", spread("largest force", prediction.max_force, "N")),
         ("Largest indentation", spread("largest indentation", prediction.max_indentation, "m")),
     ];
-    if scene.damped.is_none() {
+    if !scene.is_damped() {
         outcome.push(("Dent left behind", spread("dent", prediction.residual_indentation, "m")));
     }
     outcome.push(("Contact time", quantity(prediction.contact_time(), "s")));
     outcome.push(("Energy lost", percent(1.0 - prediction.rebound_energy / prediction.energy).replace('+', "")));
-    if scene.damped.is_none() {
+    if !scene.is_damped() {
         let items = &table::variable("regime").items;
         let regime = items.get(prediction.regime as usize).map_or("", |item| item.name.as_str());
         outcome.push(("Regime at the largest load", regime.replace('_', " ")));

@@ -210,7 +210,7 @@ impl Bodies {
             return None;
         }
         // the depth of a line contact depends on its sizes, which are constants
-        if radius.is_some() && scene.line.is_some() {
+        if radius.is_some() && scene.is_line() {
             return None;
         }
         // so is the ball in place of an ellipse

@@ -8,7 +8,7 @@ use brinell_contact::rate::Factors;
 use brinell_exporter::master::Requirements;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform;
-use brinell_exporter::scene::{Coupling, Group, Parameter, Scene};
+use brinell_exporter::scene::{Coupling, Group, Masses, Parameter, Scene};
 use brinell_exporter::table::VARIABLES;
 use std::collections::BTreeMap;
 
@@ -86,9 +86,11 @@ pub fn first_contact(scene: &Scene, needs: Requirements) -> Scene {
         outputs: OUTPUTS.iter().chain(more).map(|name| (*name).to_string()).collect(),
         quasi_static: vec![scene.quasi_static[0]],
         factors: vec![Factors::SLOW],
-        coupling: mass.map(|_| Coupling { parallel: needs == Requirements::JacobiMass, ..Coupling::default() }),
-        inverse_masses: None,
-        meeting: None,
+        coupling: mass.map(|_| Coupling {
+            parallel: needs == Requirements::JacobiMass,
+            acceleration_input: false,
+            masses: Masses::Effective { is_input: false },
+        }),
         directions: 0,
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],

@@ -7,6 +7,7 @@ use brinell_exporter::interface::Entry;
 use brinell_exporter::model_description::number;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::table::{Causality, Type};
+use brinell_exporter::xml::{element, leaf};
 use std::io;
 
 const DESCRIPTION: (&str, &str) = ("xmlns:ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription");
@@ -23,22 +24,17 @@ pub fn write(xml: &mut Xml, plan: &Plan, files: &Files, wiring: &Wiring) -> io::
         ("description", scene.description.as_str()),
         ("generationTool", TOOL),
     ];
-    let root = xml.create_element("ssd:SystemStructureDescription");
-    let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
-    root.with_attributes(given).write_inner_content(|xml| {
-        let system = xml.create_element("ssd:System").with_attribute(("name", scene.name.as_str()));
-        system.write_inner_content(|xml| {
+    element(xml, "ssd:SystemStructureDescription", &attributes, |xml| {
+        element(xml, "ssd:System", &[("name", &scene.name)], |xml| {
             if wiring.peers.is_empty() {
                 connectors(xml, plan, wiring)?;
             }
-            xml.create_element("ssd:ParameterBindings").write_inner_content(|xml| {
-                let binding = xml.create_element("ssd:ParameterBinding");
-                binding.with_attribute(("source", files.values.as_str())).write_empty().map(|_| ())
+            element(xml, "ssd:ParameterBindings", &[], |xml| {
+                leaf(xml, "ssd:ParameterBinding", &[("source", &files.values)])
             })?;
-            xml.create_element("ssd:Elements").write_inner_content(|xml| {
+            element(xml, "ssd:Elements", &[], |xml| {
                 let component = [("name", COMPONENT), ("source", &files.unit), ("implementation", "CoSimulation")];
-                let component = xml.create_element("ssd:Component").with_attributes(component);
-                component.write_inner_content(|xml| connectors(xml, plan, wiring))?;
+                element(xml, "ssd:Component", &component, |xml| connectors(xml, plan, wiring))?;
                 wiring.peers.iter().try_for_each(|peer| beside(xml, peer, wiring))
             })?;
             connections(xml, plan, wiring)
@@ -51,11 +47,8 @@ pub fn write(xml: &mut Xml, plan: &Plan, files: &Files, wiring: &Wiring) -> io::
             }
         }
         values::units(xml, "ssd:Units", &units)?;
-        let times = [("startTime", number(0.0)), ("stopTime", number(experiment.stop))];
-        let times = times.iter().map(|(name, value)| (*name, value.as_str()));
-        xml.create_element("ssd:DefaultExperiment").with_attributes(times).write_empty().map(|_| ())
-    })?;
-    Ok(())
+        leaf(xml, "ssd:DefaultExperiment", &[("startTime", "0"), ("stopTime", &number(experiment.stop))])
+    })
 }
 
 /// The inputs and outputs, each with its kind.
@@ -69,25 +62,17 @@ fn ports<'a>(plan: &'a Plan) -> impl Iterator<Item = (&'a Entry<'a>, &'static st
 fn connectors(xml: &mut Xml, plan: &Plan, wiring: &Wiring) -> io::Result<()> {
     let inputs = wiring.connected(COMPONENT, true);
     let alone = wiring.peers.is_empty();
-    xml.create_element("ssd:Connectors").write_inner_content(|xml| {
-        for (entry, kind, name) in ports(plan) {
-            if !alone && kind == "input" && !inputs.contains(name.as_str()) {
-                continue;
-            }
+    let is_shown = |(_, kind, name): &(_, &str, String)| alone || *kind == "output" || inputs.contains(name.as_str());
+    element(xml, "ssd:Connectors", &[], |xml| {
+        ports(plan).filter(is_shown).try_for_each(|(entry, kind, name)| {
             let variable = entry.variable;
             let connector = [("name", name.as_str()), ("kind", kind), ("description", entry.description)];
-            xml.create_element("ssd:Connector").with_attributes(connector).write_inner_content(|xml| {
-                let (element, attribute, value) = match variable.r#type {
-                    Type::Real => ("ssc:Real", "unit", variable.unit.clone()),
-                    Type::Enumeration => ("ssc:Enumeration", "name", Some(variable.symbol().to_string())),
-                };
-                let given = value.as_deref().map(|value| (attribute, value));
-                xml.create_element(element).with_attributes(given).write_empty().map(|_| ())
-            })?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+            element(xml, "ssd:Connector", &connector, |xml| match variable.r#type {
+                Type::Real => leaf(xml, "ssc:Real", &[("unit", variable.unit.as_deref().unwrap_or_default())]),
+                Type::Enumeration => leaf(xml, "ssc:Enumeration", &[("name", &variable.symbol().to_string())]),
+            })
+        })
+    })
 }
 
 /// Another component, with its connected variables.
@@ -95,31 +80,24 @@ fn beside(xml: &mut Xml, peer: &Peer, wiring: &Wiring) -> io::Result<()> {
     let ports = [(true, "input"), (false, "output")].map(|(input, kind)| (wiring.connected(&peer.name, input), kind));
     let file = peer.file();
     let component = [("name", peer.name.as_str()), ("source", &file), ("implementation", "CoSimulation")];
-    let component = xml.create_element("ssd:Component").with_attributes(component);
-    component.write_inner_content(|xml| {
+    element(xml, "ssd:Component", &component, |xml| {
         // the schema allows no empty list
         if ports.iter().all(|(names, _)| names.is_empty()) {
             return Ok(());
         }
-        xml.create_element("ssd:Connectors").write_inner_content(|xml| {
-            for (names, kind) in &ports {
-                for name in names {
-                    let connector =
-                        xml.create_element("ssd:Connector").with_attributes([("name", *name), ("kind", kind)]);
-                    let end = End { unit: peer.name.clone(), variable: (*name).into() };
-                    // a name without a definition is none of the system's units
-                    let unit = wiring.units.get(&end).filter(|unit| unit.base.is_some() && !unit.name.is_empty());
-                    connector.write_inner_content(|xml| {
-                        let given = unit.map(|unit| ("unit", unit.name.as_str()));
-                        xml.create_element("ssc:Real").with_attributes(given).write_empty().map(|_| ())
-                    })?;
-                }
-            }
-            Ok(())
-        })?;
-        Ok(())
-    })?;
-    Ok(())
+        element(xml, "ssd:Connectors", &[], |xml| {
+            let mut all = ports.iter().flat_map(|(names, kind)| names.iter().map(move |name| (*name, *kind)));
+            all.try_for_each(|(name, kind)| {
+                let end = End { unit: peer.name.clone(), variable: name.into() };
+                // a name without a definition is none of the system's units
+                let unit = wiring.units.get(&end).filter(|unit| unit.base.is_some());
+                let unit = unit.map_or("", |unit| &unit.name);
+                element(xml, "ssd:Connector", &[("name", name), ("kind", kind)], |xml| {
+                    leaf(xml, "ssc:Real", &[("unit", unit)])
+                })
+            })
+        })
+    })
 }
 
 /// The connections between the components. A system that contains only the contact connects its own inputs and outputs to it.
@@ -127,24 +105,17 @@ fn connections(xml: &mut Xml, plan: &Plan, wiring: &Wiring) -> io::Result<()> {
     if !wiring.peers.is_empty() && wiring.connections.is_empty() {
         return Ok(());
     }
-    xml.create_element("ssd:Connections").write_inner_content(|xml| {
-        for (from, to) in &wiring.connections {
-            let connection = [
-                ("startElement", from.unit.as_str()),
-                ("startConnector", &from.variable),
-                ("endElement", &to.unit),
-                ("endConnector", &to.variable),
-            ];
-            xml.create_element("ssd:Connection").with_attributes(connection).write_empty()?;
-        }
-        for (_, kind, name) in ports(plan).filter(|_| wiring.peers.is_empty()) {
+    element(xml, "ssd:Connections", &[], |xml| {
+        wiring.connections.iter().try_for_each(|(from, to)| {
+            let start = [("startElement", from.unit.as_str()), ("startConnector", &from.variable)];
+            let end = [("endElement", to.unit.as_str()), ("endConnector", &to.variable)];
+            leaf(xml, "ssd:Connection", &[start, end].concat())
+        })?;
+        ports(plan).filter(|_| wiring.peers.is_empty()).try_for_each(|(_, kind, name)| {
             let end = if kind == "input" { "endElement" } else { "startElement" };
-            let connection = [(end, COMPONENT), ("startConnector", &name), ("endConnector", &name)];
-            xml.create_element("ssd:Connection").with_attributes(connection).write_empty()?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+            leaf(xml, "ssd:Connection", &[(end, COMPONENT), ("startConnector", &name), ("endConnector", &name)])
+        })
+    })
 }
 
 /// The enumerations of the outputs, with their values.
@@ -156,19 +127,14 @@ fn enumerations(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
     if used.is_empty() {
         return Ok(());
     }
-    xml.create_element("ssd:Enumerations").write_inner_content(|xml| {
-        for variable in used {
-            let name = variable.symbol().to_string();
-            let name = ("name", name.as_str());
-            xml.create_element("ssc:Enumeration").with_attribute(name).write_inner_content(|xml| {
-                for (value, item) in variable.items.iter().enumerate() {
-                    let item = [("name", item.name.as_str()), ("value", &value.to_string())];
-                    xml.create_element("ssc:Item").with_attributes(item).write_empty()?;
-                }
-                Ok(())
-            })?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+    element(xml, "ssd:Enumerations", &[], |xml| {
+        used.into_iter().try_for_each(|variable| {
+            element(xml, "ssc:Enumeration", &[("name", &variable.symbol().to_string())], |xml| {
+                let mut items = variable.items.iter().enumerate();
+                items.try_for_each(|(value, item)| {
+                    leaf(xml, "ssc:Item", &[("name", &item.name), ("value", &value.to_string())])
+                })
+            })
+        })
+    })
 }

@@ -6,6 +6,7 @@ use brinell_exporter::interface::Entry;
 use brinell_exporter::model_description::number;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::table::{self, Causality};
+use brinell_exporter::xml::{element, leaf};
 use std::collections::BTreeMap;
 use std::io;
 
@@ -15,25 +16,20 @@ const VALUES: (&str, &str) = ("xmlns:ssv", "http://ssp-standard.org/SSP1/SystemS
 pub fn write(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
     let attributes = [VALUES, COMMON, ("version", "1.0"), ("name", plan.scene.name.as_str()), ("generationTool", TOOL)];
     let parameters: Vec<_> = of_kind(plan, Causality::Parameter).collect();
-    xml.create_element("ssv:ParameterSet").with_attributes(attributes).write_inner_content(|xml| {
-        xml.create_element("ssv:Parameters").write_inner_content(|xml| {
-            let all = parameters.iter().flat_map(|entry| (0..entry.count).map(move |index| (entry, index)));
-            for (entry, index) in all {
-                let variable = entry.variable;
+    element(xml, "ssv:ParameterSet", &attributes, |xml| {
+        element(xml, "ssv:Parameters", &[], |xml| {
+            let mut all = parameters.iter().flat_map(|entry| (0..entry.count).map(move |index| (entry, index)));
+            all.try_for_each(|(entry, index)| {
                 let name = format!("{COMPONENT}.{}", entry.name(index));
-                let parameter = [("name", name.as_str()), ("description", entry.description)];
-                xml.create_element("ssv:Parameter").with_attributes(parameter).write_inner_content(|xml| {
+                element(xml, "ssv:Parameter", &[("name", &name), ("description", entry.description)], |xml| {
                     let value = entry.start.map(number).unwrap_or_default();
-                    let value = [("value", Some(value.as_str())), ("unit", variable.unit.as_deref())];
-                    let given = value.into_iter().filter_map(|(key, value)| value.map(|value| (key, value)));
-                    xml.create_element("ssv:Real").with_attributes(given).write_empty().map(|_| ())
-                })?;
-            }
-            Ok(())
+                    let unit = entry.variable.unit.as_deref().unwrap_or_default();
+                    leaf(xml, "ssv:Real", &[("value", &value), ("unit", unit)])
+                })
+            })
         })?;
         units(xml, "ssv:Units", &units_of(parameters.iter().copied()))
-    })?;
-    Ok(())
+    })
 }
 
 /// The units of these variables by name.
@@ -55,19 +51,17 @@ pub fn units(xml: &mut Xml, list: &str, units: &BTreeMap<&str, Base>) -> io::Res
     if units.is_empty() {
         return Ok(());
     }
-    xml.create_element(list).write_inner_content(|xml| {
-        for (name, base) in units {
-            xml.create_element("ssc:Unit").with_attribute(("name", *name)).write_inner_content(|xml| {
+    element(xml, list, &[], |xml| {
+        units.iter().try_for_each(|(name, base)| {
+            element(xml, "ssc:Unit", &[("name", name)], |xml| {
                 let powers = Base::NAMES.into_iter().zip(base.powers);
                 let powers = powers.filter(|(_, power)| *power != 0).map(|(name, power)| (name, power.to_string()));
                 let sizes = [("factor", base.factor, 1.0), ("offset", base.offset, 0.0)];
                 let sizes = sizes.into_iter().filter(|(_, value, usual)| value != usual);
                 let all: Vec<_> = powers.chain(sizes.map(|(name, value, _)| (name, number(value)))).collect();
-                let all = all.iter().map(|(name, value)| (*name, value.as_str()));
-                xml.create_element("ssc:BaseUnit").with_attributes(all).write_empty().map(|_| ())
-            })?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+                let all: Vec<_> = all.iter().map(|(name, value)| (*name, value.as_str())).collect();
+                leaf(xml, "ssc:BaseUnit", &all)
+            })
+        })
+    })
 }

@@ -16,7 +16,7 @@ const EQUAL: f64 = 0.01;
 pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
     if prediction.residual_indentation <= 0.0 || scene.yield_strength.is_none() {
         // the elastic depth of a line contact depends on its size, too
-        let is_said = scene.line.is_some() || scene.own_curve.is_some();
+        let is_said = scene.law_words.is_some();
         return is_said.then(|| accuracy(scene, prediction)).flatten().into_iter().collect();
     }
     let softer = scene.softer(0);
@@ -121,23 +121,24 @@ const SOFTEST: f64 = 4.5;
 /// How near the law of the scene is to finite elements of two bodies like those of the first contact; `None` if no body yields, or if
 /// the law is another one and the harder body rigid.
 pub fn accuracy(scene: &Scene, prediction: &Prediction) -> Option<String> {
-    if let Some(size) = &scene.line {
+    let loading = scene.laws.loading().1;
+    if let (true, Some(size)) = (loading.is_line(), &scene.law_words) {
         return Some(of_line(scene, size));
     }
     if let Some(elliptic) = &scene.contacts[0].ellipse {
         let [impactor, target] = scene.bodies_with(0, &[]);
         let softer = if scene.softer(0) == Body::Impactor { impactor } else { target };
-        return Some(elliptic.words(scene.unloading.map(|_| softer.poissons_ratio)));
+        return Some(elliptic.words(scene.laws.unloading().map(|_| softer.poissons_ratio)));
     }
-    if let Some((words, law)) = scene.own_curve.as_ref().zip(scene.loading.1.table()) {
+    if let Some((words, law)) = scene.law_words.as_ref().zip(loading.table()) {
         let last = law.knots().last().map_or(0.0, |knot| knot.depth * scene.model().pair.radius);
         let beyond = if prediction.max_indentation > last { " This impact goes deeper." } else { "" };
         return Some(format!("{words}{beyond}"));
     }
-    if prediction.residual_indentation <= 0.0 || scene.damped.is_some() {
+    if prediction.residual_indentation <= 0.0 || scene.is_damped() {
         return None;
     }
-    let (softer, name) = (scene.softer(0), scene.loading.0);
+    let (softer, name) = (scene.softer(0), scene.laws.loading().0);
     let partner = Partner::of(scene, prediction);
     let nearest = |ratio: f64| {
         let distance = |place: &usize| (ratio / BESIDE_ELASTIC[*place].0).ln().abs();

@@ -12,7 +12,7 @@ use crate::numbers::{self, digits};
 use crate::parameters::{self, LawConstant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
-use crate::scene::{InverseMasses, Loss, Parameter, Scene};
+use crate::scene::{Coupling, InverseMasses, Loss, Masses, Parameter, Scene, SceneLaws};
 use crate::strength_text;
 use crate::table::{self, Causality};
 use brinell_contact::impact::Prediction;
@@ -44,26 +44,26 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     impact(page, plan)?;
     writeln!(page, "<figure>\n{}</figure>", curve(plan))?;
     writeln!(page, "<h2>Law</h2>")?;
-    if let Some((name, damped)) = scene.damped {
+    if let SceneLaws::Damped(name, damped) = scene.laws {
         let text = law_text::damped(name, &damped);
         law(page, "Rate-dependent", &text)?;
         law_constants(page, &text, &parameters::constants(&damped, text.law))?;
     } else {
-        let (name, loading) = scene.loading;
+        let (name, loading) = scene.laws.loading();
         let text = law_text::loading(name, &loading);
         law(page, "Loading", &text)?;
         law_constants(page, &text, &parameters::constants(&loading, text.law))?;
     }
-    if let Some((name, unloading)) = scene.unloading {
+    if let Some((name, unloading)) = scene.laws.unloading() {
         let text = law_text::unloading(name, &unloading);
         law(page, "Unloading and reloading", &text)?;
         law_constants(page, &text, &parameters::constants(&unloading, text.law))?;
     }
-    if let Some(loss) = scene.loss {
+    if let Some(loss) = scene.laws.loss() {
         writeln!(page, "<h3>Loss below yield</h3>\n<p>{}</p>", prose(&loss.words()))?;
     }
     strength_text::section(page, scene)?;
-    if scene.unloading.is_some() {
+    if scene.laws.unloading().is_some() {
         writeln!(page, "<p>{}</p>", prose(&energy::words(scene)))?;
     }
     if let Some(guard) = &plan.guard {
@@ -127,11 +127,11 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
 
 /// The coupling of the FMU with its importer.
 fn coupling(scene: &Scene) -> String {
-    if scene.inverse_masses.is_some() {
-        return together(scene);
-    }
-    if let Some(coupling) = scene.coupling {
-        let mass = if coupling.mass_input {
+    if let Some(coupling) = &scene.coupling {
+        if let Masses::Shared(masses) = &coupling.masses {
+            return together(scene, coupling, masses);
+        }
+        let mass = if scene.mass_is_input() {
             "the input <code>effective_mass</code>"
         } else if scene.damps_by_mass() {
             "the parameter <code>effective_mass</code>"
@@ -160,7 +160,7 @@ fn coupling(scene: &Scene) -> String {
              {force}. The FMU warns once in the log if the importer works in the other order. <code>force</code> and the other \
              outputs are those at the end of the step."
         )
-    } else if let Some(Loss::Plate(_)) = scene.loss {
+    } else if let Some(Loss::Plate(_)) = scene.laws.loss() {
         "The closing speed is held over a step. The plate gives way to the force, so the indentation grows more slowly than the \
          bodies close; the motion of the plate is integrated within the step."
             .into()
@@ -179,15 +179,14 @@ fn coupling(scene: &Scene) -> String {
     }
 }
 
-/// The coupling of contacts that share bodies.
-fn together(scene: &Scene) -> String {
-    let coupling = scene.coupling.unwrap_or_default();
-    let masses = match scene.inverse_masses {
-        Some(InverseMasses::Inputs) => {
+/// The `coupling` of contacts that share bodies, with the inverse `masses` of these.
+fn together(scene: &Scene, coupling: &Coupling, masses: &InverseMasses) -> String {
+    let masses = match masses {
+        InverseMasses::Inputs => {
             "the entries of the matrix of inverse effective masses (<code>inverse_mass[i,j]</code>, upper triangle) if they have \
              changed, "
         }
-        _ => "",
+        InverseMasses::Constant { .. } => "",
     };
     let acceleration = if coupling.acceleration_input && scene.has_friction() {
         "<code>external_acceleration</code> and <code>external_tangential_acceleration</code> of each contact"
@@ -242,7 +241,7 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
         (
             match scene.contacts[0].ellipse {
                 Some(_) => "Largest contact radius, &radic;(a b)",
-                None if scene.line.is_some() => "Largest half-width",
+                None if scene.is_line() => "Largest half-width",
                 None => "Largest contact radius",
             },
             prediction.max_contact_radius,

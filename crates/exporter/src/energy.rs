@@ -4,7 +4,7 @@
 //! the same holds for an impact on an untouched surface: its restitution is above 1. The table of laws states this for the
 //! published constants and all bodies, and tests verify it. For other constants, the program evaluates the law.
 
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneLaws};
 use crate::{pairing, table};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::regime::LARGEST_INDENTATION;
@@ -29,13 +29,13 @@ pub enum Energy {
 /// The energy balance of the FMU of `scene`.
 pub fn of(scene: &Scene) -> Energy {
     // rate-dependent laws and Hertz's law have no unloading law
-    let Some((unloading, _)) = scene.unloading else { return Energy::Passive };
-    let below = if is_published(scene) { told(scene.loading.0, unloading) } else { found(scene) };
+    let SceneLaws::Plastic { loading, unloading, passivity_guard, .. } = scene.laws else { return Energy::Passive };
+    let below = if is_published(scene) { told(loading.0, unloading.0) } else { found(scene, unloading.1) };
     let lowest = (0..scene.contacts.len()).map(|group| lowest_poissons_ratio(scene, group)).fold(0.5, f64::min);
     match below {
         Below::Never => Energy::Passive,
         Below::Ratio(below) if lowest >= below => Energy::Passive,
-        _ if scene.passivity_guard => Energy::Guarded,
+        _ if passivity_guard => Energy::Guarded,
         Below::Ratio(below) => Energy::MayBeMade { below_poissons_ratio: Some(below) },
         Below::Any => Energy::MayBeMade { below_poissons_ratio: None },
     }
@@ -44,7 +44,8 @@ pub fn of(scene: &Scene) -> Energy {
 /// Whether the FMU of `scene`, whose laws have this `energy` balance, may leave a dent above the original surface. Other
 /// constants than the published ones may always do so where the laws are not passive.
 pub fn dents_above_surface(scene: &Scene, energy: Energy) -> bool {
-    energy != Energy::Passive && (!is_published(scene) || may_dent_above(scene.loading.0, scene.unloading))
+    energy != Energy::Passive
+        && (!is_published(scene) || may_dent_above(scene.laws.loading().0, scene.laws.unloading()))
 }
 
 /// Whether two laws with their published constants may leave a dent above the original surface, according to the table.
@@ -77,10 +78,10 @@ pub fn words(scene: &Scene) -> String {
 
 /// The statement of the table about the surplus of the laws of `scene`, if they have their published constants.
 fn published_words(scene: &Scene) -> String {
-    let law = table::loading_law(scene.loading.0);
+    let law = table::loading_law(scene.laws.loading().0);
     let Some(energy) = law.energy.as_ref().filter(|_| is_published(scene)) else { return String::new() };
     let partner = law.unloading.as_deref().unwrap_or("contact-radius");
-    let largest = match scene.unloading {
+    let largest = match scene.laws.unloading() {
         Some((unloading, _)) if unloading == partner => format!(
             " The largest is {} ({} below a Poisson's ratio of 0).",
             energy.restitution, energy.auxetic_restitution
@@ -92,7 +93,7 @@ fn published_words(scene: &Scene) -> String {
 
 /// Whether both laws of `scene` have their published constants.
 fn is_published(scene: &Scene) -> bool {
-    let (loading, unloading) = (scene.loading, scene.unloading);
+    let (loading, unloading) = (scene.laws.loading(), scene.laws.unloading());
     // a curve of one's own is made passive
     if loading.1.table().is_some() {
         return true;
@@ -127,10 +128,9 @@ pub fn is_passive(loading: &str, unloading: &str) -> (bool, Option<f64>) {
     }
 }
 
-/// The result of evaluating the laws of `scene` on bodies that its FMU can have.
-fn found(scene: &Scene) -> Below {
-    let everywhere = table::loading_law(scene.loading.0).depends_on_modulus_ratio;
-    let unloading = scene.unloading.expect("a law that yields").1;
+/// The result of evaluating the laws of `scene`, without a guard on its `unloading`, on bodies that its FMU can have.
+fn found(scene: &Scene, unloading: AnyUnloading) -> Below {
+    let everywhere = table::loading_law(scene.laws.loading().0).depends_on_modulus_ratio;
     let mut looked_at = Vec::new();
     for group in 0..scene.contacts.len() {
         let model = Model { unloading, ..scene.model_of(group) };

@@ -53,14 +53,14 @@ fn lines(plan: &Plan) -> String {
     );
     let set = |speed: &str| format!("unit.setReal([at[\"{rate}\"]], [{speed}])\n");
     let get = format!("[force] = unit.getReal([at[\"{force}\"]])\n");
-    if scene.inverse_masses.is_some() {
+    if scene.inverse_masses().is_some() {
         let set = set(&speed.to_string());
         return format!(
             "{head}{set}unit.doStep(0.0, {end})  # s\n{get}print(f\"mean force {{force:.4g}} N over {{{end}}} s\")\n"
         );
     }
     let moved = "speed, time, largest = speed - force / mass * step, time + step, max(largest, force)\n";
-    let parallel = scene.coupling.is_some_and(|coupling| coupling.parallel);
+    let parallel = scene.is_parallel();
     // a master that steps all at once applies the force a step later
     let [first, second] = if parallel { [moved, &get] } else { [&get, moved] };
     format!(

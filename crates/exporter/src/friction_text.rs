@@ -74,8 +74,8 @@ fn stability(scene: &Scene) -> String {
 fn accuracy(scene: &Scene) -> Vec<String> {
     let mut items: Vec<String> = if scene.directions > 1 { &IN_TWO } else { &IN_ONE }.map(Into::into).into();
     items.push(stability(scene));
-    if let Some((name, _)) = scene.unloading {
-        let error = table::unloading_law(name).friction_error_after(scene.loading.0);
+    if let Some((name, _)) = scene.laws.unloading() {
+        let error = table::unloading_law(name).friction_error_after(scene.laws.loading().0);
         if let Some(error) = error {
             let turning = if scene.directions > 1 { "; where the motion turns, up to 3e-3" } else { "" };
             items.push(format!(

@@ -24,7 +24,7 @@ pub struct Guard {
 impl Guard {
     /// `None` if the scene has no guard.
     pub fn of(scene: &Scene) -> Option<Guard> {
-        if !scene.passivity_guard {
+        if !scene.laws.is_guarded() {
             return None;
         }
         let by_group = scene.by_bodies(|group| ranges_of(scene, group));

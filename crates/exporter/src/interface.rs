@@ -1,7 +1,7 @@
 //! The variables of the FMU of a scene, in order. XML, constants and documentation are all made from this list.
 
 use crate::nominal;
-use crate::scene::{Group, InverseMasses, Parameter, Scene};
+use crate::scene::{Group, InverseMasses, Parameter, Scene, SceneLaws};
 use crate::table::{self, Causality, Feature, Follows, VARIABLES, Variable};
 use brinell_contact::damped::Damped;
 
@@ -122,8 +122,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
             // without a motion the plate doesn't give way, and there is no tangential force
             "target.plate_thickness" | "friction.coefficient" => false,
             "effective_mass" => {
-                let needs_mass = scene.damped.is_some_and(|(_, law)| law.needs_mass());
-                damped_at_start && needs_mass || is_listed(name) && elastic_part_follows_mass(scene)
+                damped_at_start && scene.damps_by_mass() || is_listed(name) && elastic_part_follows_mass(scene)
             }
             _ => is_listed(name),
         };
@@ -210,7 +209,7 @@ pub const INVERSE_MASS: &str = "inverse_mass";
 /// The number of these inputs: the upper triangle of the matrix.
 pub fn inverse_mass_inputs(scene: &Scene) -> usize {
     let rows = scene.rows();
-    if scene.inverse_masses == Some(InverseMasses::Inputs) { rows * (rows + 1) / 2 } else { 0 }
+    if scene.inverse_masses() == Some(&InverseMasses::Inputs) { rows * (rows + 1) / 2 } else { 0 }
 }
 
 /// Whether `variable` has a second direction.
@@ -233,7 +232,7 @@ fn start(variable: &Variable, scene: &Scene, group: usize) -> f64 {
 /// Whether the elastic part of a rate-dependent law also depends on the mass.
 fn elastic_part_follows_mass(scene: &Scene) -> bool {
     let pair = scene.model().pair;
-    scene.damped.is_some_and(|(_, law)| law.parts(&pair, 0.5, 1.0).0 != law.parts(&pair, 0.5, 2.0).0)
+    matches!(scene.laws, SceneLaws::Damped(_, law) if law.parts(&pair, 0.5, 1.0).0 != law.parts(&pair, 0.5, 2.0).0)
 }
 
 /// A parameter that can be set.

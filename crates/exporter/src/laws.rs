@@ -3,7 +3,7 @@
 use crate::model::{AnyModel, Dampings, RateLaw, paired};
 use crate::nearest::unknown;
 use crate::pairing::{self, unloading_of};
-use crate::scene::{LINE, Scene, TABLE};
+use crate::scene::{LINE, Scene, SceneLaws, TABLE};
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
@@ -60,11 +60,11 @@ pub enum UnknownLaw {
 
 /// The loading law of this name: with the scene's constants if it is the scene's own, otherwise with the reference constants.
 fn find_loading(name: &str, scene: &Scene) -> Option<(&'static str, AnyLoading)> {
-    [scene.loading].into_iter().chain(AnyLoading::ALL).find(|(known, _)| *known == name)
+    [scene.laws.loading()].into_iter().chain(AnyLoading::ALL).find(|(known, _)| *known == name)
 }
 
 fn find_unloading(name: &str, scene: &Scene) -> Option<(&'static str, AnyUnloading)> {
-    scene.unloading.into_iter().chain(AnyUnloading::ALL).find(|(known, _)| *known == name)
+    scene.laws.unloading().into_iter().chain(AnyUnloading::ALL).find(|(known, _)| *known == name)
 }
 
 /// The names of all loading laws, elastoplastic and rate-dependent.
@@ -87,7 +87,7 @@ pub fn choose(scene: &Scene, names: &[String]) -> Result<Vec<Choice>, UnknownLaw
     let every = |name: &String| match name.as_str() {
         "all" => {
             let all = AnyLoading::ALL.iter().filter(|(name, law)| {
-                law.is_line() == scene.line.is_some() && (law.table().is_none() || *name == scene.loading.0)
+                law.is_line() == scene.is_line() && (law.table().is_none() || *name == scene.laws.loading().0)
             });
             all.map(|(name, _)| (*name).to_string()).collect()
         }
@@ -99,11 +99,12 @@ pub fn choose(scene: &Scene, names: &[String]) -> Result<Vec<Choice>, UnknownLaw
 
 /// The laws of the scene itself.
 fn own(scene: &Scene) -> Choice {
-    let guard = if scene.passivity_guard { GUARDED } else { "" };
-    let (name, laws) = match (scene.damped, scene.unloading) {
-        (Some((name, law)), _) => (name, damped_laws(name, &law)),
-        (None, Some((unloading, _))) => (scene.loading.0, format!("{}/{unloading}", scene.loading.0)),
-        (None, None) => (scene.loading.0, scene.loading.0.into()),
+    let guard = if scene.laws.is_guarded() { GUARDED } else { "" };
+    let name = scene.laws.name();
+    let laws = match scene.laws {
+        SceneLaws::Damped(_, law) => damped_laws(name, &law),
+        SceneLaws::Plastic { unloading, .. } => format!("{name}/{}", unloading.0),
+        SceneLaws::Elastic { .. } => name.into(),
     };
     Choice { name: format!("{name}{guard}"), laws: format!("{laws}{guard}"), model: scene.any_model() }
 }
@@ -118,12 +119,12 @@ fn damped_laws(name: &str, law: &AnyDamped) -> String {
 fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let (loading_name, other_name) = name.split_once('/').map_or((name, None), |(one, other)| (one, Some(other)));
     let is_line = loading_name == LINE;
-    if loading_name == TABLE && scene.own_curve.is_none() {
+    if loading_name == TABLE && scene.laws.name() != TABLE {
         let message =
             "table is a curve of one's own, and the scene names no file: law = { loading = { table = \"file.csv\" } }";
         return Err(UnknownLaw::Pairing(message.into()));
     }
-    if is_line != scene.line.is_some() && loading_names().any(|known| known == loading_name) {
+    if is_line != scene.is_line() && loading_names().any(|known| known == loading_name) {
         let [law, body] = if is_line { ["cylinders", "ball"] } else { ["balls", "cylinder"] };
         let message = format!("{loading_name} is a law of {law}, and the impactor of the scene is a {body}");
         return Err(UnknownLaw::Pairing(message));
@@ -137,9 +138,9 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
         let model = scene.with_loss(0, Model { loading, ..scene.model() });
         return Ok(Choice { name: name.into(), laws: name.into(), model });
     }
-    let is_own = loading_name == scene.loading.0 && scene.damped.is_none();
+    let is_own = loading_name == scene.laws.name();
     let unloading = match other_name {
-        None if is_own => scene.unloading.or(Some(unloading_of(loading_name))),
+        None if is_own => scene.laws.unloading().or(Some(unloading_of(loading_name))),
         None => find_unloading(unloading_of(loading_name).0, scene),
         Some(asked) => find_unloading(asked, scene),
     };
@@ -162,13 +163,12 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
 /// A rate-dependent law for comparison with the scene's own. Its damping is for the restitution that the scene requires, or for
 /// that of the scene's impact with its own law.
 fn choose_damped(scene: &Scene, name: &str, law: AnyDamped, damping: Option<&str>) -> Result<Choice, UnknownLaw> {
-    let own = scene.damped.filter(|(own, _)| name.split('/').next() == Some(own));
-    let law = match (damping, own) {
+    let law = match (damping, scene.laws) {
         (Some(asked), _) => law
             .with_damping(asked)
             .ok_or_else(|| UnknownLaw::Name(unknown("damping", asked, law.dampings().into_iter())))?,
-        (None, Some((_, own))) => own,
-        (None, None) => law,
+        (None, SceneLaws::Damped(own, law)) if own == name => law,
+        _ => law,
     };
     let given = scene.value("restitution");
     let restitution = given.or_else(|| scene.any_model().restitution(&scene.impact_of(0))).filter(|e| *e > 0.0);

@@ -4,13 +4,14 @@
 //! |---|---|
 //! | [`numbers`], [`layout`], [`columns`], [`nearest`], [`mistake`], [`units`], [`xml`], [`html`], [`plot`] | words, tables and pictures; mistakes with their place in a file |
 //! | [`table`], [`regime`] | variables, units, materials and laws, from the folder `modelDescription` |
+//! | [`body`] | the two bodies of a contact |
 //! | [`model`], [`parameters`], [`pairing`], [`law_check`], [`law_text`], [`validity`] | laws by name: their constants, which go together, where they hold |
+//! | [`reading`], [`measurement`] | a hardness as people write it; tables of measurements, in any dialect |
+//! | [`tension`], [`measured`] | the flow stress that a tensile test, a hardness or a tensile strength says |
+//! | `own_curve` | the law through a loading curve of one's own |
 //! | [`scene`] | a checked scene |
 //! | [`schema`] | the JSON Schema of scenes |
 //! | [`bodies`], [`rods`], [`laws`], [`energy`], [`guard`] | what is known of the bodies and laws of a scene |
-//! | [`measurement`] | tables of measurements, in any dialect |
-//! | `own_curve` | the law through a loading curve of one's own |
-//! | [`tension`], [`measured`] | the flow stress that a tensile test, a hardness or a tensile strength says |
 //! | [`predict`], [`hardness`], [`accuracy`] | what an impact or a hardness test of a scene will do, and how near that is |
 //! | [`curve`] | force, pressure and energies along loading and unloading |
 //! | [`master`] | the ways to couple a contact with bodies |
@@ -46,6 +47,7 @@
 
 pub mod accuracy;
 pub mod bodies;
+pub mod body;
 pub mod c_source;
 pub mod columns;
 pub mod curve;
@@ -80,6 +82,7 @@ pub mod platform;
 pub mod plot;
 pub mod prebuilt;
 pub mod predict;
+pub mod reading;
 pub mod regime;
 pub mod rods;
 pub mod scene;

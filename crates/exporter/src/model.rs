@@ -1,7 +1,7 @@
 //! The physical model of the contact of a scene.
 
+use crate::body::Body;
 use crate::numbers::significant;
-use crate::scene::Body;
 use brinell_contact::damped::hunt_crossley::DampingFactor;
 use brinell_contact::damped::tsuji::TsujiDamping;
 use brinell_contact::damped::{AnyDamped, Damped, HuntCrossley, Tsuji};

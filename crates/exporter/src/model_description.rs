@@ -1,10 +1,10 @@
 //! `modelDescription.xml`: capabilities of the FMU, units, variables, and the structure of the model.
 
 use crate::interface::{Entry, is_tunable};
-use crate::library;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::table::{Causality, Type, UNITS, Unit};
+use crate::xml::{element, leaf};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::collections::BTreeSet;
@@ -46,26 +46,24 @@ fn document(xml: &mut Xml<'_>, plan: &Plan, guid: &str, source: Option<&str>) ->
         ("generationTool", tool),
         ("variableNamingConvention", if scene.structured_names { "structured" } else { "flat" }),
     ];
-    let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
-    xml.create_element("fmiModelDescription").with_attributes(given).write_inner_content(|xml| {
+    element(xml, "fmiModelDescription", &attributes, |xml| {
         co_simulation(xml, scene, source)?;
         units(xml, entries)?;
         types(xml, entries)?;
-        xml.create_element("LogCategories").write_inner_content(|xml| {
-            for (name, description) in LOG_CATEGORIES {
-                let category = xml.create_element("Category");
-                category.with_attributes([("name", name), ("description", description)]).write_empty()?;
-            }
-            Ok(())
+        element(xml, "LogCategories", &[], |xml| {
+            let mut all = LOG_CATEGORIES.into_iter();
+            all.try_for_each(|(name, description)| {
+                leaf(xml, "Category", &[("name", name), ("description", description)])
+            })
         })?;
-        let times = [("startTime", 0.0), ("stopTime", experiment.stop), ("stepSize", experiment.step)];
-        let times = times.map(|(name, value)| (name, number(value)));
-        let times = times.iter().map(|(name, value)| (*name, value.as_str()));
-        xml.create_element("DefaultExperiment").with_attributes(times).write_empty()?;
-        variables(xml, scene, entries)?;
+        let [stop, step] = [experiment.stop, experiment.step].map(number);
+        leaf(xml, "DefaultExperiment", &[("startTime", "0"), ("stopTime", &stop), ("stepSize", &step)])?;
+        element(xml, "ModelVariables", &[], |xml| {
+            let mut all = entries.iter().flat_map(|entry| (0..entry.count).map(move |index| (entry, index)));
+            all.try_for_each(|(entry, index)| scalar_variable(xml, scene, entry, index))
+        })?;
         structure(xml, entries)
-    })?;
-    Ok(())
+    })
 }
 
 /// The highest order of the derivative of an output.
@@ -79,7 +77,7 @@ fn output_order(scene: &Scene) -> &'static str {
 }
 
 fn co_simulation(xml: &mut Xml<'_>, scene: &Scene, source: Option<&str>) -> io::Result<()> {
-    let takes_derivatives = library::has_course(scene) && !scene.has_input("external_acceleration");
+    let takes_derivatives = scene.has_course() && !scene.has_input("external_acceleration");
     let attributes = [
         ("modelIdentifier", scene.name.as_str()),
         ("needsExecutionTool", "false"),
@@ -93,47 +91,27 @@ fn co_simulation(xml: &mut Xml<'_>, scene: &Scene, source: Option<&str>) -> io::
         ("canSerializeFMUstate", "true"),
         ("providesDirectionalDerivative", "true"),
     ];
-    let element = xml.create_element("CoSimulation").with_attributes(attributes);
-    let Some(file) = source else {
-        element.write_empty()?;
-        return Ok(());
-    };
-    element.write_inner_content(|xml| {
-        xml.create_element("SourceFiles").write_inner_content(|xml| {
-            xml.create_element("File").with_attribute(("name", file)).write_empty()?;
-            Ok(())
-        })?;
-        Ok(())
-    })?;
-    Ok(())
+    let Some(file) = source else { return leaf(xml, "CoSimulation", &attributes) };
+    element(xml, "CoSimulation", &attributes, |xml| {
+        element(xml, "SourceFiles", &[], |xml| leaf(xml, "File", &[("name", file)]))
+    })
 }
 
 /// The units of the variables, with their display units.
 fn units(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
     let used: BTreeSet<_> = entries.iter().filter_map(|entry| entry.variable.unit.as_deref()).collect();
-    xml.create_element("UnitDefinitions").write_inner_content(|xml| {
-        for unit in UNITS.iter().filter(|unit| used.contains(unit.name.as_str())) {
-            xml.create_element("Unit")
-                .with_attribute(("name", unit.name.as_str()))
-                .write_inner_content(|xml| definition(xml, unit))?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+    element(xml, "UnitDefinitions", &[], |xml| {
+        let mut used = UNITS.iter().filter(|unit| used.contains(unit.name.as_str()));
+        used.try_for_each(|unit| element(xml, "Unit", &[("name", &unit.name)], |xml| definition(xml, unit)))
+    })
 }
 
 fn definition(xml: &mut Xml<'_>, unit: &Unit) -> io::Result<()> {
-    let exponents = [("kg", unit.kg), ("m", unit.m), ("s", unit.s)];
-    let exponents = exponents.into_iter().filter(|(_, exponent)| *exponent != 0);
-    let exponents: Vec<_> = exponents.map(|(name, exponent)| (name, exponent.to_string())).collect();
-    let exponents = exponents.iter().map(|(name, exponent)| (*name, exponent.as_str()));
-    xml.create_element("BaseUnit").with_attributes(exponents).write_empty()?;
-    for display in &unit.display {
-        let factor = number(display.factor);
-        let element = xml.create_element("DisplayUnit");
-        element.with_attributes([("name", display.name.as_str()), ("factor", &factor)]).write_empty()?;
-    }
-    Ok(())
+    let exponent = |exponent: i32| if exponent == 0 { String::new() } else { exponent.to_string() };
+    let [kg, m, s] = [unit.kg, unit.m, unit.s].map(exponent);
+    leaf(xml, "BaseUnit", &[("kg", &kg), ("m", &m), ("s", &s)])?;
+    let mut all = unit.display.iter();
+    all.try_for_each(|shown| leaf(xml, "DisplayUnit", &[("name", &shown.name), ("factor", &number(shown.factor))]))
 }
 
 /// The enumerations of the variables, with their values.
@@ -145,38 +123,22 @@ fn types(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
     if used.is_empty() {
         return Ok(());
     }
-    xml.create_element("TypeDefinitions").write_inner_content(|xml| {
-        for variable in used {
-            let name = variable.symbol().to_string();
-            let name = [("name", name.as_str())];
-            xml.create_element("SimpleType").with_attributes(name).write_inner_content(|xml| {
-                xml.create_element("Enumeration").write_inner_content(|xml| {
-                    for (value, item) in variable.items.iter().enumerate() {
+    element(xml, "TypeDefinitions", &[], |xml| {
+        used.into_iter().try_for_each(|variable| {
+            element(xml, "SimpleType", &[("name", &variable.symbol().to_string())], |xml| {
+                element(xml, "Enumeration", &[], |xml| {
+                    variable.items.iter().enumerate().try_for_each(|(value, item)| {
                         let value = value.to_string();
-                        let item = [("name", &item.name), ("value", &value), ("description", &item.description)];
-                        let item = item.map(|(name, value)| (name, value.as_str()));
-                        xml.create_element("Item").with_attributes(item).write_empty()?;
-                    }
-                    Ok(())
-                })?;
-                Ok(())
-            })?;
-        }
-        Ok(())
-    })?;
-    Ok(())
-}
-
-fn variables(xml: &mut Xml<'_>, scene: &Scene, entries: &[Entry]) -> io::Result<()> {
-    xml.create_element("ModelVariables").write_inner_content(|xml| {
-        for entry in entries {
-            for index in 0..entry.count {
-                scalar_variable(xml, scene, entry, index)?;
-            }
-        }
-        Ok(())
-    })?;
-    Ok(())
+                        leaf(
+                            xml,
+                            "Item",
+                            &[("name", &item.name), ("value", &value), ("description", &item.description)],
+                        )
+                    })
+                })
+            })
+        })
+    })
 }
 
 fn scalar_variable(xml: &mut Xml<'_>, scene: &Scene, entry: &Entry, index: usize) -> io::Result<()> {
@@ -198,25 +160,20 @@ fn scalar_variable(xml: &mut Xml<'_>, scene: &Scene, entry: &Entry, index: usize
         ("variability", variability),
         ("initial", initial),
     ];
-    let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
     let real = variable.r#type == Type::Real;
     let limit = |value: Option<f64>| value.map(number).unwrap_or_default();
     let declared = if real { String::new() } else { variable.symbol().to_string() };
+    let [minimum, maximum, nominal, start] = [entry.minimum, variable.maximum, entry.nominal, entry.start].map(limit);
     let kind = [
-        ("declaredType", declared),
-        ("unit", variable.unit.clone().unwrap_or_default()),
-        ("displayUnit", variable.display_unit.clone().unwrap_or_default()),
-        ("min", limit(entry.minimum)),
-        ("max", limit(variable.maximum)),
-        ("nominal", limit(entry.nominal)),
-        ("start", limit(entry.start)),
+        ("declaredType", declared.as_str()),
+        ("unit", variable.unit.as_deref().unwrap_or_default()),
+        ("displayUnit", variable.display_unit.as_deref().unwrap_or_default()),
+        ("min", &minimum),
+        ("max", &maximum),
+        ("nominal", &nominal),
+        ("start", &start),
     ];
-    let kind = kind.iter().filter(|(_, value)| !value.is_empty()).map(|(name, value)| (*name, value.as_str()));
-    xml.create_element("ScalarVariable").with_attributes(given).write_inner_content(|xml| {
-        xml.create_element(if real { "Real" } else { "Enumeration" }).with_attributes(kind).write_empty()?;
-        Ok(())
-    })?;
-    Ok(())
+    element(xml, "ScalarVariable", &attributes, |xml| leaf(xml, if real { "Real" } else { "Enumeration" }, &kind))
 }
 
 /// Outputs do not depend on an input at the same instant, unless the law does. Before the first step they depend on the
@@ -226,37 +183,30 @@ fn structure(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
         let outputs = entries.iter().filter(|entry| entry.variable.causality == Causality::Output);
         outputs.flat_map(|entry| (0..entry.count).map(move |index| (entry, index)))
     };
-    xml.create_element("ModelStructure").write_inner_content(|xml| {
-        xml.create_element("Outputs").write_inner_content(|xml| {
-            for (entry, index) in outputs() {
-                let inputs = entry.follows.iter().chain(&entry.follows_tangential);
-                let inputs: Vec<_> = inputs.map(|first| first + index).collect();
-                unknown(xml, entry.reference + index, &inputs)?;
-            }
-            Ok(())
+    element(xml, "ModelStructure", &[], |xml| {
+        element(xml, "Outputs", &[], |xml| {
+            outputs().try_for_each(|(entry, index)| {
+                let inputs = entry.follows.iter().chain(&entry.follows_tangential).map(|first| first + index);
+                unknown(xml, entry.reference + index, inputs)
+            })
         })?;
-        xml.create_element("InitialUnknowns").write_inner_content(|xml| {
-            for (entry, index) in outputs() {
+        element(xml, "InitialUnknowns", &[], |xml| {
+            outputs().try_for_each(|(entry, index)| {
                 let input = entry.follows_at_start.map(|first| first + index);
                 let parameters = entry.dependencies.iter().map(|dependency| dependency.of(index));
-                let places: Vec<_> = input.into_iter().chain(parameters).collect();
-                unknown(xml, entry.reference + index, &places)?;
-            }
-            Ok(())
-        })?;
-        Ok(())
-    })?;
-    Ok(())
+                unknown(xml, entry.reference + index, input.into_iter().chain(parameters))
+            })
+        })
+    })
 }
 
 /// The index of an unknown, and those of the input and the parameters on which it depends. Indices in the XML start from 1.
-fn unknown(xml: &mut Xml<'_>, place: usize, dependencies: &[usize]) -> io::Result<()> {
+fn unknown(xml: &mut Xml<'_>, place: usize, dependencies: impl Iterator<Item = usize>) -> io::Result<()> {
     let index = (place + 1).to_string();
-    let dependencies = dependencies.iter().map(|place| (place + 1).to_string());
-    let dependencies = dependencies.collect::<Vec<_>>().join(" ");
-    let element = xml.create_element("Unknown");
-    element.with_attributes([("index", index.as_str()), ("dependencies", &dependencies)]).write_empty()?;
-    Ok(())
+    let dependencies = dependencies.map(|place| (place + 1).to_string()).collect::<Vec<_>>().join(" ");
+    // an empty list says that it depends on none
+    let attributes = [("index", index.as_str()), ("dependencies", &dependencies)];
+    xml.create_element("Unknown").with_attributes(attributes).write_empty().map(|_| ())
 }
 
 /// The shortest text that reads back as the same number.

@@ -117,3 +117,10 @@ pub fn one_of(names: &[&str]) -> String {
         names => format!("one of `{}`", names.join("`, `")),
     }
 }
+
+/// The pattern of these `names` in letters of any case.
+pub fn any_case(names: &[&str]) -> String {
+    let of_letter = |c: char| format!("[{}{}]", c.to_ascii_uppercase(), c.to_ascii_lowercase());
+    let of_name = |name: &&str| name.chars().map(of_letter).collect::<String>();
+    names.iter().map(of_name).collect::<Vec<_>>().join("|")
+}

@@ -82,7 +82,7 @@ const FEWEST_STEPS: f64 = 500.0;
 pub fn experiment(scene: &Scene) -> Experiment {
     let (contact_time, speed) = (scene.predictions[0].contact_time(), scene.impact.speed);
     let value = |name| scene.group_value(0, name).unwrap_or(0.0).max(0.0);
-    let longest = match scene.coupling {
+    let longest = match &scene.coupling {
         Some(_) => {
             let radius = scene.group_value(0, "impactor.radius").unwrap_or_else(|| scene.smaller_radius_with(0, &[]));
             (TRAVEL * radius / speed).min(LONGEST_STEP)

@@ -83,22 +83,21 @@ impl Plan<'_> {
 
 /// Whether the FMU moves the bodies of several contacts, each by itself.
 fn moves_separately(scene: &Scene) -> bool {
-    scene.coupling.is_some() && scene.inverse_masses.is_none() && scene.contact_count() > 1
+    scene.coupling.is_some() && scene.inverse_masses().is_none() && scene.contact_count() > 1
 }
 
 /// The kinds of the FMU of `scene`, whose laws have this `energy` balance.
 fn kinds(scene: &Scene, energy: Energy) -> Vec<Feature> {
-    let coupling = scene.coupling;
     // a loss adds heat to that of yielding
-    let heats = scene.loss.is_some() && coupling.is_none() && energy == Energy::Passive;
+    let heats = scene.laws.loss().is_some() && scene.coupling.is_none() && energy == Energy::Passive;
     let kinds = [
         // before those that describe the same variable for the normal alone
-        (Feature::SharedFriction, scene.inverse_masses.is_some() && scene.has_friction()),
-        (Feature::RateDependent, scene.damped.is_some() || heats),
+        (Feature::SharedFriction, scene.inverse_masses().is_some() && scene.has_friction()),
+        (Feature::RateDependent, scene.is_damped() || heats),
         (Feature::HeldInputs, !scene.input_derivatives),
-        (Feature::Parallel, coupling.is_some_and(|coupling| coupling.parallel)),
-        (Feature::AccelerationInput, coupling.is_some_and(|coupling| coupling.acceleration_input)),
-        (Feature::MassKnown, coupling.is_some()),
+        (Feature::Parallel, scene.is_parallel()),
+        (Feature::AccelerationInput, scene.has_input("external_acceleration")),
+        (Feature::MassKnown, scene.coupling.is_some()),
         (Feature::DentsAboveSurface, energy::dents_above_surface(scene, energy)),
         (Feature::MakesEnergy, matches!(energy, Energy::MayBeMade { .. })),
         (Feature::LosesLess, energy == Energy::Guarded),
@@ -110,7 +109,7 @@ fn kinds(scene: &Scene, energy: Energy) -> Vec<Feature> {
 /// The parameters of `scene` that cannot be set: first those of all contacts, then those of each group.
 fn constants(scene: &Scene) -> Vec<FixedParameter> {
     let mut constants = Vec::new();
-    let mass_is_input = scene.coupling.is_some_and(|coupling| coupling.mass_input);
+    let mass_is_input = scene.mass_is_input();
     let mut add = |group: Option<&Group>, parameters: &[Parameter]| {
         for Parameter { name, value, .. } in parameters.iter().filter(|parameter| !parameter.settable) {
             // it is only a start value

@@ -2,29 +2,9 @@
 
 use crate::numbers::{quantity, significant};
 use crate::scene::Scene;
-use crate::validity::Beyond;
 use brinell_contact::impact::Prediction;
 use brinell_contact::validity::wave_speed;
 use serde::Serialize;
-use std::f64::consts::PI;
-
-/// A long body of constant cross-section, such as the piston of a hammer, a chisel or a pin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rod {
-    /// Density \[kg/m^3\].
-    pub density: f64,
-    /// Length \[m\].
-    pub length: f64,
-    /// Area of the cross-section \[m^2\].
-    pub area: f64,
-}
-
-impl Rod {
-    /// Radius of a round cross-section of this area \[m\].
-    pub fn radius(&self) -> f64 {
-        (self.area / PI).sqrt()
-    }
-}
 
 /// What the plane waves in the rods of a contact allow in an impact.
 ///
@@ -50,7 +30,7 @@ pub struct Waves {
 
 /// Contact time over the time of the last return from which on a rod counts as compact: at this ratio the largest force of a
 /// compact body is 3 % too high in an elastic impact, and at 2 it is 15 %, for a rod with a free end.
-const COMPACT: f64 = 5.0;
+pub const COMPACT: f64 = 5.0;
 
 impl Waves {
     /// The waves in the rods of the first contact of `scene` at this closing `speed` \[m/s\], with other values for some of the
@@ -67,15 +47,6 @@ impl Waves {
             first_return: returns().fold(f64::INFINITY, f64::min),
             last_return: returns().fold(0.0, f64::max),
         })
-    }
-
-    /// What makes the rods other than the compact bodies of this `prediction`.
-    pub fn beyond(&self, prediction: &Prediction) -> Option<Beyond> {
-        let travels = prediction.contact_time() / self.last_return;
-        if prediction.max_force > self.largest_force {
-            return Some(Beyond::Waves { waves: *self, excess: prediction.max_force / self.largest_force });
-        }
-        (travels < COMPACT).then_some(Beyond::Short { travels, last_return: self.last_return })
     }
 
     /// A line about the bound, if none of these `predictions` exceeds it.

@@ -3,9 +3,9 @@
 
 mod rules;
 
-use crate::measured;
 use crate::model::Dampings;
 use crate::parameters::{self, LawConstant};
+use crate::reading;
 use crate::scene::TABLE;
 use crate::scene::{
     FLAT, IDENTIFIER, INPUTS, OF_ALL_CONTACTS, PRODUCT, RATE_MODELS, SceneFile, WAVES, is_no_name, quantity_of,
@@ -254,7 +254,7 @@ fn form(schema: &mut Map<String, Value>, table: &str, key: &str) {
         }
         ("" | "body" | "contact", "name") => json!({ "pattern": IDENTIFIER }),
         ("", "description" | "author") => json!({ "pattern": xml::ALLOWED }),
-        (_, "hardness") => json!({ "pattern": measured::pattern() }),
+        (_, "hardness") => json!({ "pattern": reading::pattern() }),
         _ => return,
     };
     let Value::Object(more) = more else { return };

@@ -4,6 +4,7 @@ use crate::numbers::{quantity, significant};
 use crate::rods::{self, Waves};
 use crate::scene::Scene;
 use brinell_contact::Pair;
+use brinell_contact::impact::Prediction;
 use brinell_contact::loading::line::LARGEST_PART;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
 
@@ -230,5 +231,16 @@ pub fn limits(scene: &Scene) -> String {
             quantity(LARGEST_SPEED_RATIO * wave_speed(pair.youngs_modulus, density), "m/s")
         ),
         None => format!("{radius}, and slow against elastic waves (the scene gives no density of the target)"),
+    }
+}
+
+impl Waves {
+    /// What makes the rods other than the compact bodies of this `prediction`.
+    pub fn beyond(&self, prediction: &Prediction) -> Option<Beyond> {
+        let travels = prediction.contact_time() / self.last_return;
+        if prediction.max_force > self.largest_force {
+            return Some(Beyond::Waves { waves: *self, excess: prediction.max_force / self.largest_force });
+        }
+        (travels < rods::COMPACT).then_some(Beyond::Short { travels, last_return: self.last_return })
     }
 }

@@ -1,4 +1,30 @@
-//! The characters of XML 1.0.
+//! XML 1.0: its characters, and elements as they are written.
+
+use quick_xml::Writer;
+use std::io::{self, Write};
+
+/// Writes the element `name` with those of its `attributes` that aren't empty, and what `inner` writes in it.
+///
+/// # Errors
+/// Those of the writer.
+pub fn element<W: Write>(
+    xml: &mut Writer<W>,
+    name: &str,
+    attributes: &[(&str, &str)],
+    inner: impl FnOnce(&mut Writer<W>) -> io::Result<()>,
+) -> io::Result<()> {
+    let given = attributes.iter().copied().filter(|(_, value)| !value.is_empty());
+    xml.create_element(name).with_attributes(given).write_inner_content(inner).map(|_| ())
+}
+
+/// The same with nothing in it.
+///
+/// # Errors
+/// Those of the writer.
+pub fn leaf<W: Write>(xml: &mut Writer<W>, name: &str, attributes: &[(&str, &str)]) -> io::Result<()> {
+    let given = attributes.iter().copied().filter(|(_, value)| !value.is_empty());
+    xml.create_element(name).with_attributes(given).write_empty().map(|_| ())
+}
 
 /// The first character of `text` that XML does not allow, not even as a reference, and its position in bytes.
 ///

@@ -172,7 +172,7 @@ fn edited(asked: &Asked, scene: &Scene, way: &CouplingMethod) -> Result<String, 
     let mut edits = vec![Edit::of(&["fmu", "standalone"], Value::Null)];
     let tables = scene.contacts.len();
     let is_listed = scene.contacts[0].name.is_some();
-    if scene.inverse_masses.is_none() {
+    if scene.inverse_masses().is_none() {
         edits.extend([Edit::of(&["coupling"], Value::Null), Edit::of(&["friction"], Value::Null)]);
         if is_listed {
             edits.extend((0..tables).map(|index| Edit::of_contact(index, "friction", Value::Null)));
@@ -194,7 +194,7 @@ fn edited(asked: &Asked, scene: &Scene, way: &CouplingMethod) -> Result<String, 
     }
     let stand = stand(scene);
     let hits = |index: usize| if in_the_air(&stand) { index == 0 } else { stand[index] };
-    let falls = |index: &usize| scene.inverse_masses.is_none() || hits(*index);
+    let falls = |index: &usize| scene.inverse_masses().is_none() || hits(*index);
     let gap = json!(asked.height);
     match is_listed {
         false => edits.push(Edit::of(&["fmu", "initial_gap"], gap)),
@@ -283,15 +283,15 @@ struct Shared {
 impl Shared {
     /// Those of the scene, if its contacts share bodies. Gravity accelerates what stands on the ground.
     fn of(scene: &Scene, gravity: f64) -> Result<Option<Shared>, Refused> {
-        let entries = match &scene.inverse_masses {
+        let entries = match scene.inverse_masses() {
             None => return Ok(None),
             Some(InverseMasses::Inputs) => {
                 return Err("the inverse masses are inputs, which the page does not know".into());
             }
-            Some(InverseMasses::Constant(entries)) => entries.clone(),
+            Some(InverseMasses::Constant { entries, .. }) => entries.clone(),
         };
         let accelerations = stand(scene).into_iter().map(|stands| if stands { gravity } else { 0.0 }).collect();
-        let is_late = scene.coupling.is_some_and(|coupling| coupling.parallel);
+        let is_late = scene.is_parallel();
         Ok(Some(Shared { entries, accelerations, rows: scene.rows(), is_late }))
     }
 

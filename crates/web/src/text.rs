@@ -4,7 +4,7 @@ use crate::Refused;
 use brinell_exporter::mistake::SceneError;
 use brinell_exporter::scene::{self, Beside, Scene, quantity_of};
 use brinell_exporter::tension::{self, Specimen};
-use brinell_exporter::{measured, units};
+use brinell_exporter::{reading, units};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -74,7 +74,7 @@ fn find_quantities((table, key): (&str, &str), path: &str, value: &Value, found:
 /// Number and unit, or scale, of the `text` of a key.
 fn parts((table, key): (&str, &str), text: &str) -> Option<Value> {
     if key == HARDNESS {
-        let (digits, unit) = measured::shown(text)?;
+        let (digits, unit) = reading::shown(text)?;
         return Some(json!({ "digits": digits, "unit": unit }));
     }
     let shown = units::shown(text, quantity_of(table, key).unit?)?;
@@ -173,7 +173,7 @@ impl Typed {
         let whole = if number.is_some() { format!("{pointed} {}", self.unit) } else { text.into() };
         let whole = whole.trim();
         match (quantity_of(table, key).unit, number) {
-            _ if key == HARDNESS => match measured::shown(whole) {
+            _ if key == HARDNESS => match reading::shown(whole) {
                 Some((digits, scale)) => json!(format!("{digits} {scale}")),
                 None => json!(whole),
             },

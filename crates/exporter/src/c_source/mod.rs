@@ -6,16 +6,10 @@
 
 pub mod module;
 
-pub use module::{ModuleError, WASM2C, c_text};
+pub use module::{FORMAT, FUNCTIONS, ModuleError, WASM2C, c_text};
 
 use brinell_fmu::scene::library::block::Block;
 use std::fmt::Write;
-
-/// The first line of the text of a library: the other files don't fit a text of another version.
-pub const FORMAT: &str = "/* brinell C source 1 */";
-
-/// The functions of FMI: the only file to compile.
-pub const FUNCTIONS: (&str, &str) = ("fmi2.c", include_str!("fmi2.c"));
 
 /// What the instructions of WebAssembly are in C.
 pub const RUNTIME: (&str, &str) = ("brinell_runtime.h", include_str!("brinell_runtime.h"));

@@ -4,10 +4,15 @@
 //! memories and exports go. Indirect calls, which are calls of methods of laws, become a `switch` over all functions that can be meant:
 //! no function is reached but by its name, so that the calls form a graph, whose deepest path bounds the stack.
 
-use super::{FORMAT, FUNCTIONS};
 use brinell_fmu::scene::library::block::Block;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write;
+
+/// The first line of the text of a library: the other files don't fit a text of another version.
+pub const FORMAT: &str = "/* brinell C source 1 */";
+
+/// The functions of FMI: the only file to compile.
+pub const FUNCTIONS: (&str, &str) = ("fmi2.c", include_str!("fmi2.c"));
 
 /// The version of `wasm2c` whose text this module takes.
 pub const WASM2C: &str = "1.0.32";

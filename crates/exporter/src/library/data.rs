@@ -3,7 +3,7 @@
 use super::parameters::{Sources, first_contact};
 use crate::interface::{Entry, INVERSE_MASS, is_tunable};
 use crate::plan::Plan;
-use crate::scene::{Coupling, InverseMasses, Loss, Scene};
+use crate::scene::{InverseMasses, Loss, Scene, SceneLaws};
 use crate::table::{Causality, Variable};
 use brinell_contact::Surface;
 use brinell_contact::rate::Rate;
@@ -76,13 +76,13 @@ impl SceneData {
         lists.add(List::Runs, runs.iter().map(Run::words));
         let (sources, rows) = sources(scene);
         lists.add(List::Sources, rows);
-        if let Some(masses) = &scene.inverse_masses {
+        if let Some(masses) = scene.inverse_masses() {
             lists.add(List::InverseMasses, inverse_masses(plan, masses).into_iter().map(|entry| [entry.to_bits()]));
         }
         if let Some(guard) = &plan.guard {
             lists.add_bytes(List::Guard, format!("the passivity guard {}", guard.words()).as_bytes());
         }
-        if let Some(curve) = scene.loading.1.table() {
+        if let Some(curve) = scene.laws.loading().1.table() {
             lists.add(List::Curve, curve.list().map(|number| [number.to_bits()]));
         }
         lists.add_bytes(List::Guid, guid.as_bytes());
@@ -103,10 +103,13 @@ impl SceneData {
             lists: lists.ends,
             ..Data::EMPTY
         };
-        data.loading = scene.damped.as_ref().map_or_else(|| scene.loading.1.numbers(), |(_, law)| law.numbers());
-        data.unloading = scene.plain_unloading().numbers();
-        data.loss = match scene.loss {
-            _ if scene.damped.is_some() => block::Loss::Damper,
+        data.loading = match &scene.laws {
+            SceneLaws::Damped(_, law) => law.numbers(),
+            laws => laws.loading().1.numbers(),
+        };
+        data.unloading = scene.laws.plain_unloading().numbers();
+        data.loss = match scene.laws.loss() {
+            _ if scene.is_damped() => block::Loss::Damper,
             Some(Loss::Waves) => block::Loss::Waves,
             Some(Loss::Plate(_)) => block::Loss::Plate,
             Some(Loss::Fitted(_)) | None => block::Loss::Fitted,
@@ -136,17 +139,16 @@ fn kinds<'a>(plan: &'a Plan) -> Vec<&'a str> {
 
 /// The features of a scene.
 fn flags(scene: &Scene) -> u64 {
-    let moved = |of: fn(&Coupling) -> bool| scene.coupling.as_ref().is_some_and(of);
     let outputs = |names: &[&str]| scene.outputs.iter().any(|output| names.contains(&output.as_str()));
     let flags = [
-        (Flag::Acceleration, moved(|coupling| coupling.acceleration_input)),
-        (Flag::Mass, moved(|coupling| coupling.mass_input)),
+        (Flag::Acceleration, scene.has_input("external_acceleration")),
+        (Flag::Mass, scene.mass_is_input()),
         (Flag::Moves, scene.coupling.is_some()),
-        (Flag::Parallel, moved(|coupling| coupling.parallel)),
-        (Flag::Shared, scene.inverse_masses.is_some()),
-        (Flag::InverseMassInputs, scene.inverse_masses == Some(InverseMasses::Inputs)),
+        (Flag::Parallel, scene.is_parallel()),
+        (Flag::Shared, scene.inverse_masses().is_some()),
+        (Flag::InverseMassInputs, scene.inverse_masses() == Some(&InverseMasses::Inputs)),
         (Flag::Momentum, outputs(&["impulse", "mean_force"])),
-        (Flag::InputDerivatives, has_course(scene)),
+        (Flag::InputDerivatives, scene.has_course()),
         (Flag::Forces, keeps_forces(scene)),
         (Flag::Paired, scene.is_paired()),
         (Flag::FollowsRate, scene.follows_rate()),
@@ -160,15 +162,10 @@ fn keeps_forces(scene: &Scene) -> bool {
     scene.contact_count() > 1 && !scene.is_rate_dependent()
 }
 
-/// Whether the input may have derivatives. In a scene that moves its bodies, its derivative is their acceleration.
-pub fn has_course(scene: &Scene) -> bool {
-    scene.input_derivatives && !scene.is_rate_dependent() || scene.coupling.is_some()
-}
-
 /// The inverse masses, or their start values.
 fn inverse_masses(plan: &Plan, masses: &InverseMasses) -> Vec<f64> {
     match masses {
-        InverseMasses::Constant(entries) => entries.clone(),
+        InverseMasses::Constant { entries, .. } => entries.clone(),
         InverseMasses::Inputs => {
             let starts = plan.variables.iter().filter(|entry| entry.variable.name == INVERSE_MASS);
             starts.flat_map(|entry| vec![entry.start.unwrap_or(0.0); entry.count]).collect()

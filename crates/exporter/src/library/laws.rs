@@ -1,24 +1,22 @@
 //! The laws of a scene as types.
 
 use super::MEMORY;
-use crate::scene::{Loss, Scene};
+use crate::scene::{Loss, Scene, SceneLaws};
 use std::fmt::Debug;
 
 /// The laws, as a type of `brinell_fmu::scene::library::kinds`.
 pub fn of(scene: &Scene) -> String {
-    let loading = match scene.damped {
-        Some(_) => "contact::loading::Elastic".into(),
-        None => type_of("loading", &scene.loading.1),
+    let loading = match scene.laws {
+        SceneLaws::Damped(..) => "contact::loading::Elastic".into(),
+        // the form for two bodies
+        _ if scene.is_paired() && !scene.is_line() => "contact::loading::Paired".into(),
+        laws => type_of("loading", &laws.loading().1),
     };
     // an elastic contact never unloads by another law; the compiler leaves out whatever is here
-    let unloading = scene
-        .unloading
-        .map_or("contact::unloading::ContactRadius".into(), |_| type_of("unloading", &scene.plain_unloading()));
-    // the form for two bodies
-    let loading = if scene.is_paired() && scene.line.is_none() { "contact::loading::Paired".into() } else { loading };
+    let unloading = type_of("unloading", &scene.laws.plain_unloading());
     let laws = format!("{loading}, {unloading}");
-    let loss = match scene.loss {
-        _ if scene.damped.is_some() => Some("contact::losses::Damper"),
+    let loss = match scene.laws.loss() {
+        _ if scene.is_damped() => Some("contact::losses::Damper"),
         Some(Loss::Fitted(_)) => Some("contact::losses::RestitutionFitted"),
         Some(Loss::Waves) => Some("contact::losses::HalfSpaceRadiation"),
         Some(Loss::Plate(_)) => Some("contact::losses::Plate"),

@@ -7,7 +7,7 @@ mod laws;
 mod parameters;
 
 pub use brinell_fmu::scene::library::kinds::MEMORY;
-pub use data::{SceneData, has_course};
+pub use data::SceneData;
 pub use parameters::{parameters, start_value};
 
 use crate::package::{GUID_TO_COME, guid};
@@ -77,7 +77,10 @@ fn kind_of(scene: &Scene, data: &Data) -> [(&'static str, String); 10] {
         ("Watch", presence(scene.watches)),
         ("Shared", has(Flag::Shared)),
         // a strength that each impact finds makes other bodies of the two
-        ("Prepared", presence(data.has(Flag::Paired) && !scene.finds_strength() || scene.loading.1.table().is_some())),
+        (
+            "Prepared",
+            presence(data.has(Flag::Paired) && !scene.finds_strength() || scene.laws.loading().1.table().is_some()),
+        ),
     ]
 }
 

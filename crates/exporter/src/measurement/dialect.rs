@@ -3,7 +3,37 @@
 //! The separator is the one that gives the most lines the same number of cells, with numbers in them. Guessing crates judge bytes: they know
 //! neither blanks as a separator, nor a decimal comma, nor a heading in a comment.
 
-use super::Wrong;
+use crate::reading::scale_in;
+use serde::Serialize;
+use std::fmt::{self, Display, Formatter};
+
+/// A table that can't be used, with the place and the reason.
+#[derive(Debug, Serialize)]
+pub struct Wrong {
+    pub line: Option<usize>,
+    pub column: Option<usize>,
+    pub why: String,
+}
+
+impl Wrong {
+    pub fn whole(why: impl Into<String>) -> Wrong {
+        Wrong { line: None, column: None, why: why.into() }
+    }
+
+    pub fn in_line(line: usize, why: impl Into<String>) -> Wrong {
+        Wrong { line: Some(line), column: None, why: why.into() }
+    }
+}
+
+impl Display for Wrong {
+    fn fmt(&self, to: &mut Formatter) -> fmt::Result {
+        match (self.line, self.column) {
+            (Some(line), Some(column)) => write!(to, "line {line}, column {column}: {}", self.why),
+            (Some(line), None) => write!(to, "line {line}: {}", self.why),
+            _ => write!(to, "{}", self.why),
+        }
+    }
+}
 
 /// How many lines tell the separator.
 const SAMPLE: usize = 1000;
@@ -244,7 +274,7 @@ pub fn body_of(lines: &[Line], said: Option<Separator>, names: impl Fn(&[String]
 pub fn is_number(cell: &str) -> bool {
     let is_one = |sign| number(cell, sign).is_some_and(f64::is_finite);
     let (start, scale) = cell.split_at(cell.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(cell.len()));
-    is_one('.') || is_one(',') || (is_number_of_reading(start) && crate::measured::scale_in(scale).is_some())
+    is_one('.') || is_one(',') || (is_number_of_reading(start) && scale_in(scale).is_some())
 }
 
 /// Whether a reading such as `180-220 HBW` may begin so.

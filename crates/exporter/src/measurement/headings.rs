@@ -1,9 +1,9 @@
 //! What the heading of a column says: its quantity and its unit, in the words of laboratories and of their instruments.
 
-use super::Wrong;
+use super::dialect::Wrong;
 use crate::layout::shortened;
-use crate::measured::scale_in;
 use crate::nearest::{nearest, one_of};
+use crate::reading::scale_in;
 use crate::units;
 
 /// What the numbers of a column may be.

@@ -8,17 +8,16 @@
 mod dialect;
 mod headings;
 
+pub use dialect::Wrong;
 pub use headings::{ColumnKind, asked};
 
 use crate::layout::shortened;
-use crate::measured;
 use crate::nearest::one_of;
 use crate::numbers::significant;
+use crate::reading;
 use dialect::{Body, Line, MOST_BEFORE, Separator, body_of, decimal_of, is_number, lines_of, number, text_of};
 use headings::{Heading, heading, is_known, is_unit, nearest_name, none_known, usual};
-use serde::Serialize;
 use serde_json::{Value, json};
-use std::fmt::{self, Display, Formatter};
 
 /// The largest number of rows.
 const MOST: usize = 1_000_000;
@@ -26,34 +25,6 @@ const MOST: usize = 1_000_000;
 /// What is expected.
 const EXAMPLES: &str = "a heading such as `speed [m/s], restitution`, `depth [um], force [N]` or `strain [%]; stress [MPa]`, and numbers \
                         below it";
-
-/// A table that can't be used, with the place and the reason.
-#[derive(Debug, Serialize)]
-pub struct Wrong {
-    pub line: Option<usize>,
-    pub column: Option<usize>,
-    pub why: String,
-}
-
-impl Wrong {
-    fn whole(why: impl Into<String>) -> Wrong {
-        Wrong { line: None, column: None, why: why.into() }
-    }
-
-    fn in_line(line: usize, why: impl Into<String>) -> Wrong {
-        Wrong { line: Some(line), column: None, why: why.into() }
-    }
-}
-
-impl Display for Wrong {
-    fn fmt(&self, to: &mut Formatter) -> fmt::Result {
-        match (self.line, self.column) {
-            (Some(line), Some(column)) => write!(to, "line {line}, column {column}: {}", self.why),
-            (Some(line), None) => write!(to, "line {line}: {}", self.why),
-            _ => write!(to, "{}", self.why),
-        }
-    }
-}
 
 /// A column that was recognised.
 pub struct MeasuredColumn {
@@ -180,7 +151,7 @@ pub fn read(bytes: &[u8], choices: &Choices) -> Result<Measurement, Wrong> {
 
 /// The scale of hardness that ends a text: `ASTM E10 HBW 10/3000`.
 fn scale_within(text: &str) -> Option<String> {
-    text.match_indices(' ').find_map(|(place, _)| measured::scale_in(&text[place..]))
+    text.match_indices(' ').find_map(|(place, _)| reading::scale_in(&text[place..]))
 }
 
 /// The index of the heading in the lines, and its cells: the line above the body with the most names that are known, in the separator of the
@@ -342,7 +313,7 @@ impl Measurement {
             }
             _ => return Err(wrong("is no number")),
         };
-        measured::check_reading(&text).map_err(|why| wrong(&format!("is no reading: {why}")))?;
+        reading::check_reading(&text).map_err(|why| wrong(&format!("is no reading: {why}")))?;
         Ok(text)
     }
 

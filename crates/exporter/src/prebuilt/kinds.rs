@@ -49,7 +49,7 @@ impl Library {
             () if scene.has_friction() && scene.is_rate_dependent() => "lossy-friction",
             () if scene.has_friction() && scene.directions > 1 => "friction-2",
             () if scene.has_friction() => "friction",
-            () if scene.finds_strength() && scene.loss.is_some() => "lossy-rate",
+            () if scene.finds_strength() && scene.laws.loss().is_some() => "lossy-rate",
             () if scene.finds_strength() => "rate",
             () if scene.is_rate_dependent() => "lossy",
             () if scene.coupling.is_some() => "moved",

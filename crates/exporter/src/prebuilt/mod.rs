@@ -82,7 +82,7 @@ impl PrebuiltUnit {
 /// The reason why the `lists` of a scene have no room in a library.
 fn too_long(scene: &Scene, lists: &[u64]) -> NeedsCompiler {
     NeedsCompiler {
-        key: if scene.inverse_masses.is_some() { "[[body]]" } else { "[[contact]]" },
+        key: if scene.inverse_masses().is_some() { "[[body]]" } else { "[[contact]]" },
         reason: format!(
             "the data of this scene take {} bytes, and prebuilt libraries have room for {}",
             8 * lists.len(),

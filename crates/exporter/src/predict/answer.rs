@@ -150,7 +150,7 @@ impl Answer<'_> {
         let (wide, radius) = match &self.scene.contacts[0].ellipse {
             Some(elliptic) => ("largest half-axes", elliptic.half_axes(radius)),
             None => (
-                if self.scene.line.is_some() { "largest half-width" } else { "largest contact radius" },
+                if self.scene.is_line() { "largest half-width" } else { "largest contact radius" },
                 format!("{} (a/R = {})", quantity(radius, "m"), cell(ratio, 1.0)),
             ),
         };
@@ -166,7 +166,7 @@ impl Answer<'_> {
         if prediction.residual_indentation > 0.0 && self.scene.contacts[0].ellipse.is_none() {
             let diameter =
                 bands.and_then(|bands| bands.get("largest contact radius")).map(|ends| ends.map(|end| 2.0 * end));
-            let what = if self.scene.line.is_some() { "width of the dent" } else { "diameter of the dent" };
+            let what = if self.scene.is_line() { "width of the dent" } else { "diameter of the dent" };
             rows.push((what, with_band(2.0 * prediction.max_contact_radius, diameter, "m")));
         }
         rows.extend([

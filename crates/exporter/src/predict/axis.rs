@@ -223,7 +223,7 @@ pub fn varied(
 fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result<AnyModel, PredictError> {
     let missing = |name: &str| PredictError::Sweep(format!("{name}: {}", why_absent(name)));
     for (name, _) in bodies {
-        if scene.line.is_some() && (name.ends_with("radius") || name.ends_with("poissons_ratio")) {
+        if scene.is_line() && (name.ends_with("radius") || name.ends_with("poissons_ratio")) {
             let message = format!("{name}: the constant C of a line contact follows from it, and would not change");
             return Err(PredictError::Sweep(message));
         }

@@ -90,7 +90,7 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
         model.loading = apply(model.loading, "law.loading", Some(&given), law).map_err(wrong)?;
     } else {
         // the guard wraps the law that has the constants
-        let own = scene.unloading.filter(|_| guarded).map_or(model.unloading, |(_, own)| own);
+        let own = scene.laws.unloading().filter(|_| guarded).map_or(model.unloading, |(_, own)| own);
         let changed = apply(own, "law.unloading", Some(&given), law).map_err(wrong)?;
         model.unloading = if guarded { changed.guarded().unwrap_or(changed) } else { changed };
     }

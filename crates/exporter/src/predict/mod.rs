@@ -122,8 +122,8 @@ pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
     let title = |name| &table::loading_law(name).title;
     let text = format!(
         "This scene has the law {} ({}). Without [law] it has {} ({}), which predicts {}, a dent of {} and a restitution of {}.",
-        scene.loading.0,
-        title(scene.loading.0),
+        scene.laws.loading().0,
+        title(scene.laws.loading().0),
         pairing::DEFAULT_LOADING,
         title(pairing::DEFAULT_LOADING),
         quantity(said.max_force, "N"),

@@ -27,8 +27,8 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
         .zip(predictions)
         .any(|(choice, prediction)| choice.model.elastoplastic().is_some() && prediction.residual_indentation > 0.0);
     let keeps = scene.contacts[0].surface == Surface::Dented;
-    let what = if scene.line.is_some() { "cylinder" } else { "ball" };
-    let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.replace("ball", what));
+    let what = if scene.is_line() { "cylinder" } else { "ball" };
+    let endless = (dents && keeps && scene.laws.loss().is_none()).then(|| ENDLESS.replace("ball", what));
     let softer = predictions.first().map(|prediction| accuracy::notes(scene, prediction)).unwrap_or_default();
     let rods = Waves::of(scene, impact.speed, &[]).and_then(|waves| waves.note(predictions));
     let notes = scene.materials.iter().cloned().chain(endless).chain(loss(scene, impact, predictions));
@@ -53,7 +53,7 @@ fn bending_front(plate: &Plate, time: f64) -> f64 {
 
 /// What the loss of the scene takes from an impact with these `predictions`.
 fn loss(scene: &Scene, impact: &Impact, predictions: &[Prediction]) -> Option<String> {
-    let loss = scene.loss?;
+    let loss = scene.laws.loss()?;
     let elastic = scene.with_loss(0, Model { loading: AnyLoading::Hertz(Hertz), ..scene.model() });
     let restitution = elastic.restitution(impact).map_or("unknown".into(), |restitution| cell(restitution, 1.0));
     let more = match scene.loss_with(0, &[]) {

@@ -236,7 +236,7 @@ impl Moving {
         let Impact { mass, speed } = impact;
         let angle = setting.angle.to_radians();
         let [along, across] = [speed * angle.cos(), speed * angle.sin()];
-        let (Some(meeting), Some(InverseMasses::Constant(entries))) = (&scene.meeting, &scene.inverse_masses) else {
+        let Some(InverseMasses::Constant { entries, meeting: Some(meeting) }) = scene.inverse_masses() else {
             let [impactor, _] = scene.bodies_with(0, values);
             let radius = impactor.radius;
             let inertia = setting.inertia.unwrap_or(SOLID_SPHERE * mass * radius * radius);

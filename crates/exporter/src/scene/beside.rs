@@ -1,18 +1,14 @@
 //! What lies beside a scene: tables of materials of one's own, and files that the scene names. The scene's text takes in what it uses, so
 //! that an FMU has the numbers and no file.
 
-use super::contacts::find_material;
-use super::file::{MaterialsFile, SceneFile};
 use super::quantities::check_quantity;
 use crate::layout::shortened;
 use crate::measured::{self, Metal};
-use crate::mistake::Spanned;
-use crate::mistake::{Mistake, SceneError};
-use crate::nearest::unknown;
+use crate::mistake::{Mistake, Spanned};
+use crate::nearest::{one_of, unknown};
 use crate::table::{Class, MATERIALS, Material};
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write;
-use std::path::Path;
 
 /// What lies beside a scene.
 #[derive(Default)]
@@ -55,15 +51,14 @@ impl OwnMaterial {
 /// Most materials of one's own that are told one by one.
 const TOLD: usize = 8;
 
-/// Where the materials come from that aren't built in, in sentences: of each one that the `file` uses, and of the others together.
-pub fn words(file: &SceneFile) -> Vec<String> {
+/// Where the materials come from that are the scene's `own`, in sentences: of each one that it has `used`, and of the others together.
+pub fn words<'a>(used: impl Iterator<Item = &'a Spanned<String>>, own: &[OwnMaterial]) -> Vec<String> {
     // each name once: there may be a hundred thousand contacts, and as many materials
-    let asked: BTreeMap<&str, &Spanned<String>> =
-        file.materials_used().map(|name| (name.get_ref().as_str(), name)).collect();
-    let found = asked.into_values().filter_map(|name| find(name, &file.own).ok());
+    let asked: BTreeMap<&str, &Spanned<String>> = used.map(|name| (name.get_ref().as_str(), name)).collect();
+    let found = asked.into_values().filter_map(|name| find(name, own).ok());
     let found: HashSet<*const Material> = found.map(std::ptr::from_ref).collect();
     let (used, unused): (Vec<_>, Vec<_>) =
-        file.own.iter().partition(|own| found.contains(&std::ptr::from_ref(&own.material)));
+        own.iter().partition(|own| found.contains(&std::ptr::from_ref(&own.material)));
     let mut words: Vec<String> = used.iter().take(TOLD).map(|own| own.words()).collect();
     let more = |all: &[&OwnMaterial], count: usize| format!("{count} more materials are of {}.", all[0].place);
     words.extend((used.len() > TOLD).then(|| more(&used[TOLD..], used.len() - TOLD)));
@@ -79,18 +74,6 @@ pub fn words(file: &SceneFile) -> Vec<String> {
         )),
     });
     words
-}
-
-impl MaterialTable {
-    /// The table with this `text`. `path` is used in messages, `place` in what is printed of its materials.
-    ///
-    /// # Errors
-    /// [`SceneError`] with line and column of the first error, and what is allowed there.
-    pub fn parse(text: &str, path: &Path, place: &'static str) -> Result<MaterialTable, SceneError> {
-        let checked = MaterialsFile::read(text).and_then(|file| check(file.material));
-        let materials = checked.map_err(|mistake| mistake.in_file(text, path))?;
-        Ok(MaterialTable { place, materials })
-    }
 }
 
 /// The materials of these tables, each of which is complete and has a name of its own.
@@ -140,12 +123,11 @@ fn check_material(table: &Spanned<Material>) -> Result<(), Mistake> {
     Ok(())
 }
 
-/// Adds to the `file` those materials of the `tables` that it uses, and returns them as tables of a scene.
-pub fn take_in(file: &mut SceneFile, tables: &[MaterialTable]) -> String {
-    let used: Vec<Spanned<String>> = file.materials_used().cloned().collect();
+/// Adds to the scene's `all` those materials of the `tables` that it has `used`, and returns them as tables of a scene.
+pub fn take_in(used: &[Spanned<String>], all: &mut Vec<OwnMaterial>, tables: &[MaterialTable]) -> String {
     let mut taken = String::new();
     for name in used {
-        if file.own.iter().any(|own| own.material.is_called(name.get_ref())) {
+        if all.iter().any(|own| own.material.is_called(name.get_ref())) {
             continue;
         }
         let of = |table: &MaterialTable| {
@@ -160,7 +142,7 @@ pub fn take_in(file: &mut SceneFile, tables: &[MaterialTable]) -> String {
         // a table in it has a name of its own
         let table = table.replace("\n[tension]", "\n[material.tension]");
         write!(taken, "\n[[material]]\n{table}").expect("a String takes everything");
-        file.own.push(found);
+        all.push(found);
     }
     taken
 }
@@ -171,7 +153,7 @@ pub fn find<'a>(name: &Spanned<String>, own: &'a [OwnMaterial]) -> Result<&'a Ma
     let exact = own.iter().find(|own| own.material.name == *asked);
     match exact.or_else(|| own.iter().find(|own| own.material.is_called(asked))) {
         Some(found) => Ok(&found.material),
-        None => find_material(name, own),
+        None => find_built_in(name, own),
     }
 }
 
@@ -179,4 +161,54 @@ pub fn find<'a>(name: &Spanned<String>, own: &'a [OwnMaterial]) -> Result<&'a Ma
 pub fn no_material(asked: &str, own: &[OwnMaterial]) -> String {
     let own = own.iter().map(|own| own.material.name.as_str());
     unknown("material", asked, own.chain(MATERIALS.iter().map(|material| material.name.as_str())))
+}
+
+/// The built-in material of this name, or of an alias that no other has. Messages also name those of one's `own`.
+fn find_built_in(name: &Spanned<String>, own: &[OwnMaterial]) -> Result<&'static Material, Mistake> {
+    let asked = name.get_ref();
+    if let Some(material) = MATERIALS.iter().find(|material| material.name == *asked) {
+        return Ok(material);
+    }
+    let is_it = |alias: &String| alias.eq_ignore_ascii_case(asked.trim());
+    let with_alias: Vec<_> = MATERIALS.iter().filter(|material| material.aliases.iter().any(is_it)).collect();
+    let message = match with_alias.as_slice() {
+        [material] => return Ok(material),
+        [] => {
+            // a number that is a word of what was asked
+            let has = |alias: &String| {
+                alias.contains(|c: char| c.is_ascii_digit()) && asked.split(' ').any(|word| word == alias)
+            };
+            let names = MATERIALS.iter().filter(|material| material.aliases.iter().any(has));
+            let names: Vec<_> = names.map(|material| material.name.as_str()).collect();
+            match names.as_slice() {
+                [] => match with_words(asked).as_slice() {
+                    [] | [_] => no_material(asked, own),
+                    several => {
+                        format!("`{}` may be several materials: say which, {}", shortened(asked), one_of(several))
+                    }
+                },
+                names => format!("unknown material `{}`; its name here is {}", shortened(asked), one_of(names)),
+            }
+        }
+        several => {
+            let names: Vec<_> = several.iter().map(|material| material.name.as_str()).collect();
+            format!(
+                "`{}` has several conditions, whose strengths differ: say which, {}",
+                shortened(asked),
+                one_of(&names)
+            )
+        }
+    };
+    Err(Mistake(name.span(), message))
+}
+
+/// The materials with these words in their names, such as `bearing steel`, one behind the other.
+fn with_words(asked: &str) -> Vec<&'static str> {
+    let words = |name: &str| {
+        let words = name.split([' ', ',', '-', '_']).filter(|word| !word.is_empty());
+        words.map(str::to_lowercase).collect::<Vec<_>>()
+    };
+    let asked = words(asked);
+    let has = |name: &&str| !asked.is_empty() && words(name).windows(asked.len()).any(|part| part == asked);
+    MATERIALS.iter().map(|material| material.name.as_str()).filter(has).collect()
 }

@@ -1,8 +1,9 @@
 //! The bodies of each contact, which of the two yields, and values that follow from them alone.
 
-use super::{Group, Scene};
+use super::checked::{Group, Scene};
+use super::ellipses::Elliptic;
+use crate::body::{Body, Rod};
 use crate::numbers::{cell, quantity};
-use crate::rods::Rod;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::losses::Loss;
 use brinell_contact::rate::Factors;
@@ -10,120 +11,6 @@ use brinell_contact::validity::size_of;
 use brinell_contact::{Model, OtherBody, Pair, TwoBodies};
 use std::collections::HashMap;
 use std::f64::consts::PI;
-
-/// One of the two bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Body {
-    Impactor,
-    Target,
-}
-
-/// The properties that a contact may override.
-const IMPACTOR: [&str; 8] = [
-    "impactor.radius",
-    "impactor.youngs_modulus",
-    "impactor.poissons_ratio",
-    "impactor.yield_strength",
-    "impactor.hardening_modulus",
-    "impactor.density",
-    "impactor.length",
-    "impactor.area",
-];
-const TARGET: [&str; 8] = [
-    "target.radius",
-    "target.youngs_modulus",
-    "target.poissons_ratio",
-    "target.yield_strength",
-    "target.hardening_modulus",
-    "target.density",
-    "target.length",
-    "target.area",
-];
-
-impl Body {
-    pub const ALL: [Body; 2] = [Body::Impactor, Body::Target];
-
-    /// The name of its table in a scene.
-    pub fn name(self) -> &'static str {
-        match self {
-            Body::Impactor => "impactor",
-            Body::Target => "target",
-        }
-    }
-
-    /// The names of its properties. Density, length and area, the last ones, are not variables of the FMU.
-    pub const fn properties(self) -> [&'static str; 8] {
-        match self {
-            Body::Impactor => IMPACTOR,
-            Body::Target => TARGET,
-        }
-    }
-
-    pub const fn radius(self) -> &'static str {
-        self.properties()[0]
-    }
-
-    pub const fn youngs_modulus(self) -> &'static str {
-        self.properties()[1]
-    }
-
-    pub const fn poissons_ratio(self) -> &'static str {
-        self.properties()[2]
-    }
-
-    pub const fn yield_strength(self) -> &'static str {
-        self.properties()[3]
-    }
-
-    pub const fn hardening_modulus(self) -> &'static str {
-        self.properties()[4]
-    }
-
-    pub const fn density(self) -> &'static str {
-        self.properties()[5]
-    }
-
-    pub const fn length(self) -> &'static str {
-        self.properties()[6]
-    }
-
-    pub const fn area(self) -> &'static str {
-        self.properties()[7]
-    }
-
-    pub fn other(self) -> Body {
-        match self {
-            Body::Impactor => Body::Target,
-            Body::Target => Body::Impactor,
-        }
-    }
-}
-
-/// A value for each of the two bodies.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Both<T> {
-    pub impactor: T,
-    pub target: T,
-}
-
-impl<T> Both<T> {
-    /// What `value` gives for each body.
-    pub fn each(mut value: impl FnMut(Body) -> T) -> Both<T> {
-        Both { impactor: value(Body::Impactor), target: value(Body::Target) }
-    }
-
-    /// The same where `value` may fail: the impactor's failure first.
-    pub fn try_each<E>(mut value: impl FnMut(Body) -> Result<T, E>) -> Result<Both<T>, E> {
-        Ok(Both { impactor: value(Body::Impactor)?, target: value(Body::Target)? })
-    }
-
-    pub fn of(&self, body: Body) -> &T {
-        match body {
-            Body::Impactor => &self.impactor,
-            Body::Target => &self.target,
-        }
-    }
-}
 
 impl Scene {
     /// The bodies of the contacts of `group`; `None` if they do not fit.
@@ -193,7 +80,6 @@ impl Scene {
 
     /// The size of the smaller body of a line contact \[m\].
     pub fn line_size(&self, group: usize) -> Option<f64> {
-        self.line.as_ref()?;
         match self.model_of(group) {
             Model { loading: AnyLoading::Line(law), pair, .. } => Some(law.size(&pair)),
             _ => None,
@@ -253,6 +139,33 @@ impl Scene {
             Body::Target => self.contacts[group].impactor_strength,
         }
     }
+
+    /// Impactor and target of `group` as its laws take them.
+    pub(super) fn as_balls(&self, group: usize, bodies: [brinell_contact::Body; 2]) -> [brinell_contact::Body; 2] {
+        let Some(Elliptic { ellipse, balls, .. }) = &self.contacts[group].ellipse else { return bodies };
+        let [impactor, target] = bodies;
+        [ellipse.ball(&impactor, balls.impactor), ellipse.ball(&target, balls.target)]
+    }
+
+    /// The same factor of the hardening moduli as of the others.
+    pub(super) fn hardening_factor(&self, group: usize) -> f64 {
+        self.contacts[group].ellipse.as_ref().map_or(1.0, |elliptic| elliptic.ellipse.stiffness)
+    }
+
+    /// The constant in place of the parameter `name` in the library, if the contacts of `group` are ellipses.
+    pub fn constant_of_ball(&self, group: usize, name: &str) -> Option<f64> {
+        self.contacts[group].ellipse.as_ref()?;
+        let balls = self.as_balls(group, self.bodies_with(group, &[]));
+        Body::ALL.iter().zip(balls).find_map(|(body, ball)| match name {
+            name if name == body.radius() => Some(ball.radius),
+            name if name == body.youngs_modulus() => Some(ball.youngs_modulus),
+            name if name == body.poissons_ratio() => Some(ball.poissons_ratio),
+            name if name == body.hardening_modulus() => {
+                self.group_value(group, name).map(|modulus| modulus * self.hardening_factor(group))
+            }
+            _ => None,
+        })
+    }
 }
 
 /// The message about bodies of which `softer` is the softer one under a slow load, and not in the scene's impact.
@@ -276,7 +189,7 @@ pub fn held(scene: &Scene, mass: f64) -> Option<String> {
     let [impactor, target] = scene.bodies_with(0, &[]);
     let volumes = [volume(rods.impactor, impactor.radius), volume(rods.target, target.radius)];
     // a half-space and a socket have no volume
-    let is_ball = scene.line.is_none() && scene.contacts[0].ellipse.is_none();
+    let is_ball = !scene.is_line() && scene.contacts[0].ellipse.is_none();
     if scene.coupling.is_some() || !is_ball || !(volumes[1] > 0.0 && volumes[1] < f64::INFINITY) {
         return None;
     }

@@ -1,23 +1,24 @@
 //! Checks a scene: from the contents of the file to a scene that can be built.
 
-use super::Scene;
-use super::beside;
-use super::bodies::{self, Body, Both};
-use super::contacts::{Contacts, Group, Parameter};
+use super::beside::{self, Beside};
+use super::bodies;
+use super::checked::{Coupling, Group, Parameter, Scene, SceneLaws};
+use super::contacts::Contacts;
 use super::cylinders::{self, Cylinders};
-use super::ellipses;
+use super::ellipses::Elliptic;
 use super::file::{BodyTable, ImpactTable, NamesName, Radius, SceneFile};
 use super::fmu::{self, check_outputs, check_text, choose_settable};
 use super::friction;
-use super::laws::{self, SceneLaws};
+use super::laws;
 use super::losses::Loss;
 use super::names::check_name;
+use super::plausible::{self, STEEL};
 use super::quantities::check_quantity;
 use super::shared_bodies;
 use super::tabulated;
-use crate::mistake::Mistake;
-use crate::mistake::Spanned;
-use crate::model::{check_energy, speed_of_height};
+use crate::body::{Body, Both};
+use crate::mistake::{Mistake, SceneError, Spanned};
+use crate::model::{AnyModel, check_energy, speed_of_height};
 use crate::numbers::in_message;
 use crate::predict::check_width;
 use crate::table::VARIABLES;
@@ -27,12 +28,38 @@ use brinell_contact::impact::Impact;
 use brinell_contact::rate::Factors;
 use std::f64::consts::PI;
 use std::ops::Range;
+use std::path::Path;
+
+impl Scene {
+    /// Checks the scene `text`. `path` is used in messages.
+    ///
+    /// # Errors
+    /// [`SceneError`] with line and column of the first error, and what is allowed there.
+    pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
+        Ok(Scene::parse_beside(&text, path, &Beside::default())?.0)
+    }
+
+    /// The scene with this `text`, with what lies `beside` it, and the numbers in it that are implausible.
+    ///
+    /// # Errors
+    /// As for [`Scene::parse`].
+    pub fn parse_beside(text: &str, path: &Path, beside: &Beside) -> Result<(Scene, Vec<SceneError>), SceneError> {
+        let checked = SceneFile::read(text, beside).and_then(|mut file| {
+            let doubts = plausible::doubts(&file);
+            let alone = std::mem::take(&mut file.alone);
+            Ok((Scene { text: alone, ..check(file, &doubts)? }, doubts))
+        });
+        let placed = |mistake: Mistake| mistake.in_file(text, path);
+        let (scene, doubts) = checked.map_err(placed)?;
+        Ok((scene, doubts.into_iter().map(placed).collect()))
+    }
+}
 
 /// The scene of `file`, without its text.
 ///
 /// # Errors
 /// The first mistake.
-pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
+fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     let name = check_name(&file.name)?;
     let description = check_text("description", file.description.as_ref())?;
     let author = check_text("author", file.author.as_ref())?;
@@ -43,23 +70,23 @@ pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> 
     let mut contacts = Contacts::of(&file)?;
     let no_table = BodyTable::default();
     let cylinders = Cylinders::of(&file, &no_table, &contacts)?;
-    let laws = SceneLaws::of(&file.law, &contacts, cylinders.is_some())?;
-    let SceneLaws { damped, loading, unloading, passivity_guard } = laws;
-    if laws.takes_both_bodies() {
+    let loss = Loss::of(&file)?;
+    let laws = laws::of(&file.law, &contacts, loss, cylinders.is_some())?;
+    if laws.loading().1.takes_both_bodies() {
         contacts.let_both_yield();
     }
     let yield_strength = contacts.yield_strength(0);
     if laws.has_no_strength() {
         contacts.forget_strength();
     }
-    let loss = Loss::of(&file)?;
-    let damps_by_mass = damped.filter(|(_, law)| law.needs_mass()).map(|(name, _)| name);
-    let directions = friction::check(file.friction.as_ref(), unloading.map(|(name, _)| name))?;
+    let damps_by_mass = matches!(laws, SceneLaws::Damped(_, law) if law.needs_mass());
+    let directions = friction::check(file.friction.as_ref(), laws.unloading().map(|(name, _)| name))?;
     let friction = directions > 0;
-    let (inverse_masses, meeting) = shared_bodies::check(&file, directions)?;
-    let (coupling, known_mass) = fmu::check_coupling(file.coupling.as_ref(), inverse_masses.is_some())?;
+    let inverse_masses = shared_bodies::check(&file, directions)?;
+    let shared = inverse_masses.is_some();
     let shared_mass =
         inverse_masses.as_ref().and_then(|masses| masses.effective_mass(0, contacts.count() * (1 + directions)));
+    let (coupling, known_mass) = fmu::check_coupling(file.coupling.as_ref(), inverse_masses)?;
     let impact_mass = known_mass.clone().or(shared_mass.map(|mass| Spanned::new(0..0, mass)));
     let impact = check_impact(file.impact.as_ref(), impact_mass.as_ref(), &contacts, cylinders.is_some())?;
     if impact.mass.is_nan() {
@@ -69,11 +96,10 @@ pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> 
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let span = file.impact.as_ref().and_then(|table| Some(table.get_ref().mass.as_ref()?.span()));
-    let mass = known_mass.or(damps_by_mass.map(|_| Spanned::new(span.unwrap_or(0..0), impact.mass)));
-    let mass_is_input = coupling.is_some_and(|coupling| coupling.mass_input);
+    let mass = known_mass.or(damps_by_mass.then(|| Spanned::new(span.unwrap_or(0..0), impact.mass)));
+    let mass_is_input = Coupling::mass_is_input(coupling.as_ref());
     let numbers = [("restitution", file.law.restitution.clone()), ("effective_mass", mass)];
     let (parameters, groups) = check_parameters(&contacts, loss, numbers, mass_is_input)?;
-    let shared = inverse_masses.is_some();
     let mut outputs = check_outputs(&file.fmu.outputs)?;
     // without them such an FMU is useless
     let needed = [
@@ -96,28 +122,20 @@ pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> 
         parameters,
         contacts: groups,
         outputs,
-        loading,
-        unloading,
-        damped,
-        loss,
-        passivity_guard,
+        laws,
+        law_words: None,
         yield_strength,
         rates: contacts.rates(),
         quasi_static: Vec::new(),
         factors,
+        // for an importer that moves the mass itself, with a law that has a stable step size
+        watches: coupling.is_none()
+            && !laws.depends_on_rate()
+            && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
         coupling,
-        inverse_masses,
-        meeting,
-        line: None,
-        own_curve: None,
         directions,
         impact,
         predictions: Vec::new(),
-        // for an importer that moves the mass itself, with a law that has a stable step size
-        watches: coupling.is_none()
-            && damped.is_none()
-            && loss.is_none()
-            && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
         input_derivatives: file.fmu.input_derivatives != Some(false),
         // a name with an index is a structured one
         structured_names: directions > 1
@@ -126,11 +144,11 @@ pub fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> 
         stop_time,
         standalone: file.fmu.standalone == Some(true),
         impact_is_assumed: file.impact.is_none(),
-        materials: beside::words(&file),
+        materials: beside::words(file.materials_used(), &file.own),
         text: String::new(),
     };
     choose_settable(&mut scene, file.fmu.parameters.as_deref())?;
-    ellipses::settle(&mut scene, &file, &contacts)?;
+    settle_ellipses(&mut scene, &file, &contacts)?;
     for group in 0..scene.contacts.len() {
         let of_contact = |Mistake(span, message)| Mistake(span, contacts.said(group, &message));
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
@@ -198,7 +216,7 @@ fn settle(mut scene: Scene, contacts: &Contacts, place: &Range<usize>) -> Result
     // an impact that nobody has asked for may be
     if !scene.impact_is_assumed {
         for (group, prediction) in scene.predictions.iter().enumerate() {
-            let checked = check_width(&scene, group, scene.law_name(), &scene.impact_of(group), prediction, &[]);
+            let checked = check_width(&scene, group, scene.laws.name(), &scene.impact_of(group), prediction, &[]);
             checked.map_err(|error| Mistake(place.clone(), contacts.said(group, &error.to_string())))?;
         }
     }
@@ -251,9 +269,6 @@ fn check_impact(
     Ok(Impact { mass, speed })
 }
 
-/// Assumed density of the ball without an `[impact]` \[kg/m^3\].
-pub const STEEL: f64 = 7850.0;
-
 /// Rejects bodies that do not touch at one point.
 fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mistake> {
     if scene.pair_of(group).is_some() {
@@ -271,13 +286,46 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
     Err(Mistake(socket.span(), message))
 }
 
+/// Gives the groups whose bodies have two radii their ellipses. What these follow from is then a constant of the FMU.
+fn settle_ellipses(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> Result<(), Mistake> {
+    let mut place = None;
+    for group in 0..scene.contacts.len() {
+        let radii = Both::each(|body| contacts.radius(group, body));
+        let both = [radii.impactor, radii.target];
+        let Some(two) = both.into_iter().flatten().find(|radius| matches!(radius.get_ref(), Radius::Two(_))) else {
+            continue;
+        };
+        let values = |radius: Option<&Spanned<Radius>>| match radius.map(Spanned::get_ref) {
+            Some(Radius::Two(two)) => *two,
+            Some(Radius::One(one)) => [*one; 2],
+            None => [f64::INFINITY; 2],
+        };
+        let elliptic = Elliptic::of(Both::each(|body| values(*radii.of(body))));
+        let elliptic = elliptic.map_err(|why| Mistake(two.span(), contacts.said(group, &why)))?;
+        scene.contacts[group].ellipse = Some(elliptic);
+        let [_, target] = scene.bodies_with(group, &[]);
+        let [_, ball] = scene.as_balls(group, [target; 2]);
+        // the speed of waves is that of the body
+        let density = &mut scene.contacts[group].density;
+        *density = density.map(|density| density * (ball.youngs_modulus / target.youngs_modulus));
+        place = Some(two.span());
+    }
+    let Some(place) = place else { return Ok(()) };
+    let fixed =
+        Body::ALL.map(|body| [body.radius(), body.youngs_modulus(), body.poissons_ratio(), body.hardening_modulus()]);
+    let is_fixed =
+        |name: &str| fixed.iter().flatten().any(|fixed| name == *fixed || name.ends_with(&format!(".{fixed}")));
+    fmu::fix(scene, file, &place, is_fixed, "an ellipse: the ball that has its force follows from it")
+}
+
 /// The message about an impact for which the law cannot be evaluated.
 fn too_hard(scene: &Scene, group: usize) -> String {
     let impact = scene.impact_of(group);
     // on a thick target of this material it ends
-    let thick = || Scene { loss: None, ..scene.clone() }.any_model_of(group).predict(&impact);
-    let plate = scene.loss.and_then(|loss| if let Loss::Plate(thickness) = loss { Some(thickness) } else { None });
-    if let Some(thickness) = plate.filter(|_| thick().is_some()) {
+    let thick = || AnyModel::Elastoplastic(scene.model_of(group)).predict(&impact);
+    if let Some(Loss::Plate(thickness)) = scene.laws.loss()
+        && thick().is_some()
+    {
         return format!(
             "the impact of mass = {} kg and speed = {} m/s never ends: target.plate_thickness = {} m is so thin that the sheet bends \
              and moves on with the body, until waves come back from its edge, which the loss leaves out; {}",

@@ -1,29 +1,23 @@
 //! The contacts: the numbers that a scene gives for all of them, and those that one gives for itself, directly or by a material.
 
 use super::beside::{self, OwnMaterial};
-use super::bodies::{Body, Both};
-use super::cylinders;
-use super::ellipses::Elliptic;
-use super::file::{BodyTable, ContactTable, Impactor, Radius, SceneFile};
-use super::laws;
+use super::checked::{Flows, Group, Parameter};
+use super::file::{BodyTable, ContactTable, Impactor, LawTable, MOST_CONTACTS, Radius, SceneFile};
 use super::names::check_identifier;
 use super::quantities::check_quantity;
 use super::strength::{self, Elastic, Flow, Rate};
-use crate::layout::shortened;
+use crate::body::{Body, Both, Rod};
 use crate::measured::{MeasuredStrength, STEEL_RATE};
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
-use crate::nearest::{one_of, unknown};
-use crate::rods::Rod;
-use crate::table::{self, MATERIALS, VARIABLES};
+use crate::nearest::unknown;
+use crate::pairing;
+use crate::table::{self, VARIABLES};
 use brinell_contact::Surface;
 use brinell_contact::loading::AnyLoading;
 use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
-pub const MOST_CONTACTS: i64 = 100_000;
 
 /// Largest number of values of parameters that each contact has for itself. Restoring a state from bytes puts them on the
 /// stack.
@@ -34,101 +28,6 @@ const MASS: &str = "effective_mass";
 
 /// A property that every contact has as soon as the scene gives it for all.
 const FRICTION: &str = "friction.coefficient";
-
-/// A parameter of a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    pub name: &'static str,
-    pub value: f64,
-    /// Whether it can be set; otherwise it is a constant of the FMU.
-    pub settable: bool,
-    /// Whether each contact of a group has its own value.
-    pub per_contact: bool,
-}
-
-impl Parameter {
-    /// A parameter that contacts share.
-    pub fn shared(name: &'static str, value: f64, settable: bool) -> Parameter {
-        Parameter { name, value, settable, per_contact: false }
-    }
-}
-
-/// One contact or several equal ones: a table `[[contact]]`, or the contact of a scene without such tables.
-#[derive(Clone, Debug)]
-pub struct Group {
-    /// `None` for the single contact of a scene without `[[contact]]`, whose variables have plain names.
-    pub name: Option<String>,
-    /// The number of contacts in the group, if their names are counted.
-    pub count: Option<usize>,
-    /// The parameters of this group that override those of all contacts, in the order of the table.
-    pub own: Vec<Parameter>,
-    pub surface: Surface,
-    /// Density of the target \[kg/m^3\], if known. It is not a variable; it limits the speeds for which the law is valid.
-    pub density: Option<f64>,
-    /// Density of the impactor \[kg/m^3\], if known. It is not a variable; the mass follows from it.
-    pub impactor_density: Option<f64>,
-    /// Length of a line contact \[m\].
-    pub line_length: Option<f64>,
-    /// The contact as an ellipse, if a body has two radii. Then the density of the target is that of the ball in its place.
-    pub ellipse: Option<Elliptic>,
-    /// The bodies that are rods. Nothing about them is a variable; they limit the force for which the law is valid.
-    pub rods: Both<Option<Rod>>,
-    /// Yield strength of the impactor \[Pa\], if known. It is a variable only where the impactor may yield.
-    pub impactor_strength: Option<f64>,
-    /// Hardening that depends on the strain of the impact, for which yield strength and hardening modulus stand.
-    pub flows: Flows,
-}
-
-/// The hardening of two bodies that depends on the strain of the impact. Many contacts share one.
-pub type Flows = Both<Option<Arc<Flow>>>;
-
-impl Group {
-    /// The number of contacts in the group.
-    pub fn size(&self) -> usize {
-        self.count.unwrap_or(1)
-    }
-
-    /// The prefix of the variables of a contact, counted from 0: "", "left." or "contact\[7].".
-    pub fn prefix(&self, index: usize) -> String {
-        match (&self.name, self.count) {
-            (None, _) => String::new(),
-            (Some(name), None) => format!("{name}."),
-            (Some(name), Some(_)) => format!("{name}[{}].", index + 1),
-        }
-    }
-
-    /// One name for all contacts of the group: "left", or "bead\[1..1000]".
-    pub fn label(&self) -> String {
-        match (&self.name, self.count) {
-            (Some(name), Some(count @ 2..)) => format!("{name}[1..{count}]"),
-            _ => self.prefix(0).trim_end_matches('.').into(),
-        }
-    }
-
-    /// The name in the FMU of the parameter `name` that all contacts of the group share.
-    pub fn variable(&self, name: &str) -> String {
-        self.name.as_ref().map_or(name.into(), |own| format!("{own}.{name}"))
-    }
-
-    /// The name in the FMU of the group's own `parameter`, for the contact with this `index`.
-    pub fn own_variable(&self, parameter: &Parameter, index: usize) -> String {
-        match parameter.per_contact {
-            true => self.prefix(index) + parameter.name,
-            false => self.variable(parameter.name),
-        }
-    }
-
-    /// Radius of the thinnest of its rods \[m\], as if it were round.
-    pub fn rod_radius(&self) -> Option<f64> {
-        let rods = [self.rods.impactor, self.rods.target].into_iter().flatten();
-        rods.map(|rod| rod.radius()).reduce(f64::min)
-    }
-
-    /// The number of variables for the group's own `parameter`.
-    pub fn variables_of(&self, parameter: &Parameter) -> usize {
-        if parameter.per_contact { self.size() } else { 1 }
-    }
-}
 
 /// The numbers at one level, the whole scene or one contact, with their places in the file.
 #[derive(Default)]
@@ -252,54 +151,10 @@ fn numbers_of(body: Body, table: &BodyTable, above: &Above) -> Result<[NamedNumb
     Ok(body.properties().map(|name| (name, values.next().flatten())))
 }
 
-/// The built-in material of this name, or of an alias that no other has. Messages also name those of one's `own`.
-pub fn find_material(name: &Spanned<String>, own: &[OwnMaterial]) -> Result<&'static table::Material, Mistake> {
-    let asked = name.get_ref();
-    if let Some(material) = MATERIALS.iter().find(|material| material.name == *asked) {
-        return Ok(material);
-    }
-    let is_it = |alias: &String| alias.eq_ignore_ascii_case(asked.trim());
-    let with_alias: Vec<_> = MATERIALS.iter().filter(|material| material.aliases.iter().any(is_it)).collect();
-    let message = match with_alias.as_slice() {
-        [material] => return Ok(material),
-        [] => {
-            // a number that is a word of what was asked
-            let has = |alias: &String| {
-                alias.contains(|c: char| c.is_ascii_digit()) && asked.split(' ').any(|word| word == alias)
-            };
-            let names = MATERIALS.iter().filter(|material| material.aliases.iter().any(has));
-            let names: Vec<_> = names.map(|material| material.name.as_str()).collect();
-            match names.as_slice() {
-                [] => match with_words(asked).as_slice() {
-                    [] | [_] => beside::no_material(asked, own),
-                    several => {
-                        format!("`{}` may be several materials: say which, {}", shortened(asked), one_of(several))
-                    }
-                },
-                names => format!("unknown material `{}`; its name here is {}", shortened(asked), one_of(names)),
-            }
-        }
-        several => {
-            let names: Vec<_> = several.iter().map(|material| material.name.as_str()).collect();
-            format!(
-                "`{}` has several conditions, whose strengths differ: say which, {}",
-                shortened(asked),
-                one_of(&names)
-            )
-        }
-    };
-    Err(Mistake(name.span(), message))
-}
-
-/// The materials with these words in their names, such as `bearing steel`, one behind the other.
-fn with_words(asked: &str) -> Vec<&'static str> {
-    let words = |name: &str| {
-        let words = name.split([' ', ',', '-', '_']).filter(|word| !word.is_empty());
-        words.map(str::to_lowercase).collect::<Vec<_>>()
-    };
-    let asked = words(asked);
-    let has = |name: &&str| !asked.is_empty() && words(name).windows(asked.len()).any(|part| part == asked);
-    MATERIALS.iter().map(|material| material.name.as_str()).filter(has).collect()
+/// Whether the law of the table takes the hardening of a body that yields. Wrong names are refused elsewhere.
+fn takes_hardening(law: &LawTable) -> bool {
+    let name = law.loading.as_ref().map_or(pairing::DEFAULT_LOADING, |name| name.get_ref().as_str());
+    AnyLoading::ALL.iter().any(|(known, law)| *known == name && law.takes_both_bodies())
 }
 
 /// One `[[contact]]`, or the one contact of a scene without any.
@@ -418,7 +273,7 @@ impl Contacts {
         let no_gap = Spanned::new(0..0, 0.0);
         let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
         let friction = file.friction.as_ref().map(|friction| &friction.get_ref().coefficient);
-        let hardens = laws::takes_hardening(&file.law);
+        let hardens = takes_hardening(&file.law);
         let above = Above { materials: &file.own, hardens, shared: None };
         let shared = Numbers::of(&bodies, [(MASS, None), ("initial_gap", Some(gap)), (FRICTION, friction)], &above)?;
         shared.check("")?;
@@ -428,7 +283,7 @@ impl Contacts {
         let share_bodies =
             file.body.is_some() || file.coupling.as_ref().is_some_and(|table| table.get_ref().inverse_masses.is_some());
         // the rate of a line contact has not been compared with anything
-        let has_no_rate = share_bodies || cylinders::is_line(file);
+        let has_no_rate = share_bodies || file.is_line();
         let mut contacts = Contacts { shared, flows, rates: Both::default(), all };
         contacts.rates = Both::try_each(|body| contacts.rate_of(body, bodies.of(body), has_no_rate))?;
         (0..contacts.all.len()).try_for_each(|index| contacts.check_impactor(index))?;

@@ -1,10 +1,10 @@
 //! Cylinders: contacts along a line, and the sizes of their bodies, on which the depth depends.
 
-use super::Scene;
-use super::bodies::{Body, Both};
+use super::checked::{Scene, SceneLaws};
 use super::contacts::Contacts;
-use super::file::{BaseName, BodyTable, SceneFile, ShapeName};
+use super::file::{BaseName, BodyTable, SceneFile};
 use super::fmu;
+use crate::body::{Body, Both};
 use crate::mistake::{Mistake, Spanned};
 use crate::numbers::{quantity, significant};
 use brinell_contact::loading::{AnyLoading, Line, line::ROLLER};
@@ -36,12 +36,6 @@ pub struct Cylinders<'a> {
     span: Range<usize>,
 }
 
-/// Whether the contacts of the scene are lines, by the shape of its impactor.
-pub fn is_line(file: &SceneFile) -> bool {
-    let shape = file.impactor.as_ref().and_then(|impactor| impactor.get_ref().0.shape.as_ref());
-    shape.is_some_and(|shape| *shape.get_ref() == ShapeName::Cylinder)
-}
-
 /// Reach and sideways tension of a body \[m, 1/m\], and what it is in words.
 struct Size {
     reach: f64,
@@ -54,7 +48,7 @@ impl<'a> Cylinders<'a> {
     pub fn of(file: &'a SceneFile, none: &'a BodyTable, contacts: &Contacts) -> Result<Option<Cylinders<'a>>, Mistake> {
         let impactor = file.impactor.as_ref().map_or(none, |impactor| &impactor.get_ref().0);
         let target = file.target.as_ref().map_or(none, Spanned::get_ref);
-        let Some(shape) = impactor.shape.as_ref().filter(|_| is_line(file)) else { return Ok(None) };
+        let Some(shape) = impactor.shape.as_ref().filter(|_| file.is_line()) else { return Ok(None) };
         if !contacts.any_yields() {
             let message = "a cylinder needs the yield strength of a body: target.yield_strength, or a material";
             return Err(Mistake(shape.span(), message.into()));
@@ -148,9 +142,11 @@ impl<'a> Cylinders<'a> {
         let is_fixed =
             |name: &str| fixed.iter().flatten().any(|fixed| name == *fixed || name.ends_with(&format!(".{fixed}")));
         fmu::fix(scene, file, &self.span, is_fixed, "a cylinder: the constant C of its depth follows from it")?;
-        scene.loading.1 = AnyLoading::Line(line);
-        scene.unloading = Some((LINE, AnyUnloading::Line(unloading::line::Line { length: line.length })));
-        scene.line = Some(words);
+        if let SceneLaws::Plastic { loading, unloading, .. } = &mut scene.laws {
+            loading.1 = AnyLoading::Line(line);
+            *unloading = (LINE, AnyUnloading::Line(unloading::line::Line { length: line.length }));
+        }
+        scene.law_words = Some(words);
         Ok(())
     }
 }

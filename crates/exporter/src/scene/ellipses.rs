@@ -1,11 +1,7 @@
 //! Bodies with two principal radii: the contact is an ellipse, and its law that of a [ball](brinell_contact::ellipse) with other numbers.
 
-use super::Scene;
-use super::bodies::{Body, Both};
-use super::contacts::Contacts;
-use super::file::{FLAT, Radius, SceneFile};
-use super::fmu;
-use crate::mistake::{Mistake, Spanned};
+use super::file::FLAT;
+use crate::body::{Body, Both};
 use crate::numbers::{out_of_range, quantity, significant};
 use brinell_contact::ellipse::{Ellipse, LARGEST_RATIO};
 use brinell_contact::material::SMALLEST_RADIUS;
@@ -23,7 +19,7 @@ pub struct Elliptic {
     /// Whether the longer half-axis is along y.
     is_along_y: bool,
     /// Radii of the balls \[m\]. Each has the part of the gap's curvature that its body has.
-    balls: Both<f64>,
+    pub(super) balls: Both<f64>,
     /// The contact radius `sqrt(a b)` \[m\] at which a half-axis is as long as the smallest radius in its direction.
     pub size: f64,
 }
@@ -33,7 +29,7 @@ impl Elliptic {
     ///
     /// # Errors
     /// Why there is none, in words.
-    fn of(radii: Both<[f64; 2]>) -> Result<Elliptic, String> {
+    pub(super) fn of(radii: Both<[f64; 2]>) -> Result<Elliptic, String> {
         let axes = ["x", "y"];
         for (body, axis) in Body::ALL.iter().flat_map(|body| [(*body, 0), (*body, 1)]) {
             let radius = radii.of(body)[axis];
@@ -120,65 +116,4 @@ impl Elliptic {
 
 fn in_words(radius: f64) -> String {
     if radius.is_infinite() { FLAT.into() } else { quantity(radius, "m") }
-}
-
-/// Gives the groups whose bodies have two radii their ellipses. What these follow from is then a constant of the FMU.
-pub fn settle(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> Result<(), Mistake> {
-    let mut place = None;
-    for group in 0..scene.contacts.len() {
-        let radii = Both::each(|body| contacts.radius(group, body));
-        let both = [radii.impactor, radii.target];
-        let Some(two) = both.into_iter().flatten().find(|radius| matches!(radius.get_ref(), Radius::Two(_))) else {
-            continue;
-        };
-        let values = |radius: Option<&Spanned<Radius>>| match radius.map(Spanned::get_ref) {
-            Some(Radius::Two(two)) => *two,
-            Some(Radius::One(one)) => [*one; 2],
-            None => [f64::INFINITY; 2],
-        };
-        let elliptic = Elliptic::of(Both::each(|body| values(*radii.of(body))));
-        let elliptic = elliptic.map_err(|why| Mistake(two.span(), contacts.said(group, &why)))?;
-        scene.contacts[group].ellipse = Some(elliptic);
-        let [_, target] = scene.bodies_with(group, &[]);
-        let [_, ball] = scene.as_balls(group, [target; 2]);
-        // the speed of waves is that of the body
-        let density = &mut scene.contacts[group].density;
-        *density = density.map(|density| density * (ball.youngs_modulus / target.youngs_modulus));
-        place = Some(two.span());
-    }
-    let Some(place) = place else { return Ok(()) };
-    let fixed =
-        Body::ALL.map(|body| [body.radius(), body.youngs_modulus(), body.poissons_ratio(), body.hardening_modulus()]);
-    let is_fixed =
-        |name: &str| fixed.iter().flatten().any(|fixed| name == *fixed || name.ends_with(&format!(".{fixed}")));
-    fmu::fix(scene, file, &place, is_fixed, "an ellipse: the ball that has its force follows from it")
-}
-
-impl Scene {
-    /// Impactor and target of `group` as its laws take them.
-    pub(super) fn as_balls(&self, group: usize, bodies: [brinell_contact::Body; 2]) -> [brinell_contact::Body; 2] {
-        let Some(Elliptic { ellipse, balls, .. }) = &self.contacts[group].ellipse else { return bodies };
-        let [impactor, target] = bodies;
-        [ellipse.ball(&impactor, balls.impactor), ellipse.ball(&target, balls.target)]
-    }
-
-    /// The same factor of the hardening moduli as of the others.
-    pub(super) fn hardening_factor(&self, group: usize) -> f64 {
-        self.contacts[group].ellipse.as_ref().map_or(1.0, |elliptic| elliptic.ellipse.stiffness)
-    }
-
-    /// The constant in place of the parameter `name` in the library, if the contacts of `group` are ellipses.
-    pub fn constant_of_ball(&self, group: usize, name: &str) -> Option<f64> {
-        self.contacts[group].ellipse.as_ref()?;
-        let balls = self.as_balls(group, self.bodies_with(group, &[]));
-        Body::ALL.iter().zip(balls).find_map(|(body, ball)| match name {
-            name if name == body.radius() => Some(ball.radius),
-            name if name == body.youngs_modulus() => Some(ball.youngs_modulus),
-            name if name == body.poissons_ratio() => Some(ball.poissons_ratio),
-            name if name == body.hardening_modulus() => {
-                self.group_value(group, name).map(|modulus| modulus * self.hardening_factor(group))
-            }
-            _ => None,
-        })
-    }
 }

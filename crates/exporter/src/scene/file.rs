@@ -1,13 +1,11 @@
 //! The contents of a scene file: tables and keys, without interpretation.
 
-use super::beside::{self, Beside, OwnMaterial};
-use super::contacts::MOST_CONTACTS;
+use super::beside::{self, Beside, MaterialTable, OwnMaterial};
 use super::parser_words;
 use super::quantities::{Quantity, quantity_of};
 use super::rules;
 use crate::layout::shortened;
-use crate::mistake::Mistake;
-use crate::mistake::Spanned;
+use crate::mistake::{Mistake, SceneError, Spanned};
 use crate::numbers::out_of_range;
 use crate::own_curve;
 use crate::parameters::ConstantTable;
@@ -21,6 +19,7 @@ use serde::de::value::SeqAccessDeserializer;
 use serde::de::{SeqAccess, Visitor};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 /// A scene: one contact of two bodies, or several, and the FMU that is made of it.
@@ -71,21 +70,26 @@ pub struct SceneFile {
     pub(super) broken: Option<Mistake>,
 }
 
+/// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
+pub const MOST_CONTACTS: i64 = 100_000;
+
 /// A table of materials of one's own.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct MaterialsFile {
+struct MaterialsFile {
     #[serde(default)]
-    pub material: Vec<Spanned<Material>>,
+    material: Vec<Spanned<Material>>,
 }
 
-impl MaterialsFile {
-    /// Reads the `text` of such a table.
+impl MaterialTable {
+    /// The table with this `text`. `path` is used in messages, `place` in what is printed of its materials.
     ///
     /// # Errors
-    /// As for [`SceneFile::read`].
-    pub fn read(text: &str) -> Result<MaterialsFile, Mistake> {
-        deserialized(text, &BTreeMap::new())
+    /// [`SceneError`] with line and column of the first error, and what is allowed there.
+    pub fn parse(text: &str, path: &Path, place: &'static str) -> Result<MaterialTable, SceneError> {
+        let checked = deserialized(text, &BTreeMap::new()).and_then(|file: MaterialsFile| beside::check(file.material));
+        let materials = checked.map_err(|mistake| mistake.in_file(text, path))?;
+        Ok(MaterialTable { place, materials })
     }
 }
 
@@ -609,7 +613,8 @@ impl SceneFile {
             let mut file: SceneFile = of_tree(text, tree)?;
             let own = beside::check(file.material.take().unwrap_or_default())?;
             file.own = own.into_iter().map(OwnMaterial::of_scene).collect();
-            let taken = beside::take_in(&mut file, &beside.materials);
+            let used: Vec<_> = file.materials_used().cloned().collect();
+            let taken = beside::take_in(&used, &mut file.own, &beside.materials);
             let own = file.own.iter().map(|own| own.material.name.as_str());
             let materials: Vec<_> = own.chain(MATERIALS.iter().map(|material| material.name.as_str())).collect();
             file.broken = rules::check(tree.get_ref(), &materials).err();
@@ -629,6 +634,12 @@ impl SceneFile {
             })?;
         }
         Ok(file)
+    }
+
+    /// Whether the contacts of the scene are lines, by the shape of its impactor.
+    pub fn is_line(&self) -> bool {
+        let shape = self.impactor.as_ref().and_then(|impactor| impactor.get_ref().0.shape.as_ref());
+        shape.is_some_and(|shape| *shape.get_ref() == ShapeName::Cylinder)
     }
 
     /// The names of the materials of all bodies.

@@ -1,8 +1,8 @@
 //! The FMU: its description, the mass that it moves, and what the table `[fmu]` asks for.
 
-use super::contacts::Parameter;
+use super::checked::{Coupling, Masses, Parameter, Scene};
 use super::file::{CouplingTable, Fmu, MasterName, SceneFile};
-use super::{Coupling, Scene};
+use super::inverse_masses::InverseMasses;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::nearest::unknown;
@@ -29,12 +29,15 @@ pub fn check_text(key: &str, given: Option<&Spanned<String>>) -> Result<String, 
 /// Inputs that an FMU can have in addition to the rate.
 pub const INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
 
-/// The coupling in this table, which the unit has without it, too, if its contacts share bodies; and the mass.
+/// The coupling in this table, which the unit has without it, too, if its contacts share bodies with these inverse masses; and the mass.
 pub fn check_coupling(
     given: Option<&Spanned<CouplingTable>>,
-    shares_bodies: bool,
+    shared: Option<InverseMasses>,
 ) -> Result<(Option<Coupling>, Option<Spanned<f64>>), Mistake> {
-    let Some(table) = given else { return Ok((shares_bodies.then(Coupling::default), None)) };
+    let Some(table) = given else {
+        let alone = |masses| Coupling { parallel: false, acceleration_input: false, masses: Masses::Shared(masses) };
+        return Ok((shared.map(alone), None));
+    };
     let CouplingTable { effective_mass, master, inputs, .. } = table.get_ref();
     for input in inputs {
         if !INPUTS.contains(&input.get_ref().as_str()) {
@@ -43,7 +46,8 @@ pub fn check_coupling(
     }
     let [acceleration_input, mass_input] = INPUTS.map(|name| inputs.iter().any(|input| input.get_ref() == name));
     let parallel = *master == Some(MasterName::Parallel);
-    Ok((Some(Coupling { parallel, acceleration_input, mass_input }), effective_mass.clone()))
+    let masses = shared.map_or(Masses::Effective { is_input: mass_input }, Masses::Shared);
+    Ok((Some(Coupling { parallel, acceleration_input, masses }), effective_mass.clone()))
 }
 
 /// Makes settable only the parameters in `chosen`, or all: those of all contacts and those of one contact.
@@ -51,7 +55,7 @@ pub fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) ->
     let Some(chosen) = chosen else { return Ok(()) };
     let names: HashSet<&str> = chosen.iter().map(|name| name.get_ref().as_str()).collect();
     let mut known = Vec::new();
-    let mass_is_input = scene.coupling.is_some_and(|coupling| coupling.mass_input);
+    let mass_is_input = scene.mass_is_input();
     let mut choose = |parameter: &mut Parameter, name: String| {
         if mass_is_input && parameter.name == "effective_mass" {
             return;

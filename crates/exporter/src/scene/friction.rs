@@ -1,17 +1,9 @@
 //! The table `[friction]`: its directions, and whether the law of a scene supports it.
 
-use super::Scene;
 use super::file::FrictionTable;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::table;
-
-impl Scene {
-    /// Whether its contacts have friction.
-    pub fn has_friction(&self) -> bool {
-        self.directions > 0
-    }
-}
 
 /// The number of tangential directions of the scene, zero without friction. Some unloading laws have none.
 pub fn check(table: Option<&Spanned<FrictionTable>>, unloading: Option<&str>) -> Result<usize, Mistake> {

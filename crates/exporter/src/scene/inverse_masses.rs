@@ -6,8 +6,8 @@
 #[derive(Clone, Debug, PartialEq)]
 pub enum InverseMasses {
     /// From the bodies of the scene: the upper triangle, row by row, of `n (n + 1)/2` numbers; see [`place`]. Every entry on the
-    /// diagonal is positive.
-    Constant(Vec<f64>),
+    /// diagonal is positive. With friction, beside them the two bodies of the first contact.
+    Constant { entries: Vec<f64>, meeting: Option<[Meeting; 2]> },
     /// The entries of the same triangle are inputs of the unit.
     Inputs,
 }
@@ -17,10 +17,24 @@ impl InverseMasses {
     /// The rows of the normals are the first ones, in the order of the contacts.
     pub fn effective_mass(&self, row: usize, count: usize) -> Option<f64> {
         match self {
-            InverseMasses::Constant(entries) => Some(1.0 / entries[place(count, row, row)]),
+            InverseMasses::Constant { entries, .. } => Some(1.0 / entries[place(count, row, row)]),
             InverseMasses::Inputs => None,
         }
     }
+}
+
+/// A body of the first contact, in an impact on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meeting {
+    /// Its name.
+    pub name: String,
+    /// \[kg\]; infinite for the ground.
+    pub mass: f64,
+    /// How the force along the normal, and that along the first tangent, turn it about the axis across both: the change of the spin
+    /// \[rad/s\] by an impulse \[N.s\].
+    pub turns: [f64; 2],
+    /// How a spin about that axis moves its contact point along the normal, and along the tangent \[m\].
+    pub arms: [f64; 2],
 }
 
 /// The place of the entry of two rows, counted from 0, in the upper triangle of a matrix of `count` rows: those of the normals, in

@@ -1,9 +1,10 @@
 //! The laws of a scene: what is wrong with their names, and whether they suit its bodies and each other.
 
-use super::Scene;
+use super::checked::{HERTZ, Scene, SceneLaws};
 use super::contacts::Contacts;
 use super::cylinders::LINE;
 use super::file::{LawTable, TABLE};
+use super::losses::Loss;
 use super::tabulated;
 use crate::law_check;
 use crate::mistake::Mistake;
@@ -14,53 +15,29 @@ use crate::pairing;
 use crate::parameters;
 use crate::table;
 use brinell_contact::damped::AnyDamped;
-use brinell_contact::loading::{AnyLoading, Hertz};
+use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 
-/// The laws of a scene.
-pub struct SceneLaws {
-    /// The law of a contact whose force depends on the rate; `loading` is then without effect.
-    pub damped: Option<(&'static str, AnyDamped)>,
-    pub loading: (&'static str, AnyLoading),
-    /// `None` for an elastic contact.
-    pub unloading: Option<(&'static str, AnyUnloading)>,
-    pub passivity_guard: bool,
-}
-
-impl SceneLaws {
-    /// The laws of the table `law`, which suit the `contacts`, and each other.
-    pub fn of(law: &LawTable, contacts: &Contacts, is_line: bool) -> Result<SceneLaws, Mistake> {
-        let damped = find_damped(law)?;
-        let loading = match damped {
-            Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
-            None => check_loading(law, contacts, is_line)?,
-        };
-        let elastic = matches!(loading.1, AnyLoading::Hertz(_));
-        let has_no_strength = elastic || loading.1.table().is_some();
-        let hardens = damped.is_none() && loading.1.takes_both_bodies();
-        contacts.check_rate(has_no_strength)?;
-        contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
-        let unloading = check_unloading(law, loading.0, elastic)?;
-        check_parameters(law, &loading, unloading.as_ref())?;
-        let passivity_guard = check_guard(law.passivity_guard.as_ref(), unloading)?;
-        Ok(SceneLaws { damped, loading, unloading, passivity_guard })
-    }
-
-    /// Whether nothing yields, or the force depends on the rate, or the curve says where it yields.
-    pub fn has_no_strength(&self) -> bool {
-        matches!(self.loading.1, AnyLoading::Hertz(_) | AnyLoading::Tabulated(_))
-    }
-
-    /// Whether the law takes each of the two bodies for itself, so that the harder one may yield too.
-    pub fn takes_both_bodies(&self) -> bool {
-        self.damped.is_none() && self.loading.1.takes_both_bodies()
-    }
-}
-
-/// Whether the law of the table takes the hardening of a body that yields. Wrong names are refused elsewhere.
-pub fn takes_hardening(law: &LawTable) -> bool {
-    let name = law.loading.as_ref().map_or(pairing::DEFAULT_LOADING, |name| name.get_ref().as_str());
-    AnyLoading::ALL.iter().any(|(known, law)| *known == name && law.takes_both_bodies())
+/// The laws of the table `law`, which suit the `contacts`, and each other, with a `loss`.
+pub fn of(law: &LawTable, contacts: &Contacts, loss: Option<Loss>, is_line: bool) -> Result<SceneLaws, Mistake> {
+    let damped = find_damped(law)?;
+    let loading = match damped {
+        Some(_) => HERTZ,
+        None => check_loading(law, contacts, is_line)?,
+    };
+    let elastic = matches!(loading.1, AnyLoading::Hertz(_));
+    let has_no_strength = elastic || loading.1.table().is_some();
+    let hardens = damped.is_none() && loading.1.takes_both_bodies();
+    contacts.check_rate(has_no_strength)?;
+    contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
+    let unloading = check_unloading(law, loading.0, elastic)?;
+    check_parameters(law, &loading, unloading.as_ref())?;
+    let passivity_guard = check_guard(law.passivity_guard.as_ref(), unloading)?;
+    Ok(match (damped, unloading) {
+        (Some((name, damped)), _) => SceneLaws::Damped(name, damped),
+        (None, Some(unloading)) => SceneLaws::Plastic { loading, unloading, passivity_guard, loss },
+        (None, None) => SceneLaws::Elastic { loss },
+    })
 }
 
 /// The rate-dependent law of the scene, with its damping variant and constants.
@@ -162,10 +139,10 @@ fn check_parameters(
 
 /// Rejects laws whose constants from the scene make them useless on the bodies of `group`.
 pub fn check_curves(given: &LawTable, scene: &Scene, group: usize) -> Result<(), Mistake> {
-    let Some(span) = parameters_span(given).filter(|_| scene.unloading.is_some()) else { return Ok(()) };
+    let Some(span) = parameters_span(given).filter(|_| scene.laws.unloading().is_some()) else { return Ok(()) };
     let model = scene.model_of(group);
     let unloading = given.unloading_parameters.as_ref().map_or(span.clone(), Spanned::span);
-    law_check::check_loading(&model, pairing::published(scene.loading.0))
+    law_check::check_loading(&model, pairing::published(scene.laws.name()))
         .map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
     law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
 }

@@ -1,17 +1,10 @@
 //! Losses below yield: `law.elastic_restitution` and `target.plate_thickness`.
 
-use super::Scene;
 use super::file::SceneFile;
 use super::quantities::quantity_of;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
-use crate::model::AnyModel;
 use crate::numbers::{out_of_range, quantity};
-use brinell_contact::damped::Damped;
-use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{self, AnyLoss, HalfSpaceRadiation, Plate, RestitutionFitted, Solid};
-use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Body, Model};
 use toml::Value;
 
 /// A loss of a scene, with the start value of its parameter. Density and bodies are those of each contact.
@@ -100,43 +93,5 @@ impl Loss {
     /// Whether the force depends on the rate at the same instant.
     pub fn follows_rate(self) -> bool {
         !matches!(self, Loss::Plate(_))
-    }
-}
-
-impl Scene {
-    /// Whether the force depends on the rate at the same instant.
-    pub fn follows_rate(&self) -> bool {
-        self.damped.is_some() || self.loss.is_some_and(Loss::follows_rate)
-    }
-
-    /// Whether the force depends on the speed of the motion at all.
-    pub fn is_rate_dependent(&self) -> bool {
-        self.damped.is_some() || self.loss.is_some()
-    }
-
-    /// Whether the damping of its law follows from the mass.
-    pub fn damps_by_mass(&self) -> bool {
-        self.damped.is_some_and(|(_, law)| law.needs_mass())
-    }
-
-    /// The contact of `group` by an elastoplastic `model`, with the loss of the scene.
-    pub fn with_loss(&self, group: usize, model: Model<AnyLoading, AnyUnloading>) -> AnyModel {
-        match self.loss_with(group, &[]) {
-            None => AnyModel::Elastoplastic(model),
-            Some(loss) => AnyModel::Lossy(losses::Model { plastic: model, loss }, None),
-        }
-    }
-
-    /// The loss of the contacts of `group`, with other values for some of the parameters.
-    pub fn loss_with(&self, group: usize, values: &[(&str, f64)]) -> Option<AnyLoss> {
-        let value = |name| self.value_with(group, name, values).unwrap_or(f64::NAN);
-        let [_, Body { youngs_modulus, poissons_ratio, .. }] = self.bodies_with(group, values);
-        let density = self.contacts[group].density.unwrap_or(f64::NAN);
-        let target = Solid { density, youngs_modulus, poissons_ratio };
-        Some(match self.loss? {
-            Loss::Fitted(_) => AnyLoss::RestitutionFitted(RestitutionFitted { restitution: value(RESTITUTION) }),
-            Loss::Waves => AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target }),
-            Loss::Plate(_) => AnyLoss::Plate(Plate { target, thickness: value(THICKNESS) }),
-        })
     }
 }

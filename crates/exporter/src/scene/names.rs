@@ -3,6 +3,7 @@
 use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
+use crate::nearest::any_case;
 
 /// The name of an FMU: a C identifier that every operating system accepts as a file name.
 ///
@@ -25,13 +26,6 @@ pub fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
 /// The devices of Windows, and those that a digit follows.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
 const PORTS: [&str; 2] = ["com", "lpt"];
-
-/// The pattern of these `names` in letters of any case.
-pub fn any_case(names: &[&str]) -> String {
-    let of_letter = |c: char| format!("[{}{}]", c.to_ascii_uppercase(), c.to_ascii_lowercase());
-    let of_name = |name: &&str| name.chars().map(of_letter).collect::<String>();
-    names.iter().map(of_name).collect::<Vec<_>>().join("|")
-}
 
 /// The identifiers that are no name of an FMU, as a schema.
 pub fn is_no_name() -> serde_json::Value {

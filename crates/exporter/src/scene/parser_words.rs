@@ -1,9 +1,9 @@
 //! Translates the messages of the parser into the terms of the scene file.
 
 use crate::layout::{shortened, without_middle};
-use crate::measured::SCALES;
 use crate::nearest::{nearest, one_of};
 use crate::numbers::in_message;
+use crate::reading::SCALES;
 use crate::units;
 use toml::value::Datetime;
 

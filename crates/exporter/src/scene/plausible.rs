@@ -1,10 +1,9 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
 use super::beside::{self, OwnMaterial};
-use super::bodies::Body;
-use super::checks::STEEL;
 use super::file::{BodyTable, PowerLawTable, SceneFile, TensileTestTable};
 use super::shared_bodies::number_in;
+use crate::body::Body;
 use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
@@ -12,6 +11,9 @@ use crate::numbers::{plain, quantity};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 use toml::Value;
+
+/// Assumed density of the ball without an `[impact]` \[kg/m^3\].
+pub const STEEL: f64 = 7850.0;
 
 /// The plausible range of a number of a contact.
 struct Expected<'a> {

@@ -1,7 +1,7 @@
 //! Contacts that share bodies: the tables `[[body]]`, and what each contact says of its two bodies.
 
 use super::file::{ContactTable, SceneFile, SharedBodyTable};
-use super::inverse_masses::{self, End, FreeBody, Inertia, InverseMasses, Vector};
+use super::inverse_masses::{self, End, FreeBody, Inertia, InverseMasses, Meeting, Vector};
 use super::names::check_identifier;
 use super::quantities::{PRODUCT, quantity_of};
 use crate::layout::shortened;
@@ -18,38 +18,22 @@ pub const GROUND: &str = "ground";
 /// Largest number of contacts of a unit whose bodies are shared. The matrix of the inverse masses grows with its square.
 const MOST_SHARING: usize = 256;
 
-/// A body of the first contact, in an impact on it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Meeting {
-    /// Its name.
-    pub name: String,
-    /// \[kg\]; infinite for the ground.
-    pub mass: f64,
-    /// How the force along the normal, and that along the first tangent, turn it about the axis across both: the change of the spin
-    /// \[rad/s\] by an impulse \[N.s\].
-    pub turns: [f64; 2],
-    /// How a spin about that axis moves its contact point along the normal, and along the tangent \[m\].
-    pub arms: [f64; 2],
-}
-
-/// The inverse effective masses of the scene `file` with friction in so many `directions`, if its contacts share bodies, and the two bodies
-/// of the first contact if it has friction.
+/// The inverse effective masses of the scene `file` with friction in so many `directions`, if its contacts share bodies.
 ///
 /// # Errors
 /// The first mistake in the bodies.
-pub fn check(file: &SceneFile, directions: usize) -> Result<(Option<InverseMasses>, Option<[Meeting; 2]>), Mistake> {
+pub fn check(file: &SceneFile, directions: usize) -> Result<Option<InverseMasses>, Mistake> {
     let inputs = file.coupling.as_ref().and_then(|coupling| coupling.get_ref().inverse_masses.as_ref());
     let Some(bodies) = &file.body else {
         inputs.map(|inputs| check_count(inputs.span(), file)).transpose()?;
-        return Ok((inputs.map(|_| InverseMasses::Inputs), None));
+        return Ok(inputs.map(|_| InverseMasses::Inputs));
     };
     let Some(first) = bodies.get_ref().first() else {
         let message = "the list of bodies is empty; leave it out, or give tables [[body]] with name and mass";
         return Err(Mistake(bodies.span(), message.into()));
     };
     check_count(first.span(), file)?;
-    let (masses, meeting) = of_bodies(bodies.get_ref(), contacts_of(file).unwrap_or_default(), directions)?;
-    Ok((Some(masses), meeting))
+    of_bodies(bodies.get_ref(), contacts_of(file).unwrap_or_default(), directions).map(Some)
 }
 
 fn contacts_of(file: &SceneFile) -> Option<&[Spanned<ContactTable>]> {
@@ -206,7 +190,7 @@ fn of_bodies(
     tables: &[Spanned<SharedBodyTable>],
     contacts: &[Spanned<ContactTable>],
     directions: usize,
-) -> Result<(InverseMasses, Option<[Meeting; 2]>), Mistake> {
+) -> Result<InverseMasses, Mistake> {
     let bodies = Bodies::of(tables)?;
     let mut meeting = None;
     let (mut all, mut touched) = (vec![Vec::new(); 1 + directions], HashSet::new());
@@ -229,7 +213,7 @@ fn of_bodies(
         return Err(Mistake(tables[index].span(), message));
     }
     let rows = all.concat();
-    let matrix = InverseMasses::Constant(inverse_masses::triangle(&bodies.free, &rows));
+    let matrix = InverseMasses::Constant { entries: inverse_masses::triangle(&bodies.free, &rows), meeting };
     let allowed = quantity_of("body", "mass").allowed;
     for row in 0..rows.len() {
         let contact = &contacts[row % contacts.len()];
@@ -239,7 +223,7 @@ fn of_bodies(
             return Err(wrong(contact.get_ref(), contact.span(), &message));
         }
     }
-    Ok((matrix, meeting))
+    Ok(matrix)
 }
 
 /// The ends of a `contact` along an `axis`, its normal or a tangent, at the bodies `between` which it is and at these `arms`.

@@ -1,6 +1,6 @@
 //! A loading curve of one's own in a scene: the law of its bodies, and of no others.
 
-use super::Scene;
+use super::checked::{Scene, SceneLaws};
 use super::contacts::Contacts;
 use super::file::{LawTable, SceneFile};
 use super::fmu;
@@ -47,7 +47,9 @@ pub fn settle(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> Resul
     let (law, words) = own_curve::law(&rows, &pair).map_err(wrong)?;
     let is_of_body = |name: &str| name.contains("impactor.") || name.contains("target.");
     fmu::fix(scene, file, &span, is_of_body, "a curve of one's own: the file belongs to these bodies")?;
-    scene.loading.1 = AnyLoading::Tabulated(law);
-    scene.own_curve = Some(words);
+    if let SceneLaws::Plastic { loading, .. } = &mut scene.laws {
+        loading.1 = AnyLoading::Tabulated(law);
+    }
+    scene.law_words = Some(words);
     Ok(())
 }

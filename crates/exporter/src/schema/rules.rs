@@ -1,10 +1,11 @@
 //! What one key of a scene says about others: the rules of the check, as far as a schema can express them, and what goes with each law.
 
 use super::{complete_constants, object};
-use crate::measured::{self, TEST_RATE};
+use crate::measured::TEST_RATE;
 use crate::model::Dampings;
 use crate::pairing;
 use crate::parameters::{self, LawConstant};
+use crate::reading;
 use crate::scene::rules::{BODIES, Is, Key, Level, RULES, Rule};
 use crate::scene::{GROUND, taken_names};
 use crate::table;
@@ -58,12 +59,16 @@ fn of_scene(rule: &Rule) -> Value {
         let any = any(keys.iter().map(|key| is(&key.path, key)));
         if keys[0].no { not(any) } else { any }
     };
-    // each condition that fails is enough, or one of what is needed
-    let exceptions = || each.iter().flat_map(|keys| keys.iter()).map(|key| (!key.no, key));
-    let wanted: Vec<Vec<(bool, &Key)>> = match rule.forbids {
-        true => rule.what.iter().map(|key| exceptions().chain([(true, key)]).collect()).collect(),
-        false => vec![exceptions().chain(rule.what.iter().map(|key| (false, key))).collect()],
+    // a condition that fails is enough, or one of what is needed; a condition of several keys fails if each of them does
+    let mut wanted: Vec<Vec<(bool, &Key)>> = match rule.forbids {
+        true => rule.what.iter().map(|key| vec![(true, key)]).collect(),
+        false => vec![rule.what.iter().map(|key| (false, key)).collect()],
     };
+    for keys in each.into_iter().rev() {
+        let keys = keys.iter().map(|key| (!key.no, key));
+        let or_rest = |key| wanted.iter().map(move |rest| [key].into_iter().chain(rest.iter().copied()).collect());
+        wanted = keys.flat_map(or_rest).collect();
+    }
     let then = wanted.iter().flat_map(|literals| {
         let mut clauses = vec![Clause::default()];
         literals.iter().for_each(|(is_not, key)| clauses = with(std::mem::take(&mut clauses), *is_not, key));
@@ -134,7 +139,7 @@ fn of_readings() -> [Value; 2] {
     let slow = json!({ "properties": { "rate": { "properties": { "reference_rate": { "const": TEST_RATE } } } } });
     [
         implies(any(["hardness", "tensile_strength", "tensile_test"].map(has)), slow),
-        implies(key("hardness", json!({ "pattern": measured::of_impacts() })), not(has("rate"))),
+        implies(key("hardness", json!({ "pattern": reading::of_impacts() })), not(has("rate"))),
     ]
 }
 

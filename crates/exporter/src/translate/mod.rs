@@ -166,7 +166,7 @@ pub fn translate(scene: &Scene, request: &Request) -> Result<Translation, Transl
     if let Some(step) = request.step.filter(|step| !(*step > 0.0 && *step <= LONGEST_STEP)) {
         return Err(TranslateError::Step(step));
     }
-    if scene.line.is_some() {
+    if scene.is_line() {
         let why = "its contacts are translated from those of balls, and the scene has a cylinder".into();
         return Err(TranslateError::NoNumbers { tool: tool.title.clone(), why });
     }
@@ -386,7 +386,7 @@ fn of_law(scene: &Scene, impact: Impact, is_asked: bool) -> Result<Outcome, Tran
     let own = scene.clone().with_strengths_for(Some(&impact)).ok_or_else(beyond)?;
     let prediction = own.any_model().predict(&impact).ok_or_else(beyond)?;
     if is_asked {
-        check_width(&own, 0, own.law_name(), &impact, &prediction, &[])?;
+        check_width(&own, 0, own.laws.name(), &impact, &prediction, &[])?;
     }
     Ok(Outcome {
         restitution: prediction.restitution,

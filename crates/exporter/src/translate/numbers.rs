@@ -1,7 +1,7 @@
 //! The numbers that a tool wants to be typed, from its law.
 
 use super::law::Law;
-use super::plastic::{Plastic, Thornton};
+use super::plastic::{POISSON, Plastic, Thornton};
 use libm::{exp, pow, sqrt};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -48,9 +48,6 @@ impl Radii {
         mass / volume(self.ball) + self.other.map_or(0.0, |other| mass / volume(other))
     }
 }
-
-/// Poisson's ratio of the materials that are no material's.
-pub const POISSON: f64 = 0.3;
 
 /// Steps in a contact of a tool that chooses its steps.
 const OWN_STEPS: f64 = 3000.0;

@@ -1,8 +1,10 @@
 //! The elastoplastic laws of LAMMPS and LIGGGHTS.
 
-use super::numbers::POISSON;
 use libm::{acos, exp, hypot, pow, sqrt};
 use std::f64::consts::PI;
+
+/// Poisson's ratio of the materials that are no material's.
+pub const POISSON: f64 = 0.3;
 
 /// An elastoplastic sphere on a rigid flat: Hertz's contact until its mean pressure is that of the yielding sphere,
 /// `Y (1 + 1.75 exp(-4.4 x/R))` at the largest overlap; then this pressure on an area that grows as the sphere is cut. The

@@ -268,7 +268,7 @@ pub fn of_scene(
         quantity(mass, "kg")
     ));
     if scene.contact_count() > 1 {
-        let more = if scene.inverse_masses.is_some() {
+        let more = if scene.inverse_masses().is_some() {
             " They share bodies: a body on several contacts at once has another effective mass at each than in an impact on one."
         } else {
             ""
@@ -296,7 +296,7 @@ pub fn of_scene(
             tool.title
         ));
     }
-    let dents = scene.damped.is_none() && wanted.iter().any(|one| one.restitution < 1.0 - SMALL);
+    let dents = !scene.is_damped() && wanted.iter().any(|one| one.restitution < 1.0 - SMALL);
     if dents && scene.contacts[0].surface == Surface::Dented {
         notes.push(
             "The scene's surface keeps its dents, so that a second impact at the same place is nearly elastic. No tool remembers a dent: \

@@ -221,12 +221,12 @@ fn a_scene_takes_its_file_in_and_is_then_the_same_without_it() {
     let heading = "depth [um];force [kN];contact radius [mm]";
     let found = scene(&csv(heading, &rows, [1e-6, 1e3, 1e-3]), "").unwrap();
     let alone = Scene::parse(found.text.clone(), Path::new("own.toml")).unwrap();
-    assert_eq!(alone.loading, found.loading);
+    assert_eq!(alone.laws.loading(), found.laws.loading());
     assert_eq!(alone.predictions, found.predictions);
     let speed = found.predictions[0];
     let known = predict(&of("brinell"), &Impact { mass: 4e-3, speed: 1.0 }).unwrap();
     assert!((speed.max_force / known.max_force - 1.0).abs() < 1e-3, "{speed:?}");
-    assert!(found.own_curve.as_ref().is_some_and(|words| words.contains("knots through 200 rows")));
+    assert!(found.law_words.as_ref().is_some_and(|words| words.contains("knots through 200 rows")));
     assert!(found.settable().all(|parameter| parameter.name == "initial_gap"), "the bodies are those of the file");
 }
 
