@@ -2,7 +2,7 @@
 //!
 //! Every tool runs the same history of rates, whose forces must be those of the C interface. A co-simulation tool also runs a
 //! ball that hits the block, whose restitution must be the predicted one. The result is a table, including tools that did not
-//! run and the reason. A usual run takes one tool of Python and one of C++, `BRINELL_LONG=1` those that are light, and
+//! run and the reason. A usual run takes one of another make than fmpy, `BRINELL_LONG=1` those that are light, and
 //! `BRINELL_IMPORTERS=all` the larger ones too (two gigabytes). `BRINELL_IMPORTER_PYTHON` names an interpreter with tools that no registry
 //! provides, `BRINELL_WRITE=1` writes the table to docs/importers.md.
 #![cfg(target_os = "linux")]
@@ -94,7 +94,7 @@ const DRIVERS: [Driver; 11] = [
 ];
 
 /// Those of a usual run.
-const USUAL: [&str; 2] = ["fmpy", "libcosim"];
+const USUAL: [&str; 1] = ["libcosim"];
 
 /// Tools without a driver.
 const NOT_RUN: [(&str, &str); 1] = [("fmi-sim", "not tried: it is the program of the `fmi` crate, which is run")];
