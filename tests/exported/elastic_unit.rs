@@ -6,8 +6,6 @@
 use crate::command::{empty_folder, run};
 use crate::unit;
 use brinell_contact::loading::BigAlabo;
-use brinell_testing::rebuilt::{Sources, Way};
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -72,42 +70,4 @@ fn an_elastic_fmu_has_no_constant_of_a_plastic_law() {
         assert!(contains(&plastic, &bytes), "{number} is not to be found where it must be");
         assert!(!contains(&elastic, &bytes), "{number} is in the elastic unit");
     }
-}
-
-/// The library of a scene, compiled like in an export, but with the names of its functions and of the source file of each piece
-/// of its code, inlined or not.
-fn with_names(sources: &Sources, scene: &Path) -> Vec<u8> {
-    sources.use_scene(scene);
-    let way = Way { profile: &["debug='line-tables-only'"], ..Way::default() };
-    let library = sources.library("with_names", &way).unwrap_or_else(|said| panic!("{said}"));
-    fs::read(library).expect("the library that was built")
-}
-
-/// The files of the laws of one kind, by name, without those that every law needs.
-fn law_files(kind: &str) -> BTreeSet<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/contact/src").join(kind);
-    let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    names.filter(|name| name.ends_with(".rs") && name != "mod.rs").collect()
-}
-
-/// The FMU contains no line of the program for a law that yields, or for unloading from a dent.
-#[test]
-fn an_elastic_fmu_has_no_code_of_a_plastic_law() {
-    let sources = Sources::copied("with_names");
-    let [plastic, elastic] = [true, false].map(|yields| with_names(&sources, &scene(yields)));
-    let named = |library: &[u8], files: &BTreeSet<String>| -> BTreeSet<String> {
-        files.iter().filter(|file| contains(library, file.as_bytes())).cloned().collect()
-    };
-    let (loading, unloading) = (law_files("loading"), law_files("unloading"));
-    assert!(named(&plastic, &loading).contains("big_alabo.rs"), "{:?}", named(&plastic, &loading));
-    assert!(named(&plastic, &unloading).contains("contact_radius.rs"), "{:?}", named(&plastic, &unloading));
-    assert_eq!(named(&elastic, &loading), BTreeSet::from(["hertz.rs".to_string()]));
-    assert_eq!(named(&elastic, &unloading), BTreeSet::new());
-    // functions that are not inlined, by their mangled names
-    let names = ["path_of_dent", "unloading_segment", "recovered_work", "dissipated_in_dent"];
-    let functions = |library: &[u8]| -> Vec<&str> {
-        names.into_iter().filter(|name| contains(library, format!("{}{name}", name.len()).as_bytes())).collect()
-    };
-    assert_ne!(functions(&plastic), [""; 0], "a search that finds nothing");
-    assert_eq!(functions(&elastic), [""; 0]);
 }

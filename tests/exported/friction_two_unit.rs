@@ -3,9 +3,8 @@
 use crate::loaded::{Instance, OK, Unit};
 use crate::physics::Random;
 use crate::unit;
-use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel, PlaneContact};
+use brinell_contact::tangential::{Friction, FrictionalModel, PlaneContact};
 use brinell_contact::{Body, Contact, Model, Pair, Surface, loading, unloading};
-use std::f64::consts::PI;
 
 const STEP: f64 = 1e-6;
 
@@ -93,27 +92,5 @@ fn the_unit_gives_the_same_bits_as_the_library() {
         assert_eq!(bits(&instance), expected.collect::<Vec<_>>());
         assert_eq!(instance.integer("sliding"), contact.sliding() as i32);
         assert_eq!(both(&instance, "tangential_rate"), tangential);
-    }
-}
-
-#[test]
-fn motion_along_one_line_has_the_forces_of_one_direction() {
-    let (unit, model) = (unit_of("two_elastic", ""), model());
-    for turn in 0..8 {
-        let (sine, cosine) = (0.25 * PI * f64::from(turn) + 0.1).sin_cos();
-        let (mut instance, mut time) = (unit.ready(), 0.0);
-        let mut line = FrictionalContact::<16>::start(&model, 0.0).expect("within range");
-        for (normal, [rate, _]) in rates(20 + turn as u64, 12) {
-            go(&mut instance, &mut time, (normal, [rate * cosine, rate * sine]), STEP);
-            line.set_tangential_rate(rate);
-            line.step_held(normal, STEP, &model.normal.yield_point(), || model).expect("within range");
-            let (force, [x, y]) = (line.tangential_force(&model), both(&instance, "tangential_force"));
-            let limit = 0.092 * line.normal().force().max(1.0);
-            let difference = (x - force * cosine).hypot(y - force * sine);
-            assert!(difference <= 1e-12 * limit, "{turn}: {difference:e} of {limit:e}");
-            let energy = line.tangential_energy(&model) - instance.real("tangential_energy");
-            assert!(energy.abs() <= 1e-12 * limit * 1e-5, "{turn}: {energy:e}");
-            assert_eq!(instance.integer("sliding"), line.sliding() as i32);
-        }
     }
 }

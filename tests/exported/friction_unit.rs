@@ -24,19 +24,6 @@ fn project(name: &str) -> Unit {
     Unit::load(&unit::scene(name))
 }
 
-/// The FMU of mild steel on mild steel with friction and these laws.
-fn steel(name: &str, law: &str) -> Unit {
-    let outputs = "\"indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\", \"mean_tangential_force\", \
-                   \"friction_work\", \"tangential_energy\", \"stick_radius\", \"contact_radius\", \"sliding\"";
-    let text = format!(
-        "name = \"{name}\"\n[impactor]\nradius = 5e-3\nmaterial = \"mild steel\"\n[target]\nmaterial = \"mild steel\"\n\
-         [law]\n{law}\n[friction]\ncoefficient = 0.3\n[fmu]\noutputs = [{outputs}]\n[impact]\nmass = 4e-3\nspeed = 1.0\n"
-    );
-    Unit::load(&unit::write_scene(name, &text))
-}
-
-const PLASTIC: &str = "loading = \"thornton\"\nunloading = \"thornton\"";
-
 /// Rates along the normal and in the tangential direction [m/s]: an indentation between -1 and 5 um.
 fn rates(seed: u64, length: usize) -> Vec<(f64, f64)> {
     let mut random = Random(seed);
@@ -97,37 +84,6 @@ fn the_unit_gives_the_same_bits_as_the_library() {
         assert_eq!(bits(&instance, &FRICTION), expected.map(f64::to_bits));
         assert_eq!(instance.integer("sliding"), contact.sliding() as i32);
         assert_eq!(instance.real("tangential_rate").to_bits(), tangential.to_bits());
-    }
-}
-
-#[test]
-fn a_step_is_that_of_its_parts() {
-    // an elastic contact exactly; a dent that grows, as far as its law is exact
-    for (unit, tolerance, of_mean) in [
-        (project("oblique"), 1e-13, 1e-12),
-        (steel("thornton_rough", PLASTIC), 1e-12, 1e-6),
-        (steel("brinell_rough", "loading = \"brinell\""), 5e-3, 5e-3),
-    ] {
-        for parts in [2_u32, 7, 100, 1000] {
-            let (mut whole, mut cut, [mut time, mut same]) = (unit.ready(), unit.ready(), [0.0; 2]);
-            let coefficient = whole.real("friction.coefficient");
-            let (mut worst, mut worst_mean) = (0.0_f64, 0.0_f64);
-            for pair in rates(8, 12) {
-                go(&mut whole, &mut time, pair, STEP);
-                let mut mean = 0.0;
-                for _ in 0..parts {
-                    go(&mut cut, &mut same, pair, STEP / f64::from(parts));
-                    mean += cut.real("mean_tangential_force") / f64::from(parts);
-                }
-                let limit = coefficient * whole.real("force");
-                if limit > 0.0 {
-                    worst = worst.max((whole.real("tangential_force") - cut.real("tangential_force")).abs() / limit);
-                    worst_mean = worst_mean.max((whole.real("mean_tangential_force") - mean).abs() / limit);
-                }
-            }
-            println!("{parts} parts: {worst:.1e}, mean {worst_mean:.1e}");
-            assert!(worst <= tolerance && worst_mean <= of_mean, "{parts} parts: {worst:e} {worst_mean:e}");
-        }
     }
 }
 

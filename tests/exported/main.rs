@@ -20,7 +20,6 @@ mod ellipses;
 mod every_law;
 mod export;
 mod friction_derivatives;
-mod friction_rebounds;
 mod friction_two_unit;
 mod friction_unit;
 mod guarded_units;

@@ -42,9 +42,8 @@ fn missing_or_damaged_libraries_and_those_of_another_version_are_reported() {
     let none = empty_folder();
     let said = refusal(&text, none.path());
     assert!(said.contains("no prebuilt libraries in") && said.contains("BRINELL_PREBUILT"), "{said}");
-    let few = prebuilt::made_once("rate", &["--kinds", "rate"]);
-    let said = refusal(&text, &few);
-    assert!(said.contains("no prebuilt library `state`"), "{said}");
+    let said = refusal(&scene("big-alabo", &["impulse"], ""), &prebuilt::only_state());
+    assert!(said.contains("no prebuilt library `momentum`"), "{said}");
     type Change<'a> = &'a dyn Fn(Vec<u8>) -> Vec<u8>;
     let copy = |changed: &str, change: Change| {
         let folder = empty_folder();

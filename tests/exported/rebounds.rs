@@ -1,6 +1,7 @@
 //! `predict --restitution`: the inverse problem gives every speed and yield strength that explains a rebound.
 
 use crate::command::{empty_folder, run};
+use brinell_testing::long::some;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -44,7 +45,7 @@ fn every_solution_has_the_requested_rebound() {
         ("brinell", 0.446, 1),
         ("jackson-green", 0.7, 1),
     ];
-    for (law, goal, count) in cases {
+    for (law, goal, count) in some(cases, 2) {
         let explained = explained(folder.path(), law, goal);
         let speeds = numbers(&explained["speed"]["solutions"]);
         let strengths = numbers(&explained["yield_strength"]["solutions"]);

@@ -48,16 +48,3 @@ def test_the_description_says_whether_the_force_follows_the_input(loss):
     assert follows_rate(f"{loss}_held") == (loss != "plate")
     # bodies that the FMU moves have their own speed
     assert not follows_rate(f"{loss}_moved")
-
-
-@pytest.mark.parametrize("loss", ["fitted", "waves", "plate"])
-@pytest.mark.parametrize("steps", [7, 1000])
-def test_a_held_rate_may_be_cut_into_steps(loss, steps):
-    ends = []
-    for count in (1, steps):
-        contact = unit(f"{loss}_held").ready()
-        for rate, duration in ((0.5, 4e-5), (-0.3, 3e-5), (0.2, 5e-5)):
-            for _ in range(count):
-                contact.step(duration / count, rate)
-        ends.append([contact.get(name) for name in ("force", "work", "dissipated_energy", "indentation")])
-    assert ends[1] == pytest.approx(ends[0], rel=1e-8 if loss == "plate" else 1e-10)

@@ -77,22 +77,6 @@ def test_a_step_that_goes_in_and_out_again_leaves_the_dent_of_its_extreme(polyno
     assert made.get("residual_indentation") == pytest.approx(pressed.get("residual_indentation"), rel=1e-14)
 
 
-@every_course
-def test_a_step_is_the_same_as_its_parts(name):
-    rates, (rate, slope, bend) = COURSES[name]
-    whole, parts = prepared("all_outputs", rates), prepared("all_outputs", rates)
-    course(whole, rate, slope, bend)
-    whole.step(STEP)
-    for part in range(64):
-        time = STEP * part / 64
-        course(parts, rate + time * (slope + 0.5 * bend * time), slope + bend * time, bend)
-        parts.step(STEP / 64)
-    expected = parts.outputs()
-    for key, value in whole.outputs().items():
-        if key not in ("mean_force", "predicted_force", "stiffness"):
-            assert value == pytest.approx(expected[key], rel=1e-10, abs=1e-16), key
-
-
 @pytest.mark.parametrize("orders", [[1, 2], [2, 1], [1, 2, 2]])
 def test_orders_and_values_belong_together_and_the_last_one_counts(orders):
     made, expected = prepared("coupled"), prepared("coupled")

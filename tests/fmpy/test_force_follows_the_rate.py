@@ -1,7 +1,5 @@
 """Rate-dependent laws: the force depends on the input at the same instant, as the model description declares."""
 
-import math
-
 import pytest
 from unit import paths, unit
 
@@ -31,34 +29,6 @@ def test_a_new_rate_changes_what_is_declared_without_a_step_and_nothing_else(nam
     # the surface does not pull
     instance.set(indentation_rate=-1e6)
     assert (instance.get("force"), instance.get("stiffness")) == (0.0, 0.0)
-
-
-@every_unit
-def test_the_force_without_motion_is_the_elastic_one_and_gives_the_energy(name):
-    instance = pressed(name, rate=1.0)
-    instance.set(indentation_rate=0.0)
-    energy, elastic, pieces = 0.0, instance.get("elastic_energy"), 2000
-    step, last = instance.get("indentation") / pieces, instance.get("force")
-    for _ in range(pieces):
-        instance.step(1.0, -step)
-        instance.set(indentation_rate=0.0)
-        force = instance.get("force")
-        energy += 0.5 * (last + force) * step
-        last = force
-    assert energy == pytest.approx(elastic, rel=1e-4)
-
-
-@every_unit
-def test_heat_is_work_less_elastic_energy_and_never_falls(name):
-    instance = unit(name).ready()
-    heat = 0.0
-    for step in range(400):
-        instance.step(1e-7, 0.6 * math.cos(0.05 * step))
-        outputs = instance.outputs()
-        assert outputs["dissipated_energy"] >= heat
-        heat = outputs["dissipated_energy"]
-        assert outputs["work"] == pytest.approx(outputs["elastic_energy"] + heat, rel=1e-14)
-    assert heat > 0.0
 
 
 @pytest.mark.parametrize("name", [name for name in sorted(paths()) if "restitution" in unit(name).parameters])

@@ -96,18 +96,6 @@ def test_a_tiny_step_changes_next_to_nothing():
     assert after["force"] == pytest.approx(before["force"], rel=1e-8)
 
 
-def test_cutting_a_step_does_not_change_the_result():
-    whole = ready()
-    whole.step(1e-5, 0.7)
-    for pieces in (2, 3, 1000):
-        cut = ready()
-        for _ in range(pieces):
-            cut.step(1e-5 / pieces, 0.7)
-        # the length of a part is rounded once, the sum is exact: 3 ulps of the indentation, 3/2 of that for the force
-        assert cut.get("indentation") == pytest.approx(whole.get("indentation"), rel=1e-15)
-        assert cut.get("force") == pytest.approx(whole.get("force"), rel=3e-15)
-
-
 def test_many_small_increments_add_up_exactly():
     # each is 6e7 times smaller than the indentation: a plain sum loses digits in each step, 1e-12 of the total in the end
     instance = ready()

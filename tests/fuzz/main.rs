@@ -158,7 +158,7 @@ impl Target {
 /// All FMUs: those of the project's own scenes, of additional laws and keys, and of each kind of prebuilt library.
 fn targets() -> Vec<Target> {
     // a thousand contacts show no more than two, and take longer
-    let scenes = targets::scenes().into_iter().filter(|scene| !scene.ends_with("many_contacts.toml"));
+    let scenes = targets::compiled().into_iter().filter(|scene| !scene.ends_with("many_contacts.toml"));
     let compiled = scenes.map(|scene| {
         let name = scene.file_stem().expect("a name").to_string_lossy().into_owned();
         (name, unit::compiled(&scene))
@@ -168,7 +168,7 @@ fn targets() -> Vec<Target> {
         library: unit::library(&fmu),
         scratch: tempfile::tempdir().expect("a folder for temporary files"),
     };
-    compiled.chain(targets::prebuilt()).map(target).collect()
+    compiled.chain(targets::from_prebuilt()).map(target).collect()
 }
 
 #[test]

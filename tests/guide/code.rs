@@ -9,7 +9,7 @@
 
 use crate::markdown::{Block, Page};
 use crate::{is_writing, pages, parallel, python, read, root, skips};
-use brinell_testing::schema;
+use brinell_testing::{prebuilt, schema};
 use std::convert::Infallible;
 use std::env;
 use std::ffi::OsString;
@@ -131,9 +131,9 @@ impl Run {
     fn call(&mut self, mut command: Command) {
         let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
         let mut path = vec![program.parent().unwrap().to_path_buf(), python::python().parent().unwrap().to_path_buf()];
-        path.extend(env::split_paths(&env::var_os("PATH").unwrap_or_default()));
+        path.extend(env::split_paths(&prebuilt::path_without_rust()));
         let path: OsString = env::join_paths(path).expect("folders without colons");
-        python::keeping_modules(&mut command)
+        prebuilt::finding_no_compiler(python::keeping_modules(&mut command))
             .current_dir(self.folder.path())
             .env("PATH", path)
             .env("PYTHONPATH", root().join("python"))

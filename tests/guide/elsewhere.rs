@@ -1,4 +1,4 @@
-//! What goes elsewhere has the form that is asked for there: the data set of the finite elements, the entry of the FMI tools list, the paper.
+//! What goes elsewhere has the form that is asked for there: the data set of the finite elements, the entry of the FMI tools list.
 
 use crate::root;
 use brinell_testing::command::{empty_folder, output};
@@ -121,39 +121,4 @@ fn the_entry_for_the_list_of_fmi_tools_has_the_form_that_the_list_asks_for() {
     let description = entry["description"].as_str().unwrap();
     assert!(!description.ends_with('.') && !description.contains("http"), "{description}");
     assert!(root().join("docs/importers.md").is_file(), "the compatibility information");
-}
-
-/// The form of the Journal of Open Source Software: a head, sections, about a thousand words, references that are cited.
-#[test]
-fn the_paper_has_the_form_of_its_journal() {
-    let text = fs::read_to_string(root().join("paper/paper.md")).unwrap();
-    let bibliography = fs::read_to_string(root().join("paper/paper.bib")).unwrap();
-    let [_, head, body] = text.splitn(3, "---\n").collect::<Vec<_>>()[..] else { panic!("no head") };
-    for key in ["title:", "tags:", "authors:", "affiliations:", "date:", "bibliography: paper.bib"] {
-        assert!(head.lines().any(|line| line.starts_with(key)), "{key}");
-    }
-    let sections: Vec<_> = body.lines().filter_map(|line| line.strip_prefix("# ")).collect();
-    let wanted = [
-        "Summary",
-        "Statement of need",
-        "State of the field",
-        "Software design",
-        "Validation",
-        "Research impact statement",
-        "AI usage disclosure",
-        "Acknowledgements",
-        "References",
-    ];
-    assert_eq!(sections, wanted);
-    let words = body.split_whitespace().count();
-    assert!((750..1300).contains(&words), "{words} words");
-    let known: BTreeSet<_> =
-        bibliography.lines().filter_map(|line| line.split_once('{').filter(|_| line.starts_with('@'))).collect();
-    let known: BTreeSet<_> = known.into_iter().map(|(_, key)| key.trim_end_matches(',')).collect();
-    let is_key = |c: char| c.is_ascii_alphanumeric();
-    let cited = body.split('@').skip(1).map(|rest| &rest[..rest.find(|c| !is_key(c)).unwrap_or(rest.len())]);
-    assert_eq!(cited.collect::<BTreeSet<_>>(), known);
-    for picture in body.split("](").skip(1).map(|rest| rest.split(')').next().unwrap()) {
-        assert!(root().join("paper").join(picture).is_file(), "{picture}");
-    }
 }

@@ -26,13 +26,12 @@ const FILES: [&str; 7] = [
 /// Those that depend on the browser.
 const IN_OTHERS: [&str; 4] = ["test_export.py", "test_form.py", "test_look.py", "test_predictions.py"];
 
-/// The page, with the libraries for this machine; in a usual run, its module is compiled in a third of the time.
+/// The page, with the libraries for this machine.
 fn page() -> PathBuf {
     let page = places::temporary().join("brinell.html");
     let build = |python: &Path| {
         let mut build = Command::new(python);
         build.current_dir(places::root()).arg("packaging/page.py").arg("-o").arg(&page);
-        build.args((!long::is_asked()).then_some("--quick"));
         build.arg("--prebuilt").arg(prebuilt::store()).output().expect("the first test looks for Python")
     };
     let mut output = build(Path::new(python::INSTALLED));
@@ -79,6 +78,10 @@ fn random_scenes(count: usize) -> Vec<String> {
 
 #[test]
 fn the_page_does_what_the_program_does() {
+    // its module is the exporter once more, for WebAssembly
+    if long::leaves_out("the page in a browser") {
+        return;
+    }
     let given = json!({
         "page": page(), "program": places::program(), "libraries": prebuilt::store(), "refused": refused(),
         "random": random_scenes(220),

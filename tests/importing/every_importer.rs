@@ -2,14 +2,16 @@
 //!
 //! Every tool runs the same history of rates, whose forces must be those of the C interface. A co-simulation tool also runs a
 //! ball that hits the block, whose restitution must be the predicted one. The result is a table, including tools that did not
-//! run and the reason. `BRINELL_IMPORTERS=all` adds the larger tools (two gigabytes), `BRINELL_IMPORTER_PYTHON` names an
-//! interpreter with tools that no registry provides, `BRINELL_WRITE=1` writes the table to docs/importers.md.
+//! run and the reason. A usual run takes one of another make than fmpy, `BRINELL_LONG=1` those that are light, and
+//! `BRINELL_IMPORTERS=all` the larger ones too (two gigabytes). `BRINELL_IMPORTER_PYTHON` names an interpreter with tools that no registry
+//! provides, `BRINELL_WRITE=1` writes the table to docs/importers.md.
 #![cfg(target_os = "linux")]
 
 use brinell_testing::command;
 use brinell_testing::fmi_crate;
 use brinell_testing::importer_table::{self, Row, Table};
 use brinell_testing::loaded::{OK, Unit};
+use brinell_testing::long;
 use brinell_testing::places::temporary;
 use brinell_testing::python;
 use brinell_testing::skips;
@@ -90,6 +92,9 @@ const DRIVERS: [Driver; 11] = [
         },
     },
 ];
+
+/// Those of a usual run.
+const USUAL: [&str; 1] = ["libcosim"];
 
 /// Tools without a driver.
 const NOT_RUN: [(&str, &str); 1] = [("fmi-sim", "not tried: it is the program of the `fmi` crate, which is run")];
@@ -177,14 +182,6 @@ fn reference() -> Vec<f64> {
     let forces = forces.collect();
     assert_eq!(regimes.into_iter().collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
     forces
-}
-
-/// The interpreter that has the tool of this name.
-///
-/// # Errors
-/// The reason why the tool cannot be run here.
-pub fn interpreter_of(name: &str) -> Result<PathBuf, String> {
-    python_of(DRIVERS.iter().find(|driver| driver.name == name).expect("a driver has this name"))
 }
 
 fn python_of(driver: &Driver) -> Result<PathBuf, String> {
@@ -347,9 +344,16 @@ fn add(table: &mut Table, driver: &Driver, interpreter: &Path, [folder, swapped]
 fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitution() {
     let (folder, swapped, right) = (folder("right", false), folder("swapped", true), Right::found());
     let mut table = Table::default();
-    table.rows.push(fmi_crate(&folder, &right.forces));
     let all = env::var("BRINELL_IMPORTERS").is_ok_and(|value| value == "all");
+    let light = all || long::is_asked();
+    if light {
+        table.rows.push(fmi_crate(&folder, &right.forces));
+    }
     for driver in &DRIVERS {
+        if !light && !driver.interpreter.is_large() && !USUAL.contains(&driver.name) {
+            table.not_run.push((driver.name.into(), "light; BRINELL_LONG=1 adds it".into()));
+            continue;
+        }
         if driver.interpreter.is_large() && !all {
             table.not_run.push((driver.name.into(), "large; BRINELL_IMPORTERS=all adds it".into()));
             continue;

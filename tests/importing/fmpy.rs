@@ -25,13 +25,6 @@ const BARE: &str = "youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength
 const IMPACT: &str = "impact = { mass = 4e-3, speed = 1.0 }\n";
 const KNOWN: &str = "coupling = { effective_mass = 4e-3 }\n";
 
-/// The case of the reference tables: a rigid sphere of 5 mm on E = 206 GPa, nu = 0.3, S = 300 MPa.
-fn reference_case(name: &str, unloading: &str, surface: &str) -> PathBuf {
-    let outputs = ["indentation", "max_indentation", "residual_indentation", "dissipated_energy", "work", "regime"];
-    let law = format!("law = {{ loading = \"big-alabo\", unloading = \"{unloading}\" }}");
-    ball(name, &format!("target = {{ {BARE}, surface = \"{surface}\" }}\n{law}\nfmu = {{ outputs = {outputs:?} }}"))
-}
-
 /// The contact of scenes/mass_known.toml for this kind of importer, with these inputs and more outputs.
 fn for_master(name: &str, master: &str, inputs: &[&str]) -> PathBuf {
     let text = fs::read_to_string(scene("mass_known")).expect("a scene file");
@@ -176,11 +169,7 @@ fn calls_states_steps_and_instances_are_those_of_the_standard() {
 }
 
 #[test]
-fn contacts_follow_tables_derivatives_and_friction() {
-    let cases = ["contact-radius", "thornton", "original-radius"].map(|closure| {
-        let name = closure.replace('-', "_");
-        reference_case(&name, closure, "dented")
-    });
+fn contacts_follow_derivatives_and_friction() {
     let energies = ball(
         "energies",
         &format!("{STEEL}{IMPACT}fmu = {{ outputs = [\"residual_indentation\", \"work\", \"elastic_energy\"] }}"),
@@ -198,17 +187,10 @@ fmu = { outputs = [
         "{STEEL}law = {{ loading = \"hunt-crossley\", restitution = 0.6 }}\n\
          fmu = {{ outputs = [\"impulse\", \"mean_force\", \"predicted_force\"] }}"
     );
-    let written = [
-        energies,
-        write_scene("all_outputs", all_outputs),
-        ball("rate_dependent", &rate_dependent),
-        reference_case("dented", "contact-radius", "dented"),
-        reference_case("fresh", "contact-radius", "fresh"),
-    ];
+    let written = [energies, write_scene("all_outputs", all_outputs), ball("rate_dependent", &rate_dependent)];
     let own = ["coupled", "mass_known", "steel_ball", "oblique", "two_directions", "slope"].map(scene);
-    let topics =
-        ["prescribed_history", "contact_closes_again", "coupling", "derivatives", "friction", "shared_friction"];
-    pytest(&topics, cases.into_iter().chain(written).chain(own));
+    let topics = ["coupling", "derivatives", "friction", "shared_friction"];
+    pytest(&topics, written.into_iter().chain(own));
 }
 
 #[test]

@@ -14,8 +14,5 @@ mod engines;
 mod every_importer;
 mod examples;
 mod fmpy;
-mod friction_importers;
 mod numbers_in_engines;
 mod python_module;
-#[cfg(unix)]
-mod second_importer;

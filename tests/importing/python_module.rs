@@ -1,5 +1,6 @@
 //! The Python module in python/brinell: one test for each file in tests/python/.
 
+use crate::prebuilt;
 use crate::python;
 use crate::unit::{export, scene, write_scene};
 use brinell_testing::hostile;
@@ -74,7 +75,7 @@ fn pytest(file: &str) {
         let said: HashMap<_, _> = all.iter().map(|(path, hostile)| (path, hostile.said)).collect();
         std::fs::write(hostile.path().join("said.json"), serde_json::to_string(&said).unwrap()).unwrap();
     }
-    let output = python::keeping_modules(&mut Command::new(python::python()))
+    let output = prebuilt::finding_no_compiler(python::keeping_modules(&mut Command::new(python::python())))
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
         .current_dir(folder)
         .env("PYTHONPATH", root.join("python"))

@@ -4,7 +4,6 @@
 
 mod damped_motion;
 mod derivatives;
-mod exceptions;
 mod extreme_inputs;
 mod friction;
 mod hostile_states;

@@ -120,7 +120,7 @@ fn a_ball_bounces_ten_times_to_the_heights_of_the_energy_balance() {
     for surface in [Surface::Dented, Surface::Fresh] {
         let models = all_models(mild()).into_iter();
         let models = models.filter(|(_, model)| physics::is_passive(model) && model.loading.is_segmented());
-        for (place, (name, model)) in some(models, 4).enumerate() {
+        for (place, (name, model)) in some(models, 12).enumerate() {
             // gravity is stronger for short steps, to limit their number
             for (size, gravity) in [(1e-6, 50.0), (3e-5, 50.0), (1e-3, 9.81), (5e-3, 9.81)] {
                 // with long steps, the tenth bounce may be in the same step as the eleventh

@@ -62,7 +62,7 @@ fn no_contact_presses_beyond_its_dent_in_slow_and_fast_motion() {
                 below += u32::from(dent > 0.0);
                 // out beyond the dent and the surface, and in again
                 let way = 1.3 * (largest - dent.min(0.0));
-                for parts in [1, 3, 200] {
+                for parts in [1, 3, 50] {
                     let what = format!("{name}, {largest:e} m, {parts} steps, {pair:?}");
                     let mut history = deepest;
                     travel(&what, &model, &mut history, -way, parts);

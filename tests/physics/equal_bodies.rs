@@ -6,6 +6,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::{self, Rate};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, Loading, Model, Numbered, OtherBody, Pair, Surface, TwoBodies};
+use brinell_testing::long;
 use std::collections::BTreeSet;
 
 /// A ball against an equal one, and the same ball against a rigid plane, with this hardening modulus \[Pa\] and these laws.
@@ -55,7 +56,7 @@ fn two_equal_bodies_are_one_on_a_rigid_plane_with_twice_the_mass_at_half_the_spe
     let mut random = Random(11);
     let (mut hardened, mut broken) = (0, BTreeSet::new());
     for (name, _, loading, unloading) in every_pair_of_laws() {
-        for _ in 0..20 {
+        for _ in 0..long::cases(20) {
             let (ball, strength, hardening) = any_ball(&mut random);
             let models = both(&ball, strength, hardening, (loading, unloading));
             let [two, one] = &models;

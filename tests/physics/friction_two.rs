@@ -6,6 +6,7 @@ mod springs;
 use crate::friction::{hertz, table};
 use crate::physics::Random;
 use brinell_contact::tangential::{Friction, Motion, PlayOperator};
+use brinell_testing::long;
 use histories::{MODULUS, RADIUS, Run, Step, any_sizes, circles, distance, length, like_the_table};
 use springs::Springs;
 
@@ -124,7 +125,7 @@ fn a_list_that_is_not_full_misses_the_springs_by_less_than_a_thousandth() {
 fn the_mean_force_of_a_step_at_once_is_that_of_its_parts() {
     for (name, history) in KINDS {
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for seed in 0..30 {
+        for seed in 0..long::cases(30) {
             let mut run = Run::<16>::new();
             for step in history(seed, 40) {
                 let way = Motion::straight(run.indentation, run.indentation + step.0, step.1);

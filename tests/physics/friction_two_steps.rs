@@ -6,6 +6,7 @@ use crate::physics::Random;
 use brinell_contact::Contact;
 use brinell_contact::path::RatePolynomial;
 use brinell_contact::tangential::{FrictionalContact, PlaneContact, Quantity, Sliding};
+use brinell_testing::long;
 use std::f64::consts::PI;
 
 /// Long enough that no list is ever full.
@@ -74,7 +75,7 @@ fn without_slip_friction_does_no_work() {
 fn a_touch_and_a_separation_in_two_steps_have_the_impulse_and_friction_work_of_a_thousand() {
     for (name, model) in elastic_models() {
         let mut worst = [0.0_f64; 2];
-        for seed in 0..60 {
+        for seed in 0..long::cases(60) {
             let mut random = Random(seed);
             let (depth, gap) = (1e-7, 4e-8 * random.next());
             let size = depth / model.friction.scale();
@@ -180,7 +181,7 @@ fn a_force_is_extrapolated_better_with_its_second_derivative_than_without() {
         }
         for kind in ["held", "accelerated", "random"] {
             let (mut with, mut without) = (Vec::new(), Vec::new());
-            for seed in 0..8 {
+            for seed in 0..long::cases(8) {
                 let mut random = Random(seed);
                 random.next();
                 let (depth, size) = (1e-7, 1e-7 / model.friction.scale());

@@ -75,43 +75,6 @@ fn follow(model: &AnyModel, turns: &[f64], mut check: impl FnMut(&History, &Hist
     }
 }
 
-/// Integral of the force over `[low, high]` with Simpson's rule, bisected until both halves agree within `allowed`.
-fn simpson(force: &dyn Fn(f64) -> f64, low: f64, high: f64, allowed: f64, depth: u32) -> f64 {
-    let rule = |a: f64, b: f64| (b - a) / 6.0 * (force(a) + 4.0 * force(0.5 * (a + b)) + force(b));
-    let middle = 0.5 * (low + high);
-    let (whole, halves) = (rule(low, high), rule(low, middle) + rule(middle, high));
-    if depth == 0 || (whole - halves).abs() <= allowed {
-        return halves + (halves - whole) / 15.0;
-    }
-    simpson(force, low, middle, 0.5 * allowed, depth - 1) + simpson(force, middle, high, 0.5 * allowed, depth - 1)
-}
-
-#[test]
-fn work_is_the_integral_of_the_force_along_the_path() {
-    check_all(any_path, |(model, turns)| {
-        follow(model, turns, |before, after, largest| {
-            let (from, to) = (before.indentation(), after.indentation());
-            let size = energy_size(model, largest.max(0.0));
-            let force = |indentation: f64| {
-                let mut history = *before;
-                advance(&mut history, model, indentation - from);
-                history.force()
-            };
-            // many panels from the start, because two coarse estimates may agree by chance; at a corner, where they do not
-            // converge, the panels are 2^-26 of the part when bisection stops
-            let panel = |index: u32| from + (to - from) * f64::from(index) / 64.0;
-            let part = |index| simpson(&force, panel(index), panel(index + 1), 1e-14 * size, 20);
-            let integral: f64 = (0..64).map(part).sum();
-            let work = after.work(model) - before.work(model);
-            // the estimate of Simpson's error is not a bound: about ten times the tolerance of 64 panels. Where the force
-            // jumps, Simpson's rule misses at most the jump, 8 % of the force, over half of the last panel
-            let jump = if physics::has_jumps(model) { 0.08 * (to - from).abs() / 67_108_864.0 } else { 0.0 };
-            let missed = 3.0 * jump * loading_force(model, largest.max(0.0));
-            assert!((work - integral).abs() <= 1e-11 * size + missed, "{work:e}, by integration {integral:e}");
-        });
-    });
-}
-
 #[test]
 fn a_step_may_be_cut_anywhere() {
     check_all(

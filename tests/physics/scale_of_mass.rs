@@ -31,7 +31,7 @@ fn course<M, C: Contact<M>>(name: &str, model: &M, follow: Follow<C, M>, k: f64)
 /// A ball of any mass goes the way of a ball of `MASS`.
 fn check<M, C: Contact<M>>(name: &str, of: impl Fn(f64) -> M, follow: Follow<C, M>) {
     let expected = course(name, &of(1.0), follow, 1.0);
-    for k in [-20, -10, -1, 1, 10, 20].map(|power| 2f64.powi(power)) {
+    for k in [-20, -1, 10].map(|power| 2f64.powi(power)) {
         let found = course(name, &of(k), follow, k);
         for (step, (found, expected)) in found.iter().zip(&expected).enumerate() {
             assert_eq!(found, expected, "{name}, {} times the mass, step {step}", k * k);

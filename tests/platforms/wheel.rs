@@ -86,6 +86,7 @@ static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
 });
 
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn the_installed_program_answers_as_the_one_it_was_made_of() {
     let answers = |mut command: Command| output(command.arg("predict").arg(scene("mass_known"))).with_status(0).out;
     let built = answers(brinell(root()));
@@ -98,6 +99,7 @@ fn the_installed_program_answers_as_the_one_it_was_made_of() {
 }
 
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn the_module_hands_on_the_status_of_the_program() {
     let mut module = INSTALLED.command("python");
     let Run { err, .. } = output(module.args(["-m", "brinell", "predict", "nowhere.toml"])).with_status(1);
@@ -105,6 +107,7 @@ fn the_module_hands_on_the_status_of_the_program() {
 }
 
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn the_module_finds_the_program_of_its_wheel_without_activation() {
     let found = INSTALLED.python("import brinell; print(brinell.program())");
     let program = format!("brinell{}", std::env::consts::EXE_SUFFIX);
@@ -116,6 +119,7 @@ fn the_module_finds_the_program_of_its_wheel_without_activation() {
 
 /// Such an environment has another layout, and its list of files names a wrong place of the program.
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn the_module_finds_the_program_of_a_wheel_in_a_folder_of_its_own() {
     let folder = empty_folder();
     let mut pip = Command::new(INSTALLED.programs.join("python"));
@@ -129,6 +133,7 @@ fn the_module_finds_the_program_of_a_wheel_in_a_folder_of_its_own() {
 }
 
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn the_versions_of_program_module_and_wheel_are_one() {
     let version = output(INSTALLED.command("brinell").args(["--version", "--json"])).with_status(0).json();
     assert_eq!(version["version"], env!("CARGO_PKG_VERSION"));
@@ -140,6 +145,7 @@ fn the_versions_of_program_module_and_wheel_are_one() {
 }
 
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn manual_and_completions_are_installed_and_name_every_command() {
     let share = INSTALLED.programs.parent().unwrap().join("share");
     for command in ["export", "check", "predict", "curve", "laws", "report", "ssp"] {
@@ -153,6 +159,7 @@ fn manual_and_completions_are_installed_and_name_every_command() {
 }
 
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn the_same_program_makes_the_same_wheel_and_archive() {
     let again = empty_folder();
     release(again.path());
@@ -163,6 +170,7 @@ fn the_same_program_makes_the_same_wheel_and_archive() {
 }
 
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 #[cfg(unix)]
 fn the_archive_contains_the_program_and_its_files() {
     let folder = empty_folder();
@@ -182,6 +190,7 @@ fn the_archive_contains_the_program_and_its_files() {
 
 /// The bill of materials lists exactly the crates whose licenses are packed, each with the hash in Cargo.lock.
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn the_wheel_has_a_bill_of_materials() {
     let info = INSTALLED.python("import importlib.metadata as m; print(m.distribution('brinell')._path)");
     let read = |path: &str| fs::read_to_string(Path::new(&info).join(path)).expect("installed with the wheel");
@@ -214,6 +223,7 @@ fn the_wheel_has_a_bill_of_materials() {
 }
 
 #[test]
+#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
 fn a_first_export_takes_no_compiler_and_fmpy_runs_the_unit() {
     output(INSTALLED.command("brinell").arg("export").arg(scene(SCENE))).with_status(0);
     let run = "import fmpy; print(len(fmpy.simulate_fmu('mass_known.fmu', stop_time=1e-3, output_interval=1e-5)))";

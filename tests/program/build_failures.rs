@@ -2,7 +2,7 @@
 #![cfg(target_os = "linux")]
 
 use crate::command::{brinell, cache, contents, empty_folder, output, scene, settled};
-use brinell_testing::skips;
+use brinell_testing::{long, skips};
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -55,36 +55,34 @@ fn a_missing_linker_is_named_with_what_to_install() {
     contains(&message, &["there is no C linker `cc`", "apt install gcc", "Debian", "dnf install gcc", "Fedora"]);
 }
 
+/// One that fails, one that warns before, one that says nothing, one that is killed, and one that is no program.
 #[test]
-fn a_failing_linker_is_quoted() {
-    let cc = program("cc", "echo 'cc: no such spell: -shared' >&2; echo 'cc: and more' >&2; exit 3");
-    let message = message(|command| command.env("PATH", cc.path()));
-    contains(&message, &["the C linker `cc` fails (exit status: 3): cc: no such spell: -shared"]);
-    assert!(!message.contains("and more") && !message.contains("-nostartfiles"), "{message}");
-}
-
-#[test]
-fn the_words_of_a_linker_are_found_behind_its_warnings() {
-    let cc = program("cc", "echo 'ld: warning: this is old' >&2; echo; echo 'ld: error: cannot do it' >&2; exit 1");
-    contains(
-        &message(|command| command.env("PATH", cc.path())),
-        &["`cc` fails (exit status: 1): ld: error: cannot do it"],
-    );
-}
-
-#[test]
-fn a_linker_that_crashes_or_prints_nothing_is_reported() {
-    let silent = program("cc", "exit 7");
-    contains(&message(|command| command.env("PATH", silent.path())), &["`cc` fails (exit status: 7): it says nothing"]);
-    let killed = program("cc", "kill -9 $$");
-    contains(&message(|command| command.env("PATH", killed.path())), &["`cc` fails (signal: 9", "it says nothing"]);
-}
-
-#[test]
-fn a_linker_that_is_no_program_is_named() {
-    let text = program("cc", "");
-    fs::set_permissions(text.path().join("cc"), fs::Permissions::from_mode(0o644)).unwrap();
-    contains(&message(|command| command.env("PATH", text.path())), &["`cc`", "Permission denied"]);
+fn what_a_failing_linker_says_is_quoted() {
+    // each of them compiles a library first
+    if long::leaves_out("linkers that fail") {
+        return;
+    }
+    for (script, told) in [
+        (
+            "echo 'cc: no such spell: -shared' >&2; echo 'cc: and more' >&2; exit 3",
+            "the C linker `cc` fails (exit status: 3): cc: no such spell: -shared",
+        ),
+        (
+            "echo 'ld: warning: this is old' >&2; echo; echo 'ld: error: cannot do it' >&2; exit 1",
+            "`cc` fails (exit status: 1): ld: error: cannot do it",
+        ),
+        ("exit 7", "`cc` fails (exit status: 7): it says nothing"),
+        ("kill -9 $$", "`cc` fails (signal: 9"),
+        ("", "Permission denied"),
+    ] {
+        let cc = program("cc", script);
+        if script.is_empty() {
+            fs::set_permissions(cc.path().join("cc"), fs::Permissions::from_mode(0o644)).unwrap();
+        }
+        let message = message(|command| command.env("PATH", cc.path()));
+        contains(&message, &["`cc`", told]);
+        assert!(!message.contains("and more") && !message.contains("-nostartfiles"), "{message}");
+    }
 }
 
 #[test]
@@ -185,6 +183,9 @@ fn a_file_that_cannot_grow_is_reported_with_the_folder() {
 /// On file systems of several sizes, if they can be mounted.
 #[test]
 fn a_full_disk_is_reported_with_the_folder() {
+    if long::leaves_out("full disks of several sizes") {
+        return;
+    }
     let can_mount = Command::new("unshare")
         .args(["-rm", "mount", "-t", "tmpfs", "tmpfs"])
         .arg(empty_folder().path())

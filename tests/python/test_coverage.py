@@ -1,7 +1,7 @@
 """How often intervals contain the true value: for one, two and three parameters, at and away from
 bounds.
 
-A usual run simulates few measurements of each case. `BRINELL_COVERAGE=2000` simulates as many, and
+A long run simulates few measurements of some cases. `BRINELL_COVERAGE=2000` simulates as many, and
 prints the table of the guide.
 """
 

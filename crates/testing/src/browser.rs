@@ -1,7 +1,6 @@
 //! A browser for tests, in the target folder like all their tools.
 
 use super::python::{environment_beside, keeping_modules};
-use crate::long;
 use crate::places::root;
 use crate::skips::skipped;
 use std::env;
@@ -46,14 +45,10 @@ pub fn pytest(what: &str, files: &[&str], given: impl FnOnce(&mut Command) -> &m
     println!("{text}");
 }
 
-/// In a long run, runs these files in the Firefox and the WebKit of the system too, as far as it has them.
+/// Runs these files in the Firefox and the WebKit of the system too, as far as it has them.
 pub fn pytest_in_others(what: &str, files: &[&str], given: impl Fn(&mut Command) -> &mut Command) {
     let Ok(browser) = browser() else { return };
     for (kind, programs, package) in OTHERS {
-        if !long::is_asked() {
-            skipped(&format!("{what} in {kind}"), "a usual run takes Chromium; BRINELL_LONG=1 adds the others");
-            continue;
-        }
         if let Some(missing) = programs.iter().find(|program| !is_installed(program)) {
             skipped(
                 &format!("{what} in {kind}"),

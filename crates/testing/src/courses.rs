@@ -2,6 +2,7 @@
 //! indentation.
 
 use super::hosts::write_history;
+use crate::physics::Random;
 use crate::places::test_name;
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -10,26 +11,6 @@ use std::sync::LazyLock;
 /// Steps of the history.
 const STEPS: usize = 2000;
 
-/// A small deterministic generator of numbers in [0, 1).
-///
-/// Reference: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014 (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut word = self.0;
-        word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((word ^ (word >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// A log-uniform number between `low` and `high`.
-    fn decades(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.next())
-    }
-}
-
 /// The file of the history, written once.
 pub fn history() -> PathBuf {
     static HISTORY: LazyLock<PathBuf> = LazyLock::new(|| {
@@ -37,11 +18,11 @@ pub fn history() -> PathBuf {
         let (mut steps, mut depth) = (Vec::new(), 0.0);
         while steps.len() < STEPS {
             // a depth to reach in some steps; one in five is out of contact
-            let size = random.decades(1e-9, 3e-5);
+            let size = random.log_uniform(1e-9, 3e-5);
             let target = if random.next() < 0.2 { -size } else { size };
             let parts = (1.0 + 20.0 * random.next()).floor();
             for _ in 0..parts as usize {
-                let step = random.decades(1e-8, 1e-6);
+                let step = random.log_uniform(1e-8, 1e-6);
                 steps.push(((target - depth) / parts / step, step));
             }
             depth = target;

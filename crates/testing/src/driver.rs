@@ -94,7 +94,7 @@ pub fn arguments() -> Vec<String> {
     [path, guid].into_iter().chain(references).map(str::to_string).collect()
 }
 
-pub fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
     element.split_once(&format!(" {name}=\""))?.1.split('"').next()
 }
 

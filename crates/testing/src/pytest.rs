@@ -1,6 +1,6 @@
 //! Tests in Python on existing FMUs.
 
-use super::python;
+use super::{prebuilt, python};
 use crate::places::{program, root};
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use std::process::Command;
 /// the name of the scene, and the program in BRINELL_TEST_PROGRAM.
 pub fn pytest(topics: &[&str], units: &HashMap<String, PathBuf>) {
     let folder = root().join("tests/fmpy");
-    let output = python::keeping_modules(&mut Command::new(python::python()))
+    let output = prebuilt::finding_no_compiler(python::keeping_modules(&mut Command::new(python::python())))
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
         .args(topics.iter().map(|topic| format!("test_{topic}.py")))
         .current_dir(folder)

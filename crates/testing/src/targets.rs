@@ -1,6 +1,6 @@
 //! The FMUs that the conformance suite and the random calls are made of: every kind that there is.
 
-use super::{kinds, prebuilt, unit};
+use super::{kinds, long, prebuilt, unit};
 use std::path::PathBuf;
 
 /// Scenes of laws and keys that the project's own scenes lack: name, loading law, unloading law, additional lines of the
@@ -47,12 +47,36 @@ const MORE: [(&str, &str); 5] = [
 
 /// The scenes of the project, and the further ones.
 pub fn scenes() -> Vec<PathBuf> {
+    unit::scenes().into_iter().chain(further()).collect()
+}
+
+/// Those whose libraries this run compiles: in a usual one some of the project's, and one that needs it.
+pub fn compiled() -> Vec<PathBuf> {
+    if long::is_asked() {
+        return scenes();
+    }
+    let standalone = further().into_iter().filter(|scene| scene.ends_with("standalone.toml"));
+    unit::scenes_to_compile().into_iter().chain(standalone).collect()
+}
+
+/// What this run takes from prebuilt libraries: an FMU of each kind, and in a usual run half of the further scenes.
+pub fn from_prebuilt() -> Vec<(String, PathBuf)> {
+    let further = if long::is_asked() { Vec::new() } else { further() };
+    let further = further.into_iter().skip(1).step_by(2);
+    let named = further.filter(|scene| !scene.ends_with("standalone.toml")).map(|scene| {
+        (scene.file_stem().expect("a scene file has a name").to_string_lossy().into_owned(), unit::export(&scene))
+    });
+    prebuilt().into_iter().chain(named).collect()
+}
+
+/// The scenes of [`FURTHER`] and [`MORE`].
+fn further() -> Vec<PathBuf> {
     let further = FURTHER.map(|(name, loading, unloading, target, law)| {
         let law = format!("[law]\nloading = \"{loading}\"\nunloading = \"{unloading}\"\n{law}");
         unit::write_scene(name, &format!("name = \"{name}\"\n{BODIES}{target}{law}{OUTPUTS}"))
     });
     let more = MORE.map(|(name, text)| unit::write_scene(name, &format!("name = \"{name}\"\n{BODIES}{text}")));
-    unit::scenes().into_iter().chain(further).chain(more).collect()
+    further.into_iter().chain(more).collect()
 }
 
 /// An FMU of each kind of prebuilt library, by the name of the kind.

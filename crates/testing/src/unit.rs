@@ -1,6 +1,7 @@
 //! FMUs for tests: exports a scene with the program as a user does, and loads the library.
 
 use crate::command::{brinell, output};
+use crate::long;
 use crate::places::{program, root, temporary, test_name};
 use crate::prebuilt;
 use std::collections::HashMap;
@@ -70,6 +71,16 @@ pub fn scenes() -> Vec<PathBuf> {
     scenes_in("scenes")
 }
 
+/// Those whose libraries are compiled: in a usual run one of the default contact, with a known mass, with friction, with shared bodies,
+/// and with both.
+pub fn scenes_to_compile() -> Vec<PathBuf> {
+    const USUAL: [&str; 5] = ["steel_ball", "mass_known", "oblique", "stack", "slope"];
+    let mut scenes = scenes();
+    scenes.retain(|path| long::is_asked() || USUAL.iter().any(|name| path.file_stem() == Some(OsStr::new(name))));
+    assert!(scenes.len() >= USUAL.len(), "{scenes:?}");
+    scenes
+}
+
 /// The scene files in this folder of the project.
 pub fn scenes_in(folder: &str) -> Vec<PathBuf> {
     let folder = root().join(folder);
@@ -100,12 +111,12 @@ pub fn write_scene(name: &str, text: &str) -> PathBuf {
     path
 }
 
-/// The FMU of a scene file: compiled if the scene is one of the project or needs it, otherwise from a prebuilt library, with which the
-/// same calls give the same bits and which takes a hundredth of the time.
+/// The FMU of a scene file: compiled if the scene needs it, and in a long run if it is one of the project; otherwise from a prebuilt library,
+/// with which the same calls give the same bits and which takes a hundredth of the time.
 pub fn export(scene: &Path) -> PathBuf {
     let text = fs::read_to_string(scene).unwrap_or_else(|error| panic!("{}: {error}", scene.display()));
-    let of_project = scene.starts_with(root().join("scenes"));
-    made(scene, (!of_project && !text.contains("standalone")).then(prebuilt::store))
+    let compiled = text.contains("standalone") || long::is_asked() && scene.starts_with(root().join("scenes"));
+    made(scene, (!compiled).then(prebuilt::store))
 }
 
 /// The FMU of a scene file, compiled: for what is in the library.

@@ -1,7 +1,7 @@
 //! Runs an FMU with the `fmi` crate: `second-importer UNIT HISTORY`.
 //!
 //! Each line of HISTORY contains an indentation rate [m/s] and a step [s]. For each step, the program prints the force at its
-//! end, as the 16 hexadecimal digits of its bits. `tests/fmpy/force_bits.py` does the same with fmpy.
+//! end, as the 16 hexadecimal digits of its bits.
 
 use fmi::fmi2::import::Fmi2Import;
 use fmi::fmi2::instance::{CoSimulation, Common};

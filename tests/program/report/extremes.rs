@@ -2,6 +2,7 @@
 
 use super::{DEFAULT, ELASTIC, rows};
 use crate::command::{empty_folder, run, scene};
+use brinell_testing::long;
 use serde_json::Value;
 use std::fs;
 
@@ -39,6 +40,9 @@ fn all_extreme_cases_are_judged_and_pass() {
 
 #[test]
 fn an_fmu_may_reject_impacts_beyond_its_law_and_the_summary_warns_of_a_wide_impact() {
+    if long::leaves_out("the report of a wide impact") {
+        return;
+    }
     let folder = empty_folder();
     let text = fs::read_to_string(scene("steel_ball")).expect("a scene");
     let text = text.replace("loading = \"big-alabo\"", "loading = \"jackson-green\"");
@@ -59,6 +63,9 @@ fn an_fmu_may_reject_impacts_beyond_its_law_and_the_summary_warns_of_a_wide_impa
 
 #[test]
 fn energy_created_by_a_law_is_reported_and_is_no_failure_of_its_fmu() {
+    if long::leaves_out("the report of a law that makes energy") {
+        return;
+    }
     let folder = empty_folder();
     let text = fs::read_to_string(scene("steel_ball")).expect("a scene");
     let text =
