@@ -9,7 +9,7 @@ use crate::layout::shortened;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::numbers::out_of_range;
-use crate::own_curve;
+use crate::own_curve::{self, Rows};
 use crate::parameters::ConstantTable;
 use crate::table::{MATERIALS, Material};
 use crate::tension::{self, Specimen};
@@ -405,20 +405,7 @@ pub struct LawTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the name of a law, or { table = \"file.csv\" }")]
 pub struct OwnCurveTable {
-    pub table: Spanned<RowsTable>,
-}
-
-/// Its rows.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "the name of a file, or lists")]
-pub struct RowsTable {
-    pub depth: Vec<f64>,
-    pub force: Vec<f64>,
-    #[serde(default)]
-    pub contact_radius: Vec<f64>,
-    /// Their lines in the file.
-    #[serde(default)]
-    pub line: Vec<f64>,
+    pub table: Spanned<Rows>,
 }
 
 /// A [`ConstantTable`] as a scene has it: numbers.
