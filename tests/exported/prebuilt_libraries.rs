@@ -63,7 +63,7 @@ fn any_scene_has_the_same_bits_and_messages_in_both_ways() {
 /// Every scene of the repository can be exported without a compiler.
 #[test]
 fn the_scenes_of_the_repository_need_no_compiler() {
-    for path in unit::scenes() {
+    for path in unit::scenes().into_iter().chain(unit::scenes_in("scenes/shapes")) {
         let mut text = fs::read_to_string(&path).unwrap();
         // the text goes into a folder of its own
         for name in files_named(&text) {
