@@ -17,6 +17,7 @@ from scene_page import ScenePage, brinell, export, scene, wait_until
 SCENES = [
     "damped", "everything", "mass_known", "rough_contacts", "slope",
     "stack", "steel_ball", "two_contacts", "two_directions", "wired",
+    "roller", "two_rollers", "shapes/cam_pin", "shapes/raceway",
 ]  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 use brinell_testing::archive;
 use brinell_testing::command::{Run, assert_same, brinell, contents, empty_folder, output, run, scene};
 use brinell_testing::toolchain;
+use brinell_testing::unit;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -195,20 +196,21 @@ fn an_fmu_from_prebuilt_libraries_is_for_every_machine_and_small() {
     let folder = empty_folder();
     let store = folder.path().join("store");
     let mut prebuild = brinell(folder.path());
-    prebuild.env("BRINELL_TOOLCHAIN", &toolchain).args(["prebuild", "--kinds", "state"]);
+    prebuild.env("BRINELL_TOOLCHAIN", &toolchain).args(["prebuild", "--kinds", "state,moved"]);
     output(prebuild.args(["--platforms", "all", "-o"]).arg(&store)).with_status(0);
-    let export = |name: &str, arguments: &[&str]| {
+    let export_scene = |scene: &Path, name: &str, arguments: &[&str]| {
         let mut command = brinell(folder.path());
         command.env_remove("CARGO").env("PATH", "/no/path").env("BRINELL_PREBUILT", &store);
-        let said = output(command.arg("export").arg(scene("steel_ball")).args(["--json", "-o", name]).args(arguments));
+        let said = output(command.arg("export").arg(scene).args(["--json", "-o", name]).args(arguments));
         let platforms =
             said.with_status(0).json()["libraries"].as_object().unwrap().keys().cloned().collect::<Vec<_>>();
         (files(&folder.path().join(name)), platforms)
     };
+    let export = |name: &str, arguments: &[&str]| export_scene(&scene("steel_ball"), name, arguments);
     let (every_machine, platforms) = export("default.fmu", &[]);
     assert_eq!(platforms, ["aarch64-linux", "darwin64", "linux64", "win64"]);
     let size = fs::metadata(folder.path().join("default.fmu")).unwrap().len();
-    assert!(size < 400_000, "{size} bytes");
+    assert!(size < 500_000, "{size} bytes");
     let (every_folder, platforms) = export("all.fmu", &["--platforms", "all"]);
     assert_eq!(platforms.len(), 5);
     for platform in ["linux64", "aarch64-linux", "win64", "darwin64"] {
@@ -217,4 +219,9 @@ fn an_fmu_from_prebuilt_libraries_is_for_every_machine_and_small() {
     assert!(contains(library(&every_machine, "darwin64"), library(&every_folder, "aarch64-darwin")));
     let (arm, _) = export("arm.fmu", &["--platforms", "linux64", "--arm64-in-linux64"]);
     assert_same(library(&arm, "linux64"), library(&every_machine, "aarch64-linux"));
+    // the scenes of other shapes differ in their data alone
+    for scene in unit::scenes_in("scenes/shapes").into_iter().chain(["roller", "two_rollers"].map(scene)) {
+        let (_, platforms) = export_scene(&scene, "shape.fmu", &["--platforms", "all"]);
+        assert_eq!(platforms.len(), 5, "{}", scene.display());
+    }
 }

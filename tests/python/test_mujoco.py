@@ -1,5 +1,8 @@
 """Contacts in MuJoCo: distances, inverse masses, momentum, energy, and what is refused."""
 
+import re
+from pathlib import Path
+
 import brinell
 import brinell.mujoco
 import mujoco
@@ -533,6 +536,33 @@ def test_one_pair_bounces_by_its_own_mass_as_by_inverse_masses(unit):
     expected = dropped(unit(1))
     assert expected[2] > 1e-5
     assert dropped(unit(1, coupling=ALONE)) == pytest.approx(expected, rel=1e-12, abs=1e-15)
+
+
+SHAPES = {"roller": 'type="cylinder" size=".01 .01" euler="90 0 0"', "shapes/raceway": 'size="5e-3"'}
+
+
+@pytest.mark.parametrize("name, height, dents", [("roller", 5e-4, False), ("shapes/raceway", 0.01, True)])
+def test_lines_and_ellipses_keep_their_energy_in_steps_of_a_millisecond(tmp_path, name, height, dents):
+    text = (Path(__file__).parents[2] / f"scenes/{name}.toml").read_text(encoding="utf-8")
+    text = re.sub("outputs = .*", 'outputs = ["indentation", "elastic_energy", "dissipated_energy"]', text)
+    # those of a scene that is asked for none have the mass
+    text = re.sub("parameters = .*", "", text)
+    scene = tmp_path / "scene.toml"
+    scene.write_text(text + '[coupling]\neffective_mass = "20 g"\n', encoding="utf-8")
+    radius = 0.01 if name == "roller" else 5e-3
+    body = f'<body pos="0 0 {radius + height}"><joint type="slide" axis="0 0 1"/><geom name="body" mass=".02" {SHAPES[name]}/></body>'
+    model, data = world(FLOOR + body)
+    with brinell.mujoco.attach(model, data, ("body", "floor"), scene) as attached:
+
+        def total():
+            return 0.02 * (9.81 * (data.qpos[0] + height) + 0.5 * data.qvel[0] ** 2) + held(attached.contact)
+
+        impacts = 0
+        for _ in range(500):
+            impacts += attached.step().any()
+            assert total() == pytest.approx(0.02 * 9.81 * height, rel=1e-9)
+        assert impacts > 4
+        assert (attached.contact["dissipated_energy"] > 1e-6) == dents
 
 
 def test_a_contact_that_exists_and_a_scene_can_be_attached(unit):

@@ -13,7 +13,7 @@
 //! of cylinders confirms it: at the same half-width over that at first yield, the mean pressure is 1.1 % lower to 5.8 % higher. Elastic-plastic ellipses
 //! between the two limits have not been compared with anything.
 //!
-//! Reference: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, sections 3.4 and 4.2; B. C. Carlson, *Numerical Algorithms* 10 (1995)
+//! Reference: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, chapters 3 and 4; B. C. Carlson, *Numerical Algorithms* 10 (1995)
 //! 13-26.
 
 use crate::material::Body;

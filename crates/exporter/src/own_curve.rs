@@ -9,6 +9,7 @@ use crate::numbers::{cell, quantity};
 use brinell_contact::loading::Tabulated;
 use brinell_contact::loading::tabulated::{MOST, TableKnot};
 use brinell_contact::{Loading, Model, Pair, Segment, Surface, unloading};
+use serde::{Deserialize, Serialize};
 
 /// The least and the largest number of rows.
 const ROWS: (usize, usize) = (8, 10_000);
@@ -47,15 +48,18 @@ const OF_PIECE: (usize, f64) = (3, 35.0);
 /// How much lines of `a^2` keep straight, over the weight of a row.
 const SMOOTH: f64 = 1e-4;
 
-/// The rows of a file in SI units.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The rows of a file in SI units, as a scene has them.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields, expecting = "the name of a file, or lists")]
 pub struct Rows {
-    /// The line of each in the file.
-    pub lines: Vec<f64>,
     pub depth: Vec<f64>,
     pub force: Vec<f64>,
     /// Of the contact; empty if the file has none.
+    #[serde(default, rename = "contact_radius", skip_serializing_if = "Vec::is_empty")]
     pub radius: Vec<f64>,
+    /// The line of each in the file.
+    #[serde(default, rename = "line", skip_serializing_if = "Vec::is_empty")]
+    pub lines: Vec<u64>,
 }
 
 /// The rows of a [table](measurement::read): the columns depth and force, and perhaps the contact radius.
@@ -67,7 +71,7 @@ pub fn read(bytes: &[u8]) -> Result<Rows, String> {
     let depth = column(&table, "depth")?.ok_or("no column is called depth; such as `depth [um]; force [N]`")?;
     let force = column(&table, "force")?.ok_or("no column is called force; such as `depth [um]; force [N]`")?;
     let radius = column(&table, "contact_radius")?.unwrap_or_default();
-    let lines: Vec<_> = table.lines().map(|line| line as f64).collect();
+    let lines: Vec<_> = table.lines().map(|line| line as u64).collect();
     if !(ROWS.0..=ROWS.1).contains(&lines.len()) {
         return Err(format!("the file has {} rows: allowed is {} to {}", lines.len(), ROWS.0, ROWS.1));
     }
@@ -96,21 +100,11 @@ fn column(table: &Measurement, key: &str) -> Result<Option<Vec<f64>>, String> {
 impl Rows {
     /// The rows as a table of a scene.
     pub fn in_toml(&self) -> String {
-        let list = |name: &str, numbers: &[f64]| match numbers {
-            [] => String::new(),
-            _ => {
-                let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:e}")).collect();
-                format!("{name} = [{}], ", numbers.join(", "))
-            }
-        };
-        let lines: Vec<_> = self.lines.iter().map(|line| format!("{line:.0}")).collect();
-        let lists = [("depth", &self.depth), ("force", &self.force), ("contact_radius", &self.radius)];
-        let lists: String = lists.iter().map(|(name, numbers)| list(name, numbers)).collect();
-        format!("{{ {lists}line = [{}] }}", lines.join(", "))
+        toml::Value::try_from(self).expect("lists of numbers").to_string()
     }
 
     fn said(&self, row: usize) -> String {
-        self.lines.get(row).map_or_else(|| format!("row {}", row + 1), |line| format!("line {line:.0}"))
+        self.lines.get(row).map_or_else(|| format!("row {}", row + 1), |line| format!("line {line}"))
     }
 }
 
@@ -346,7 +340,6 @@ impl Chain {
 
     /// The closest chain on these `knots`.
     fn through(points: &[Point], knots: &[f64], noise: &Noise, first: Option<f64>) -> Chain {
-        let size = 2 * knots.len();
         let unit = |place: usize, begin: usize| {
             let ends = [0, 2].map(|end| {
                 let of = |kind: usize| if place == end + kind { 1.0 } else { 0.0 };
@@ -356,7 +349,7 @@ impl Chain {
         };
         let units: Vec<[Segment; 4]> =
             (1..knots.len()).map(|end| std::array::from_fn(|place| unit(place, end - 1))).collect();
-        let mut equations = vec![vec![0.0; size + 1]; size];
+        let mut equations = Equations::of(2 * knots.len());
         // few rows leave the slopes open
         let between =
             knots.windows(2).flat_map(|ends| [0.25, 0.5, 0.75].map(|part| ends[0] + part * (ends[1] - ends[0])));
@@ -365,19 +358,13 @@ impl Chain {
             let piece = knots.partition_point(|knot| *knot <= point.depth).clamp(1, (knots.len() - 1).max(1)) - 1;
             let Some(units) = units.get(piece) else { continue };
             let weight = trust * noise.weight(point.force) * points[0].force * points[0].force;
-            let parts = units.map(|unit| unit.force(point.depth / knots[0]));
-            for (row, part) in parts.iter().enumerate() {
-                for (column, other) in parts.iter().enumerate() {
-                    equations[2 * piece + row][2 * piece + column] += weight * part * other;
-                }
-                equations[2 * piece + row][size] += weight * part * point.force / points[0].force;
-            }
+            let part = |place: usize| (2 * piece + place, units[place].force(point.depth / knots[0]));
+            equations.ask(&[0, 1, 2, 3].map(part), point.force / points[0].force, weight);
         }
         if let Some(first) = first {
-            equations[0][0] += 1e15;
-            equations[0][size] += 1e15 * first / points[0].force;
+            equations.ask(&[(0, 1.0)], first / points[0].force, 1e15);
         }
-        let solved = solved(equations);
+        let solved = equations.solved();
         let knot = |(k, knot): (usize, &f64)| {
             [*knot, solved[2 * k] * points[0].force, solved[2 * k + 1] * points[0].force / knots[0]]
         };
@@ -404,21 +391,15 @@ fn squares(chain: &Chain, points: &[Point], pair: &Pair) -> Vec<f64> {
         return chain.knots.iter().map(|[depth, force, _]| of_contact_depth(*depth, *force, pair)).collect();
     }
     let depths: Vec<_> = chain.knots.iter().map(|knot| knot[0]).collect();
-    let mut equations = vec![vec![0.0; depths.len() + 1]; depths.len()];
-    let mut ask = |parts: &[(usize, f64)], square: f64, weight: f64| {
-        for (row, one) in parts {
-            parts.iter().for_each(|(column, other)| equations[*row][*column] += weight * one * other);
-            equations[*row][depths.len()] += weight * one * square;
-        }
-    };
+    let mut equations = Equations::of(depths.len());
     for point in points {
         let square = point.radius * point.radius;
         let end = depths.partition_point(|knot| *knot <= point.depth).clamp(1, (depths.len() - 1).max(1));
         match depths.get(end) {
-            None => ask(&[(0, 1.0)], square, 1.0 / (square * square)),
+            None => equations.ask(&[(0, 1.0)], square, 1.0 / (square * square)),
             Some(upper) => {
                 let part = (point.depth - depths[end - 1]) / (upper - depths[end - 1]);
-                ask(&[(end - 1, 1.0 - part), (end, part)], square, 1.0 / (square * square));
+                equations.ask(&[(end - 1, 1.0 - part), (end, part)], square, 1.0 / (square * square));
             }
         }
     }
@@ -426,13 +407,13 @@ fn squares(chain: &Chain, points: &[Point], pair: &Pair) -> Vec<f64> {
     for (place, three) in depths.windows(3).enumerate() {
         let part = (three[1] - three[0]) / (three[2] - three[0]);
         let size = pair.radius * three[1];
-        ask(&[(place, 1.0 - part), (place + 1, -1.0), (place + 2, part)], 0.0, SMOOTH / (size * size));
+        equations.ask(&[(place, 1.0 - part), (place + 1, -1.0), (place + 2, part)], 0.0, SMOOTH / (size * size));
     }
     if chain.knots[0][0] < points[0].depth {
         let square = pair.radius * depths[0];
-        ask(&[(0, 1.0)], square, points.len() as f64 / (square * square));
+        equations.ask(&[(0, 1.0)], square, points.len() as f64 / (square * square));
     }
-    let mut squares = solved(equations);
+    let mut squares = equations.solved();
     (1..squares.len()).for_each(|place| squares[place] = squares[place].max(squares[place - 1]));
     squares
 }
@@ -471,26 +452,44 @@ fn knots(points: &[Point], noise: &Noise, most: usize) -> Vec<f64> {
     places.into_iter().map(|place| points[place].depth).collect()
 }
 
-/// The solution of symmetric equations, each with its right-hand side at its end.
-fn solved(mut equations: Vec<Vec<f64>>) -> Vec<f64> {
-    let size = equations.len();
-    for pivot in 0..size {
-        // a number that no point asks for is zero
-        equations[pivot][pivot] = equations[pivot][pivot] * (1.0 + 1e-13) + f64::MIN_POSITIVE;
-        let row = equations[pivot].clone();
-        for below in equations.iter_mut().skip(pivot + 1) {
-            let factor = below[pivot] / row[pivot];
-            if factor != 0.0 {
-                below.iter_mut().zip(&row).skip(pivot).for_each(|(one, other)| *one -= factor * other);
-            }
+/// The equations of the numbers that are closest to what is asked of them by least squares, each with its right-hand side at its end.
+struct Equations(Vec<Vec<f64>>);
+
+impl Equations {
+    fn of(count: usize) -> Equations {
+        Equations(vec![vec![0.0; count + 1]; count])
+    }
+
+    /// Asks that the sum of these parts of some numbers is `value`.
+    fn ask(&mut self, parts: &[(usize, f64)], value: f64, weight: f64) {
+        let size = self.0.len();
+        for (row, one) in parts {
+            parts.iter().for_each(|(column, other)| self.0[*row][*column] += weight * one * other);
+            self.0[*row][size] += weight * one * value;
         }
     }
-    let mut solution = vec![0.0; size];
-    for place in (0..size).rev() {
-        let known: f64 = (place + 1..size).map(|other| equations[place][other] * solution[other]).sum();
-        solution[place] = (equations[place][size] - known) / equations[place][place];
+
+    fn solved(self) -> Vec<f64> {
+        let size = self.0.len();
+        let mut equations = self.0;
+        for pivot in 0..size {
+            // a number that no point asks for is zero
+            equations[pivot][pivot] = equations[pivot][pivot] * (1.0 + 1e-13) + f64::MIN_POSITIVE;
+            let row = equations[pivot].clone();
+            for below in equations.iter_mut().skip(pivot + 1) {
+                let factor = below[pivot] / row[pivot];
+                if factor != 0.0 {
+                    below.iter_mut().zip(&row).skip(pivot).for_each(|(one, other)| *one -= factor * other);
+                }
+            }
+        }
+        let mut solution = vec![0.0; size];
+        for place in (0..size).rev() {
+            let known: f64 = (place + 1..size).map(|other| equations[place][other] * solution[other]).sum();
+            solution[place] = (equations[place][size] - known) / equations[place][place];
+        }
+        solution
     }
-    solution
 }
 
 /// Makes the force rise everywhere: over the root of the depth a piece is a cubic, which rises if its slopes at the ends are at most three times

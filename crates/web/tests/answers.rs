@@ -175,9 +175,10 @@ fn a_step_that_throws_a_ball_deeper_than_its_radius_is_refused_in_words() {
     assert!(messages.iter().any(|it| it.as_str().unwrap().contains(refused)), "{messages:?}");
 }
 
-/// The scenes of the repository, with those by trade.
+/// The scenes of the repository, with those by trade and of other shapes.
 fn scenes() -> Vec<std::path::PathBuf> {
-    let files = ["scenes", "scenes/trades"].map(|name| std::fs::read_dir(format!("{ROOT}/{name}")).unwrap());
+    let files =
+        ["scenes", "scenes/trades", "scenes/shapes"].map(|name| std::fs::read_dir(format!("{ROOT}/{name}")).unwrap());
     let paths = files.into_iter().flatten().map(|entry| entry.unwrap().path());
     paths.filter(|path| path.extension().is_some_and(|is| is == "toml")).collect()
 }

@@ -134,6 +134,14 @@ fn pressure_at_yield(nu: f64) -> f64 {
     1.0 / largest(inside, 1.0 - 2.0 * nu)
 }
 
+/// The factor and the exponent in `t` of `g` and of `A`.
+const SCALES: [[f64; 2]; 2] = [[0.8924, 0.6138], [1.0181, 0.6778]];
+
+/// `t` with this `h`.
+fn scale(f: f64, h: f64, [factor, exponent]: [f64; 2]) -> f64 {
+    if h > 0.0 { 1.0 + factor * h * (pow(f, exponent) - 1.0) } else { 1.0 }
+}
+
 impl Body {
     fn new(body: &OtherBody, reach: f64, tension: f64) -> Body {
         let OtherBody { modulus, poissons_ratio, yield_strength, hardening_modulus } = *body;
@@ -148,18 +156,9 @@ impl Body {
         Body { modulus, pressure: pressure * yield_strength, of_ratio, hardening, reach, tension }
     }
 
-    /// The scale `t` of `g` or of `A`, whose factor `h` and exponent are given.
-    fn scale(&self, f: f64, place: usize) -> f64 {
-        let [(factor, exponent), other] = [(0.8924, 0.6138), (1.0181, 0.6778)];
-        let (factor, exponent) = if place == 0 { (factor, exponent) } else { other };
-        let [of_depth, of_width] = self.hardening;
-        let h = if place == 0 { of_depth } else { of_width };
-        if h > 0.0 { 1.0 + factor * h * (pow(f, exponent) - 1.0) } else { 1.0 }
-    }
-
     /// `g` at `f >= 1`.
     fn depth(&self, f: f64) -> f64 {
-        let t = self.scale(f, 0);
+        let t = scale(f, self.hardening[0], SCALES[0]);
         let scaled = largest(f / (t * t), 1.0);
         let plain = 0.10057 + 0.02924 / pow(scaled, 2.13) - 0.03941 * (scaled / (scaled + 67.2));
         let [ratio, _] = self.of_ratio;
@@ -169,7 +168,7 @@ impl Body {
 
     /// `A` at `f >= 1`.
     fn width(&self, f: f64) -> f64 {
-        let t = self.scale(f, 1);
+        let t = scale(f, self.hardening[1], SCALES[1]);
         let scaled = f / (t * t);
         let plain = 1.0 + (scaled - 1.0) * (0.6186 - 0.1208 / scaled - 0.1829 * (scaled / (scaled + 16.1)));
         let plain = if scaled < 1.0 { sqrt(scaled) } else { plain };
@@ -335,7 +334,7 @@ impl LinePair {
     fn shape(&self, force: f64) -> f64 {
         let [first, _] = self.both;
         let f = force / self.elastic().force;
-        let t = first.scale(f, 1);
+        let t = scale(f, first.hardening[1], SCALES[1]);
         let scaled = f / (t * t);
         let u = if scaled > 1.0 { pow(scaled, 0.861) - 1.0 } else { 0.0 };
         smallest(1.027 * (u / (u + 2.156)), 1.0)

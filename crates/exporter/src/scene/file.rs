@@ -7,7 +7,7 @@ use super::rules;
 use crate::layout::shortened;
 use crate::mistake::{Mistake, SceneError, Spanned};
 use crate::numbers::out_of_range;
-use crate::own_curve;
+use crate::own_curve::{self, Rows};
 use crate::parameters::ConstantTable;
 use crate::table::{MATERIALS, Material};
 use crate::tension::{self, Specimen};
@@ -409,20 +409,7 @@ pub struct LawTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the name of a law, or { table = \"file.csv\" }")]
 pub struct OwnCurveTable {
-    pub table: Spanned<RowsTable>,
-}
-
-/// Its rows.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "the name of a file, or lists")]
-pub struct RowsTable {
-    pub depth: Vec<f64>,
-    pub force: Vec<f64>,
-    #[serde(default)]
-    pub contact_radius: Vec<f64>,
-    /// Their lines in the file.
-    #[serde(default)]
-    pub line: Vec<f64>,
+    pub table: Spanned<Rows>,
 }
 
 /// A [`ConstantTable`] as a scene has it: numbers.

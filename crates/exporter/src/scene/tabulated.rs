@@ -5,7 +5,7 @@ use super::contacts::Contacts;
 use super::file::{LawTable, SceneFile};
 use super::fmu;
 use crate::mistake::Mistake;
-use crate::own_curve::{self, Rows};
+use crate::own_curve;
 use brinell_contact::loading::AnyLoading;
 
 /// Whether the law is a curve of one's own.
@@ -18,23 +18,16 @@ pub fn settle(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> Resul
     let Some(curve) = &file.law.own_curve else { return Ok(()) };
     let table = &curve.get_ref().table;
     let span = table.span();
-    let given = table.get_ref();
+    let rows = table.get_ref();
     let wrong = |why: String| Mistake(span.clone(), format!("law.loading.table: {why}"));
-    let count = given.depth.len();
-    let lists =
-        [("force", given.force.len()), ("contact_radius", given.contact_radius.len()), ("line", given.line.len())];
+    let count = rows.depth.len();
+    let lists = [("force", rows.force.len()), ("contact_radius", rows.radius.len()), ("line", rows.lines.len())];
     let is_optional = |name: &str| name != "force";
     if let Some((name, other)) =
         lists.iter().find(|(name, other)| *other != count && !(is_optional(name) && *other == 0))
     {
         return Err(wrong(format!("{name} has {other} numbers, and depth {count}: they must be as many")));
     }
-    let rows = Rows {
-        lines: given.line.clone(),
-        depth: given.depth.clone(),
-        force: given.force.clone(),
-        radius: given.contact_radius.clone(),
-    };
     let pair = scene.pair_of(0).expect("bodies that fit");
     let is_alike = |one: f64, other: f64| (one - other).abs() <= 1e-12 * one.abs();
     for group in 1..scene.contacts.len() {
@@ -44,7 +37,7 @@ pub fn settle(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> Resul
             return Err(wrong(contacts.said(group, message)));
         }
     }
-    let (law, words) = own_curve::law(&rows, &pair).map_err(wrong)?;
+    let (law, words) = own_curve::law(rows, &pair).map_err(wrong)?;
     let is_of_body = |name: &str| name.contains("impactor.") || name.contains("target.");
     fmu::fix(scene, file, &span, is_of_body, "a curve of one's own: the file belongs to these bodies")?;
     if let SceneLaws::Plastic { loading, .. } = &mut scene.laws {

@@ -36,7 +36,7 @@ fn sampled(model: &AnyModel, count: usize, power: f64) -> Rows {
     let depth: Vec<_> = (1..=count).map(|row| deepest() * (row as f64 / count as f64).powf(power)).collect();
     let force = depth.iter().map(|d| model.loading.segment(&model.pair, *d).force(*d)).collect();
     let radius = depth.iter().map(|d| model.loading.contact_radius(&model.pair, *d)).collect();
-    Rows { lines: (2..).map(f64::from).take(count).collect(), depth, force, radius }
+    Rows { lines: (2..).take(count).collect(), depth, force, radius }
 }
 
 fn own(rows: &Rows) -> (AnyModel, String) {
@@ -145,7 +145,7 @@ fn an_unloading_of_the_file_is_that_of_the_law() {
             rows.depth.push(depth);
             rows.force.push(known.unloading_segment(deepest(), depth).force(depth));
         }
-        rows.lines = (2..).map(f64::from).take(rows.depth.len()).collect();
+        rows.lines = (2..).take(rows.depth.len()).collect();
         let (table, words) = own(&rows);
         let at = |part: f64| differences(&known, &table, part);
         assert!(at(0.99).iter().all(|difference| difference.abs() < 1e-3), "{unloading}: {:?}; {words}", at(0.99));
