@@ -1,6 +1,6 @@
 //! Large strain in the law `brinell`: what its constants say of a curve of finite elements that they are not fitted to.
 //!
-//! The correction is written here a second time, with the constants free (`crates/contact/src/large_strain.rs` has the formulas). The law
+//! The correction is written here a second time, with the constants free (`crates/contact/src/material/large_strain.rs` has the formulas). The law
 //! at small strain, to which it is applied, is that of bodies so stiff that there is no large strain.
 
 use crate::comparisons::numbers;

@@ -4,8 +4,8 @@ use crate::physics::{
     self, AnyModel, Random, advance, all_models, is_passive, logarithmic, mild, pressed, random_bodies, unit,
 };
 use brinell_contact::Pair;
+use brinell_contact::Regime;
 use brinell_contact::history::History;
-use brinell_contact::regime::Regime;
 
 /// The contact opens at its dent, to the last bit, and the force has vanished there.
 ///

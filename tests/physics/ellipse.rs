@@ -1,8 +1,8 @@
 //! Elliptic contacts, compared with sums of point forces, with the limits of a ball and of a line, and with the law of lines.
 
-use brinell_contact::ellipse::Ellipse;
 use brinell_contact::loading::{AnyLoading, Line};
-use brinell_contact::strength::Strength;
+use brinell_contact::material::ellipse::Ellipse;
+use brinell_contact::material::strength::Strength;
 use brinell_contact::{Body, Loading, Numbered, Pair, TwoBodies};
 use std::f64::consts::PI;
 

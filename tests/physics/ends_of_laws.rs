@@ -3,7 +3,7 @@
 use crate::physics::{AnyModel, MASS, Random, mild, model, pair_of, some_models};
 use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::impact::{Impact, predict, restitution};
-use brinell_contact::quadrature::logarithmic_integral;
+use brinell_contact::numerics::quadrature::logarithmic_integral;
 use brinell_contact::{History, Pair, losses};
 
 /// Log-uniform numbers from `10^low` to `10^high`.

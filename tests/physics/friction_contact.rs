@@ -3,7 +3,7 @@
 use crate::friction::assert_close;
 use crate::physics::{MASS, Random, mild};
 use brinell_contact::damped::{AnyDamped, Damped};
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel, Mean, Quantity, Sliding, Springs};
 use brinell_contact::{Contact, History, loading, losses, rate, unloading};
 

@@ -3,7 +3,7 @@
 
 use super::friction_growth::{Model, models};
 use crate::physics::{AnyModel, Random};
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::tangential::{Friction, FrictionalContact, PlaneContact, Sliding};
 use brinell_contact::{Contact, Pair};
 use brinell_testing::long;

@@ -4,7 +4,7 @@
 use super::friction_growth::{Model, history, models};
 use crate::physics::Random;
 use brinell_contact::Contact;
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::tangential::{FrictionalContact, PlaneContact, Quantity, Sliding};
 use brinell_testing::long;
 use std::f64::consts::PI;

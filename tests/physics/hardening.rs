@@ -1,7 +1,7 @@
 //! Hardening: the straight line in place of a power law, and the modulus that belongs to a tangent.
 
 use crate::physics::Random;
-use brinell_contact::hardening::{PowerLaw, modulus_of_tangent};
+use brinell_contact::material::hardening::{PowerLaw, modulus_of_tangent};
 
 /// Of all straight lines, the closest one by least squares leaves an error whose mean and whose moment are zero.
 #[test]

@@ -1,8 +1,8 @@
 //! Steps along a course: exactness, and independence of the division into steps.
 
 use crate::physics::{Random, mild, model, unit};
-use brinell_contact::momentum::impulse;
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::momentum::impulse;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::{Contact, History, Loading, Model, Surface, Unloading, loading, unloading};
 use brinell_fmu::instance::Instance;
 use brinell_fmu::scene::Real;

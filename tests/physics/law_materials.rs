@@ -6,7 +6,7 @@ use crate::physics::{
 };
 use brinell_contact::impact::{Impact, Prediction, predict};
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::two_bodies::{Construction, KNOTS};
+use brinell_contact::loading::two_bodies::{Construction, KNOTS};
 use brinell_contact::{
     Body, Contact, History, Loading, Model, Pair, Peak, Surface, TwoBodies, Unloading, loading, unloading,
 };

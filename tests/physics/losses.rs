@@ -7,7 +7,7 @@ use brinell_contact::losses::{
     AnyLoss, Form, HalfSpaceRadiation, History, Loss, Model, Plate, RestitutionFitted, Solid, follow, impact,
 };
 use brinell_contact::motion::ExternalLoad;
-use brinell_contact::quadrature::graded_integral;
+use brinell_contact::numerics::quadrature::graded_integral;
 use brinell_contact::{Contact, Loading, Surface};
 use brinell_testing::long::some;
 

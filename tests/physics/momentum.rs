@@ -1,8 +1,8 @@
 //! The impulse of a step: exact for any course of the rate, across every corner of the law.
 
 use crate::physics::{AnyModel, Random, mild, model, some_models, unit};
-use brinell_contact::momentum::impulse;
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::momentum::impulse;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::{History, Surface};
 
 /// The impulse from many small steps, each with Simpson's rule, and the final contact.

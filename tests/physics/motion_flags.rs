@@ -4,9 +4,9 @@
 use crate::physics::{AnyModel, Random, all_models, pair_of};
 use crate::shared_losses::random_losing_bodies;
 use crate::shared_motion::{as_rollers, random_bodies};
-use brinell_contact::momentum::impulse;
+use brinell_contact::history::momentum::impulse;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::motion::{ExternalLoad, follow};
-use brinell_contact::path::RatePolynomial;
 use brinell_contact::shared::{self, InverseMasses, SharedContact, Work};
 use brinell_contact::{Contact, History, Model, Surface, loading, unloading};
 use brinell_testing::arithmetic::{control, set_control};

@@ -192,7 +192,7 @@ fn increments_that_leave_the_range_are_refused_and_change_nothing() {
 
 #[test]
 fn the_range_has_the_same_end_however_it_is_reached() {
-    use brinell_contact::regime::LARGEST_INDENTATION;
+    use brinell_contact::LARGEST_INDENTATION;
     for (name, dented) in all_models(mild()) {
         for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
             assert!(History::start(&model, LARGEST_INDENTATION).is_err(), "{name}: started there");

@@ -4,16 +4,16 @@
 //! The laws here are those of the project with a last digit that changes from call to call.
 
 use crate::physics::{AnyModel, MASS, Random, TURNS, mild, on_grid, some_models};
+use brinell_contact::history::momentum::impulse;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::loading::RecoveryOf;
 use brinell_contact::losses::{self, AnyLoss, HalfSpaceRadiation, Plate, RestitutionFitted, Solid};
 use brinell_contact::material::YieldPoint;
-use brinell_contact::momentum::impulse;
 use brinell_contact::motion::{ExternalLoad, follow};
-use brinell_contact::path::RatePolynomial;
-use brinell_contact::regime::{LARGEST_INDENTATION, Regime};
 use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel};
 use brinell_contact::unloading::Recovery;
 use brinell_contact::{Contact, History, Loading, Model, Pair, Peak, Segment, Surface, Unloading, loading, unloading};
+use brinell_contact::{LARGEST_INDENTATION, Regime};
 use brinell_testing::long::some;
 use std::cell::{Cell, RefCell};
 

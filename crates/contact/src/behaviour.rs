@@ -1,10 +1,10 @@
 //! The interface of every kind of contact: it starts, moves, returns its force and energies, and can be saved.
 
-use super::numbers::quotient;
-use super::path::RatePolynomial;
 use super::regime::{Regime, TooDeep};
 use super::tangential::{Quantity, Sliding};
 use super::validity::largest_radius;
+use crate::history::path::RatePolynomial;
+use crate::numerics::quotient;
 use core::borrow::Borrow;
 use core::f64::consts::PI;
 

@@ -1,10 +1,10 @@
 //! Prediction of an impact from the energy balance, without time stepping.
 
 use super::loading::Loading;
-use super::quadrature::{gauss, graded_integral};
 use super::regime::LARGEST_INDENTATION;
 use super::unloading::Unloading;
 use super::{Model, Regime};
+use crate::numerics::quadrature::{gauss, graded_integral};
 use core::cell::Cell;
 use libm::{pow, sqrt};
 

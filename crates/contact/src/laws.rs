@@ -1,7 +1,7 @@
 //! The list of the laws of a kind, written once.
 
 use super::loading::Elastic;
-use super::two_bodies::TwoBodies;
+use crate::loading::two_bodies::TwoBodies;
 
 /// Makes the laws of a kind public, and an enum of them for programs that choose a law while they run.
 ///

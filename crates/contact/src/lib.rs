@@ -27,7 +27,7 @@
 //!
 //! # Validity
 //! The model is a quasi-static normal contact of a paraboloid, with friction on top: `a/R` up to about 0.3, and a contact time
-//! that is long compared with the travel time of elastic waves. Hardening ([`strength`]), the strain rate ([`rate`]) and waves
+//! that is long compared with the travel time of elastic waves. Hardening ([`material::strength`]), the strain rate ([`rate`]) and waves
 //! ([`losses`]) are there for those who ask for them. [`validity`] gives the limits as numbers.
 //!
 //! # Units
@@ -54,31 +54,20 @@
 //! # Modules
 //! | module | content |
 //! |---|---|
-//! | [`material`] | bodies, effective radius and modulus, yield point |
-//! | [`segment`] | the form of the branches of most laws: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
-//! | [`loading`] | one file for each loading law |
+//! | [`material`] | bodies, effective radius and modulus, yield point; with hardening, large strain, ellipses and lines |
+//! | [`loading`] | one file for each loading law, made of [segments](Segment); [two bodies](loading::two_bodies) pressed together |
 //! | [`unloading`] | one file for each unloading law |
-//! | [`numbers`] | arithmetic that raises no exceptions |
-//! | [`path`] | the indentation, summed without loss of digits |
-//! | [`dual`] | slopes of long formulas by automatic differentiation |
-//! | [`quadrature`] | numerical integration where work or time has no closed form |
+//! | [`history`] | the state of a contact, its path through the branches, and the integral of its force over time |
 //! | [`behaviour`] | the trait [`Contact`] |
-//! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | prediction of an impact from the energy balance |
-//! | [`piece`] | the smooth pieces of a law |
-//! | [`momentum`] | the integral of force over time, along branches or by pieces |
 //! | [`motion`] | the motion of bodies of known mass |
-//! | [`damped`] | rate-dependent laws: an elastic contact and its damping |
-//! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
 //! | [`shared`] | contacts that share bodies move together |
-//! | [`rate`] | strain rate: the strength of an impact from its closing speed |
-//! | [`mod@line`] | contacts along a line: how far the bodies give way, and back |
-//! | [`ellipse`] | bodies with two principal radii, as balls |
-//! | [`two_bodies`] | two bodies pressed together, from the law `brinell` of each |
-//! | [`strength`] | hardening and Poisson's ratio as one effective strength |
 //! | [`tangential`] | friction: the tangential force of a contact |
+//! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
+//! | [`damped`] | rate-dependent laws: an elastic contact and its damping |
+//! | [`rate`] | strain rate: the strength of an impact from its closing speed |
 //! | [`validity`] | the range in which the laws are valid |
-//! | [`words`] | numbers as words for saved states |
+//! | [`numerics`] | arithmetic that raises no exceptions, quadrature, automatic differentiation, numbers as words of saved states |
 //!
 //! # References
 //! - A. Big-Alabo, P. Harrison, M. P. Cartmell, "Contact model for elastoplastic analysis of half-space indentation by a
@@ -91,45 +80,32 @@
 
 pub mod behaviour;
 pub mod damped;
-pub mod dual;
-pub mod ellipse;
-pub mod hardening;
 pub mod history;
 pub mod impact;
-pub mod large_strain;
 mod laws;
-pub mod line;
 pub mod loading;
 pub mod losses;
 pub mod material;
-pub mod momentum;
 pub mod motion;
-pub mod numbers;
-mod panel;
-pub mod path;
-pub mod piece;
-pub mod quadrature;
+pub mod numerics;
 pub mod rate;
-pub mod regime;
-pub mod segment;
+mod regime;
+mod segment;
 pub mod shared;
-pub mod strength;
 pub mod tangential;
-pub mod two_bodies;
 pub mod unloading;
 pub mod validity;
-pub mod words;
 
 pub use behaviour::Contact;
 pub use history::History;
 pub use laws::{LawNumbers, Numbered};
 pub use loading::Loading;
+use loading::two_bodies::{Construction, Together};
+pub use loading::two_bodies::{OtherBody, TwoBodies};
 pub use material::{Body, Pair, YieldPoint};
-use numbers::smallest;
-pub use regime::{Regime, TooDeep};
+use numerics::smallest;
+pub use regime::{LARGEST_INDENTATION, Regime, TooDeep};
 pub use segment::Segment;
-use two_bodies::{Construction, Together};
-pub use two_bodies::{OtherBody, TwoBodies};
 pub use unloading::{Peak, Unloading};
 
 /// The surface that a new contact meets after the bodies have separated.

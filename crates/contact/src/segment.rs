@@ -1,7 +1,7 @@
 //! One branch of a force-indentation curve.
 
-use super::numbers::next_above;
 use super::regime::LARGEST_INDENTATION;
+use crate::numerics::next_above;
 use libm::sqrt;
 
 /// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5 + c3 z^2`, `z = indentation - origin`.

@@ -1,13 +1,13 @@
 //! The range in which the laws are valid: contacts that are small compared with the bodies, and speeds that are low compared
 //! with elastic waves. Leaving the range logs a warning; the laws continue.
 
-use crate::numbers::smallest;
+use crate::numerics::smallest;
 use libm::{fabs, sqrt};
 
 /// Ratio of contact radius to effective radius `R` up to which the laws hold: they assume a paraboloid and small strain.
 ///
 /// Compared with finite elements with large deformation up to this ratio, the law `brinell`, which is corrected for
-/// [large strain](mod@crate::large_strain), has the force within 1.4 % on a plane and 1.6 % on a sphere that it is not fitted to. Without
+/// [large strain](mod@crate::material::large_strain), has the force within 1.4 % on a plane and 1.6 % on a sphere that it is not fitted to. Without
 /// the correction a plane has 0.6 to 1.4 % too much, but a sphere of `E*/S = 300` has 17 %.
 ///
 /// The same part of the [smaller body](size_of) is the limit where that is smaller: a socket that hardly differs from its ball has an

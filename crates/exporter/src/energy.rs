@@ -6,8 +6,8 @@
 
 use crate::scene::{Scene, SceneLaws};
 use crate::{pairing, table};
+use brinell_contact::LARGEST_INDENTATION;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::regime::LARGEST_INDENTATION;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Model, Pair};
 

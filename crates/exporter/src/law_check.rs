@@ -1,7 +1,7 @@
 //! Checks of laws with constants from a scene on the scene's bodies.
 
+use brinell_contact::LARGEST_INDENTATION;
 use brinell_contact::loading::AnyLoading;
-use brinell_contact::regime::LARGEST_INDENTATION;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Model};
 

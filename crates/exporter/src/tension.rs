@@ -5,7 +5,7 @@ use crate::layout::shortened;
 use crate::measurement::{self, Choices, MeasuredColumn, Measurement};
 use crate::nearest::one_of;
 use crate::numbers::{cell, in_message, quantity, significant};
-use brinell_contact::hardening::PowerLaw;
+use brinell_contact::material::hardening::PowerLaw;
 use std::f64::consts::PI;
 
 /// The relative uncertainty of a flow stress that a tensile test has at this very strain.

@@ -205,7 +205,7 @@ pub fn loading_force(model: &AnyModel, indentation: f64) -> f64 {
 pub fn corners(model: &AnyModel) -> Vec<f64> {
     let mut corners = Vec::new();
     let mut corner = model.loading.next_corner(&model.pair, 0.0);
-    while corner < brinell_contact::regime::LARGEST_INDENTATION {
+    while corner < brinell_contact::LARGEST_INDENTATION {
         corners.push(corner);
         corner = model.loading.next_corner(&model.pair, corner);
     }

@@ -1,15 +1,16 @@
 //! An elastoplastic contact as a [`Contact`].
 
+use super::momentum;
 use super::{History, LARGEST_INDENTATION, Regime, Sum, TooDeep};
+use crate::Model;
 use crate::behaviour::Contact;
+use crate::history::path::RatePolynomial;
 use crate::loading::Loading;
 use crate::material::YieldPoint;
-use crate::numbers::largest;
-use crate::path::RatePolynomial;
+use crate::numerics::largest;
 use crate::segment::Segment;
 use crate::unloading::Unloading;
 use crate::validity::largest_radius;
-use crate::{Model, momentum};
 use core::borrow::Borrow;
 
 impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {

@@ -1,10 +1,10 @@
 //! Transitions between branches. The next branch follows from the present one, or is determined from scratch if it does not.
 
 use super::{ANY, FARTHEST, History, LARGEST_FORCE, LARGEST_INDENTATION, Regime, TOUCHING, TooDeep};
+use crate::history::path::Sum;
 use crate::loading::Loading;
 use crate::material::YieldPoint;
-use crate::numbers::{next_above, smallest};
-use crate::path::Sum;
+use crate::numerics::{next_above, smallest};
 use crate::segment::Segment;
 use crate::unloading::Unloading;
 use crate::{Model, Peak, Surface};

@@ -2,10 +2,10 @@
 
 use super::{History, Regime, TooDeep};
 use crate::Model;
+use crate::history::panel::impulse_on;
+use crate::history::path::RatePolynomial;
 use crate::loading::Loading;
-use crate::numbers::{largest, smallest};
-use crate::panel::impulse_on;
-use crate::path::RatePolynomial;
+use crate::numerics::{largest, smallest};
 use crate::segment::Segment;
 use crate::unloading::Unloading;
 use core::borrow::Borrow;

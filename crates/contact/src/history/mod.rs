@@ -1,5 +1,10 @@
 //! The state of an elastoplastic contact, and its path through the branches of the law.
 
+pub mod momentum;
+pub(crate) mod panel;
+pub mod path;
+pub(crate) mod piece;
+
 mod behaviour;
 mod branches;
 mod course;
@@ -8,10 +13,10 @@ mod saved;
 
 use super::Model;
 use super::loading::Loading;
-use super::path::Sum;
 use super::regime::{LARGEST_INDENTATION, Regime, TooDeep};
 use super::segment::Segment;
 use super::unloading::Unloading;
+use crate::history::path::Sum;
 
 /// The largest force \[N\] and stiffness \[N/m\] of a fitted law. Their products with any time and any indentation are finite.
 const LARGEST_FORCE: f64 = 1e200;

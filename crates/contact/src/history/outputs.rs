@@ -4,7 +4,7 @@ use super::{History, Regime};
 use crate::Model;
 use crate::behaviour::{Contact, slopes};
 use crate::loading::Loading;
-use crate::numbers::next_above;
+use crate::numerics::next_above;
 use crate::unloading::Unloading;
 
 impl History {

@@ -1,8 +1,8 @@
 //! A history as words for a saved state.
 
 use super::{History, LARGEST_INDENTATION, Regime, Sum};
+use crate::numerics::words::{load_numbers, store_numbers};
 use crate::segment::Segment;
-use crate::words::{load_numbers, store_numbers};
 
 impl History {
     /// Passes thirteen words to `store`, in memory order, so that they are copied in pairs.

@@ -2,9 +2,9 @@
 
 use super::brake_2012::first_yield;
 use super::{Loading, hertz};
-use crate::dual::Dual;
 use crate::material::{Pair, YieldPoint};
-use crate::quadrature::{gauss, graded_integral};
+use crate::numerics::dual::Dual;
+use crate::numerics::quadrature::{gauss, graded_integral};
 use crate::regime::{LARGEST_INDENTATION, Regime};
 use crate::segment::Segment;
 use core::f64::consts::PI;

@@ -1,9 +1,9 @@
 //! Brizmer, Zait, Kligerman and Etsion: Hertz's law fading out without a corner.
 
 use super::{Loading, hertz};
-use crate::dual::Dual;
 use crate::material::{Pair, YieldPoint};
-use crate::quadrature::{graded_integral, logarithmic_integral};
+use crate::numerics::dual::Dual;
+use crate::numerics::quadrature::{graded_integral, logarithmic_integral};
 use crate::regime::{LARGEST_INDENTATION, Regime};
 use crate::segment::Segment;
 use core::f64::consts::E;

@@ -2,10 +2,10 @@
 
 use super::jackson_green::{JacksonGreen, Scale};
 use super::{Loading, hertz};
-use crate::dual::Dual;
 use crate::material::{Pair, YieldPoint};
-use crate::numbers::saturation;
-use crate::quadrature::logarithmic_integral;
+use crate::numerics::dual::Dual;
+use crate::numerics::quadrature::logarithmic_integral;
+use crate::numerics::saturation;
 use crate::regime::{LARGEST_INDENTATION, Regime};
 use crate::segment::Segment;
 use core::f64::consts::PI;

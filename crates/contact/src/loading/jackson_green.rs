@@ -1,9 +1,9 @@
 //! Jackson and Green: a hardness that falls with the contact radius.
 
 use super::{Loading, hertz};
-use crate::dual::Dual;
 use crate::material::{Pair, YieldPoint};
-use crate::quadrature::logarithmic_integral;
+use crate::numerics::dual::Dual;
+use crate::numerics::quadrature::logarithmic_integral;
 use crate::regime::{LARGEST_INDENTATION, Regime};
 use crate::segment::Segment;
 use libm::{exp, pow, sqrt};

@@ -1,12 +1,12 @@
 //! Line contact of cylinders that yield, fitted to finite elements in plane strain.
 
 use super::{Loading, MOST_SEGMENTS, RecoveryOf};
-use crate::line::Chain;
+use crate::loading::two_bodies::{OtherBody, TwoBodies};
+use crate::material::line::Chain;
 use crate::material::{Pair, YieldPoint};
-use crate::numbers::{largest, quotient, smallest};
+use crate::numerics::{largest, quotient, smallest};
 use crate::regime::{LARGEST_INDENTATION, Regime};
 use crate::segment::Segment;
-use crate::two_bodies::{OtherBody, TwoBodies};
 use crate::unloading::Recovery;
 use crate::validity::largest_radius;
 use core::f64::consts::{FRAC_PI_4, LN_2, PI};
@@ -16,7 +16,7 @@ use libm::{exp, fabs, log, pow, sqrt};
 /// `F_y' = pi R p^2/E*` and the largest pressure `p` at first yield (1.7937 S for a Poisson's ratio of 0.3):
 ///
 /// - `d/d_y = f/4 (C - ln f) + g(f)`: the logarithm is elastic, `g` is plastic. `C = sum of (E*/E_i) 2 ln(s_i/a_y)` with the
-///   [reach](crate::line) `s_i` of each body;
+///   [reach](crate::material::line) `s_i` of each body;
 /// - `f <= 1`: `A = sqrt f`, `g = 0`;
 /// - above: `g = (f - 1)^2 (0.10057 + 0.02924/f^2.13 - 0.03941 f/(f + 67.2))`,
 ///   `A = 1 + (f - 1) (0.6186 - 0.1208/f - 0.1829 f/(f + 16.1))`.
@@ -30,7 +30,7 @@ use libm::{exp, fabs, log, pow, sqrt};
 /// `1 + (r^1.493 - 1) (1 - 0.636 f^-0.993)`, `A` times `1 + (r^0.951 - 1) (1 - f^-0.416)`, with the `r` of 0.2 below that ratio, and that of 0.4 above.
 ///
 /// **Two bodies.** Each follows its own curve under a rigid cylinder of a radius `R_i` of its own, at equal mean pressure, as in
-/// [`two_bodies`](crate::two_bodies).
+/// [`two_bodies`](crate::loading::two_bodies).
 ///
 /// Against the finite elements in `data/truth/line`: depth within 0.45 %, `g` 0.56 %, half-width 0.8 %; two bodies 1 % (1.6 % beside an
 /// elastic body of a third of the modulus); plates and rollers up to a half-width of 0.04 of their size 0.8 %. The curve has value and slope of

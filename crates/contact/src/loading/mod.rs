@@ -1,5 +1,7 @@
 //! Loading laws, one file each: the force-indentation curve while the indentation is the largest so far.
 
+pub mod two_bodies;
+
 mod any;
 pub mod big_alabo;
 pub mod brake_2012;
@@ -32,9 +34,9 @@ use super::laws::{Constant, LawNumbers, Numbered, laws};
 use super::material::{Pair, YieldPoint};
 use super::regime::{LARGEST_INDENTATION, Regime};
 use super::segment::Segment;
-use super::two_bodies::{Construction, Together, TwoBodies};
 use super::unloading::Recovery;
 use super::validity::largest_radius;
+use crate::loading::two_bodies::{Construction, Together, TwoBodies};
 use core::f64::consts::PI;
 
 laws! {

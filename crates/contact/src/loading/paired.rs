@@ -2,22 +2,22 @@
 
 use super::table::{End, Interpolant, Sample, Slow, Table};
 use super::{Brinell, Loading, MOST_SEGMENTS, RecoveryOf, hertz};
+use crate::loading::two_bodies::{Construction, KNOTS, Lead, Together, TwoBodies};
 use crate::material::{Pair, YieldPoint};
-use crate::numbers::{largest, smallest};
+use crate::numerics::{largest, smallest};
 use crate::regime::Regime;
 use crate::segment::Segment;
-use crate::two_bodies::{Construction, KNOTS, Lead, Together, TwoBodies};
 use crate::unloading::Recovery;
 use libm::sqrt;
 
-/// [`Brinell`] of two bodies, [each by its own curve](crate::two_bodies).
+/// [`Brinell`] of two bodies, [each by its own curve](crate::loading::two_bodies).
 ///
 /// The curve has value and slope of this construction at the [knots](KNOTS), and is `c0 + c1 d + c2 d^1.5 + c3 d^2` between them,
 /// within 0.35 % of it, and within 0.02 % where the other body stays elastic and none hardens. Beyond the last knot it is a straight
 /// line. Value and slope are continuous everywhere. Below yield it is Hertz's law.
 ///
 /// For a rigid sphere on a plane that does not harden and has a Poisson's ratio of 0.3 it is the law `brinell`, but for
-/// [large strain](mod@crate::large_strain). For a rigid sphere on others: against the finite-element curves in `data/truth/materials`,
+/// [large strain](mod@crate::material::large_strain). For a rigid sphere on others: against the finite-element curves in `data/truth/materials`,
 /// force within 0.5 % for `x` from 1.2 to 500, contact radius within 2.1 %.
 ///
 /// The construction costs 1 to 20 us a point. A law that is [prepared](Loading::prepared) has its knots in a table.

@@ -1,9 +1,9 @@
 //! The curve of a pair at its knots, made once, so that a change of branch looks it up.
 
+use crate::loading::two_bodies::TwoBodies;
 use crate::material::{Pair, YieldPoint};
-use crate::numbers::quotient;
+use crate::numerics::quotient;
 use crate::segment::Segment;
-use crate::two_bodies::TwoBodies;
 use crate::unloading::Recovery;
 use libm::sqrt;
 

@@ -2,7 +2,7 @@
 
 use super::{Loading, MOST_SEGMENTS, RecoveryOf};
 use crate::material::{Pair, YieldPoint};
-use crate::numbers::{largest, quotient, smallest};
+use crate::numerics::{largest, quotient, smallest};
 use crate::regime::Regime;
 use crate::segment::Segment;
 use crate::unloading::Recovery;

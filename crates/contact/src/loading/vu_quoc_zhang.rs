@@ -2,7 +2,7 @@
 
 use super::{Loading, hertz};
 use crate::material::{Pair, YieldPoint};
-use crate::quadrature::logarithmic_integral;
+use crate::numerics::quadrature::logarithmic_integral;
 use crate::regime::{LARGEST_INDENTATION, Regime};
 use crate::segment::Segment;
 use libm::{cbrt, sqrt};

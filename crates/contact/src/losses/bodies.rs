@@ -4,7 +4,7 @@ use super::history::History;
 use super::{Loss, Model};
 use crate::loading::Loading;
 use crate::motion::{ExternalLoad, NoMotion, Outcome};
-use crate::numbers::largest;
+use crate::numerics::largest;
 use crate::regime::TooDeep;
 use crate::shared::{self, InverseMasses, Refused, SharedContact, Work};
 use crate::unloading::Unloading;

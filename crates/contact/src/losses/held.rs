@@ -1,10 +1,10 @@
 //! Work and heat of a motion at constant rate.
 
 use super::{Damping, Form, Growth};
+use crate::history::piece::Piece;
 use crate::loading::Loading;
-use crate::numbers::{largest, quotient};
-use crate::piece::Piece;
-use crate::quadrature::{gauss, graded_integral};
+use crate::numerics::quadrature::{gauss, graded_integral};
+use crate::numerics::{largest, quotient};
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::unloading::Unloading;

@@ -5,7 +5,7 @@ use super::history::History;
 use super::{Form, Loss, Model};
 use crate::impact::{Impact, Prediction};
 use crate::loading::Loading;
-use crate::numbers::largest;
+use crate::numerics::largest;
 use crate::unloading::Unloading;
 use libm::{fabs, pow, sqrt};
 

@@ -21,7 +21,7 @@ pub use bodies::follow;
 pub use history::History;
 
 use super::damped::hunt_crossley::DampingFactor;
-use super::numbers::{largest, quotient, root};
+use crate::numerics::{largest, quotient, root};
 use core::hint::black_box;
 use libm::{fabs, sqrt};
 

@@ -1,7 +1,7 @@
 //! Motion on a segment that is not a straight line, as a power series in time.
 
 use super::moments::{Moments, Point};
-use crate::numbers::{root, smallest};
+use crate::numerics::{root, smallest};
 use libm::fabs;
 
 /// Largest number of powers.

@@ -6,7 +6,7 @@
 
 use super::moment::Moment;
 use super::series::{SEGMENT, Series};
-use crate::numbers::{largest, power_of_two, quotient, root};
+use crate::numerics::{largest, power_of_two, quotient, root};
 use crate::segment::Segment;
 use core::cell::Cell;
 use libm::fabs;

@@ -1,7 +1,7 @@
 //! Flight: two bodies that do not touch move along a parabola in time.
 
 use super::SMALLEST;
-use crate::numbers::{largest, quotient, root};
+use crate::numerics::{largest, quotient, root};
 use libm::fabs;
 
 /// A flight at constant acceleration.

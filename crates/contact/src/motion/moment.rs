@@ -1,6 +1,6 @@
 //! An instant of a motion, and the power series in time that starts there.
 
-use crate::numbers::quotient;
+use crate::numerics::quotient;
 use libm::fabs;
 
 /// An instant of a motion in contact.

@@ -1,7 +1,7 @@
 //! The forces around a point of a smooth piece, as a power series in the distance from it.
 
-use crate::numbers::{quotient, root};
-use crate::quadrature::POINTS;
+use crate::numerics::quadrature::POINTS;
+use crate::numerics::{quotient, root};
 use crate::segment::Segment;
 
 /// Number of powers of the acceleration on a segment, whose force is a polynomial of fourth degree in the root.

@@ -5,7 +5,7 @@ use super::curve::Curve;
 use super::field::{Ended, Start, Stretch};
 use super::line::{LONGEST, Line, POWERS};
 use super::moments::{Moments, Point};
-use crate::numbers::{quotient, root, smallest};
+use crate::numerics::{quotient, root, smallest};
 use crate::segment::Segment;
 use libm::{fabs, sqrt};
 

@@ -3,8 +3,8 @@
 use super::field::{Field, Mark, Place};
 use super::turning::behind;
 use super::{MOST_EVALUATIONS, NoMotion};
-use crate::numbers::{largest, quotient, root, smallest};
-use crate::quadrature::{POINTS, SMOOTH, Sampled, sixteen};
+use crate::numerics::quadrature::{POINTS, SMOOTH, Sampled, sixteen};
+use crate::numerics::{largest, quotient, root, smallest};
 use libm::{fabs, sqrt};
 
 /// A motion between two places, at one of which it is slow, on a scale `s` on which time is smooth.

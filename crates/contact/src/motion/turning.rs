@@ -3,7 +3,7 @@
 use super::field::{Field, Mark, Place};
 use super::fit::elastic_way;
 use super::series::SEGMENT;
-use crate::numbers::{largest, quotient, smallest};
+use crate::numerics::{largest, quotient, smallest};
 use libm::{fabs, sqrt};
 
 /// The end of a stretch, with the change of the root from its start.

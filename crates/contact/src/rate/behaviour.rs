@@ -2,11 +2,11 @@
 
 use super::{Factors, History, Model, Slow, are_factors};
 use crate::behaviour::Contact;
+use crate::history::path::RatePolynomial;
 use crate::impact::Impact;
 use crate::motion::PlasticContact;
-use crate::path::RatePolynomial;
+use crate::numerics::words::{load_numbers, store_numbers};
 use crate::regime::{Regime, TooDeep};
-use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
 /// Functions of the contact with constant strength, whatever it is.

@@ -5,7 +5,7 @@ use crate::history;
 use crate::impact::Impact;
 use crate::losses::Damping;
 use crate::motion::PlasticContact;
-use crate::numbers::largest;
+use crate::numerics::largest;
 use crate::regime::TooDeep;
 use crate::shared::SharedContact;
 use libm::fabs;

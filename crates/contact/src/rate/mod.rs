@@ -17,9 +17,9 @@ use super::impact::{self, Impact, Prediction};
 use super::loading::Loading;
 use super::losses;
 use super::motion::{ExternalLoad, time_to_turn};
-use super::numbers::{largest, quotient};
 use super::unloading::Unloading;
 use crate::Pair;
+use crate::numerics::{largest, quotient};
 use core::f64::consts::PI;
 use libm::{exp, fabs, log, pow, sqrt};
 

@@ -13,7 +13,7 @@ use crate::impact::Impact;
 use crate::loading::Loading;
 use crate::losses::Damping;
 use crate::motion::MOST_EVALUATIONS;
-use crate::numbers::{largest, quotient, root, smallest};
+use crate::numerics::{largest, quotient, root, smallest};
 use crate::{Model, TooDeep};
 use core::borrow::Borrow;
 use core::marker::PhantomData;

@@ -2,10 +2,10 @@
 //! and goes on beyond its ends for the trials of the integration.
 
 use crate::history::History;
+use crate::history::piece::{Numbers, Piece};
 use crate::loading::Loading;
 use crate::loading::hertz::EXPONENT as HERTZ;
-use crate::numbers::{largest, smallest};
-use crate::piece::{Numbers, Piece};
+use crate::numerics::{largest, smallest};
 use crate::segment::Segment;
 use crate::unloading::Unloading;
 use crate::{Model, Surface};

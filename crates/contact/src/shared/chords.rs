@@ -46,7 +46,7 @@ use crate::loading::Loading;
 use crate::loading::hertz::EXPONENT as HERTZ;
 use crate::losses::{Damping, Form};
 use crate::motion::MOST_EVALUATIONS;
-use crate::numbers::{largest, quotient, root, smallest};
+use crate::numerics::{largest, quotient, root, smallest};
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 use libm::{cbrt, fabs, sqrt};

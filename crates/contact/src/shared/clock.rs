@@ -6,7 +6,7 @@
 
 use super::scales::Scales;
 use super::work::Work;
-use crate::numbers::{quotient, root, smallest};
+use crate::numerics::{quotient, root, smallest};
 use libm::{fabs, sqrt};
 
 /// A contact whose height and rate make up less than this number of steps is near the surface.

@@ -1,6 +1,6 @@
 //! A number of the motion over one step, as a polynomial: where it crosses zero.
 
-use crate::numbers::quotient;
+use crate::numerics::quotient;
 use libm::fabs;
 
 /// A polynomial of order 5 of the part of a step, from 0 to 1.

@@ -3,7 +3,7 @@
 //! Reference: E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer, 1993,
 //! section II.5; the coefficients are those of its program DOP853.
 
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use libm::sqrt;
 
 /// Number of slopes of a step.

@@ -1,6 +1,6 @@
 //! Linear systems of contacts by conjugate gradients, to which a singular matrix does not matter.
 
-use crate::numbers::quotient;
+use crate::numerics::quotient;
 use libm::fabs;
 
 /// The part of the right side that a solution may leave.

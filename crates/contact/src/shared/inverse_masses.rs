@@ -1,6 +1,6 @@
 //! The matrix of inverse effective masses: how a force at one contact accelerates the others.
 
-use crate::numbers::largest;
+use crate::numerics::largest;
 use core::iter;
 use libm::fabs;
 

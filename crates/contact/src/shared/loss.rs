@@ -2,7 +2,7 @@
 
 use super::branch::{Event, Watched};
 use crate::losses::{Damping, Form};
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use libm::fabs;
 
 /// A border so near, as a part of its depth, is here.

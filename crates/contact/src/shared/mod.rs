@@ -98,7 +98,7 @@ use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
 use crate::motion::{self, ExternalLoad, NoMotion, PlasticContact};
-use crate::numbers::largest;
+use crate::numerics::largest;
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::unloading::Unloading;

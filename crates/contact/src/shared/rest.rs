@@ -10,7 +10,7 @@ use super::branch::Kind;
 use super::gradients::{self, SOLVED, System, Unknown};
 use super::step::accelerate;
 use super::work::{Instant, Work};
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use core::borrow::Borrow;
 use libm::{fabs, sqrt};
 

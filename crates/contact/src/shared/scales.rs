@@ -4,7 +4,7 @@ use super::SharedContact;
 use super::block::Block;
 use super::branch::Kind;
 use crate::loading::hertz::EXPONENT as HERTZ;
-use crate::numbers::{largest, quotient, root, smallest};
+use crate::numerics::{largest, quotient, root, smallest};
 use crate::segment::Segment;
 use core::borrow::Borrow;
 use libm::{fabs, pow, sqrt};

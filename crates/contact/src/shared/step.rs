@@ -9,7 +9,7 @@ use super::inverse_masses::InverseMasses;
 use super::work::{Instant, Work};
 use super::{Refused, SharedContact};
 use crate::motion::COSTLY;
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use core::borrow::Borrow;
 use libm::fabs;
 

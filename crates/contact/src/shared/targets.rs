@@ -8,7 +8,7 @@ use super::clock::Clock;
 use super::curve::Curve;
 use super::step::indentation_over;
 use super::work::Instant;
-use crate::numbers::{largest, quotient, smallest};
+use crate::numerics::{largest, quotient, smallest};
 use core::borrow::Borrow;
 use libm::fabs;
 

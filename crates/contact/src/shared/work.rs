@@ -7,7 +7,7 @@ use super::loss::Loss;
 use super::scales::Scales;
 use crate::history::History;
 use crate::losses::Form;
-use crate::numbers::{largest, quotient, root, smallest};
+use crate::numerics::{largest, quotient, root, smallest};
 use libm::{fabs, sqrt};
 
 /// Working memory of one contact for a step, and its results. The caller keeps one for each contact, or makes them anew: a

@@ -7,13 +7,13 @@ use super::{Frictional, FrictionalModel, Mean, Normal, Quantity, Sliding, Spring
 use crate::Model;
 use crate::behaviour::{Contact, slopes};
 use crate::history::History;
+use crate::history::path::{RatePolynomial, Sum};
 use crate::loading::Loading;
 use crate::material::YieldPoint;
-use crate::numbers::largest;
-use crate::path::{RatePolynomial, Sum};
+use crate::numerics::largest;
+use crate::numerics::words::{load_numbers, store_numbers};
 use crate::regime::{Regime, TooDeep};
 use crate::unloading::Unloading;
-use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
 impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, const MEAN: bool, N: Normal>

@@ -4,9 +4,9 @@ use super::vector::within;
 use super::{Friction, FrictionalModel, Normal, Sliding, SpringsOf};
 use crate::behaviour::Contact;
 use crate::history::History;
+use crate::history::path::{RatePolynomial, Sum};
 use crate::loading::Loading;
-use crate::numbers::{largest, quotient};
-use crate::path::{RatePolynomial, Sum};
+use crate::numerics::{largest, quotient};
 use crate::regime::TooDeep;
 use crate::unloading::Unloading;
 

@@ -6,7 +6,7 @@ use super::pursuit::Spring;
 use super::vector::{across, add, difference, dot, length, times};
 use super::vertex::Vertex;
 use super::{Motion, SAME, TINY};
-use crate::numbers::{largest, quotient, root, smallest};
+use crate::numerics::{largest, quotient, root, smallest};
 use crate::segment::Segment;
 
 /// A distance smaller than this part of another one is zero.

@@ -6,8 +6,8 @@
 use super::list::Apex;
 use super::vector::{add, difference, direction, dot, length, times};
 use super::{Motion, PlayOperator, SAME, TINY, Vertex};
-use crate::numbers::{quotient, smallest};
-use crate::path::Sum;
+use crate::history::path::Sum;
+use crate::numerics::{quotient, smallest};
 use crate::segment::Segment;
 
 impl<const D: usize> Vertex<D> {

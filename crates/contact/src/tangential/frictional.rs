@@ -6,7 +6,7 @@ use super::vector::{add, times};
 use super::{Friction, Motion, PlayOperator, Sliding};
 use crate::history::History;
 use crate::loading::Loading;
-use crate::numbers::{largest, next_above, quotient, smallest};
+use crate::numerics::{largest, next_above, quotient, smallest};
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::unloading::Unloading;

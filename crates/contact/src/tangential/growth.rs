@@ -15,7 +15,7 @@ use super::merge::Merging;
 use super::play_operator::pull;
 use super::vector::{add, difference, length};
 use super::{Motion, PlayOperator, TINY, Vertex};
-use crate::numbers::{largest, quotient, root};
+use crate::numerics::{largest, quotient, root};
 use crate::segment::Segment;
 use libm::fabs;
 

@@ -10,7 +10,7 @@ use crate::history::History;
 use crate::impact::{self, Impact};
 use crate::loading::Loading;
 use crate::motion::{ExternalLoad, follow};
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use crate::shared::{InverseMasses, Work, follow as follow_together};
 use crate::unloading::Unloading;
 use libm::fabs;

@@ -4,7 +4,7 @@ use super::merge::{Merging, merge};
 use super::vector::{add, difference, length, times};
 use super::vertex::Vertex;
 use super::{SAME, TINY};
-use crate::numbers::quotient;
+use crate::numerics::quotient;
 use crate::segment::Segment;
 
 /// The current point: indentation and scaled tangential displacement \[m\]. It is the apex of the cone of all springs

@@ -7,7 +7,7 @@
 use super::pursuit::{FARTHEST, GAUSS, Spring};
 use super::vector::{add, difference, direction, dot, length, times};
 use super::{Motion, PlayOperator, Vertex};
-use crate::numbers::{largest, quotient, root};
+use crate::numerics::{largest, quotient, root};
 use crate::segment::Segment;
 
 /// How far inside its limit a spring may be that slips, as a part of the indentation: vertices have errors from merging and

@@ -4,7 +4,7 @@ use super::SAME;
 use super::list::Apex;
 use super::vector::{add, difference, length, times};
 use super::vertex::Vertex;
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use crate::segment::Segment;
 use libm::fabs;
 

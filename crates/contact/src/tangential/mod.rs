@@ -82,7 +82,7 @@ pub use play_operator::PlayOperator;
 pub use vertex::Vertex;
 
 use super::material::Body;
-use super::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 
 /// Slopes whose difference is smaller are equal. Distances smaller than this part of the indentation are zero.
 /// Otherwise rounding would leave an extra vertex at each reversal of a vibration.

@@ -1,7 +1,7 @@
 //! A straight piece of the motion in any number of tangential directions.
 
 use super::vector::{self, length, times};
-use crate::numbers::quotient;
+use crate::numerics::quotient;
 use libm::fabs;
 
 /// A part of a motion with all rates held, in `D` tangential directions. Tangential lengths and rates are

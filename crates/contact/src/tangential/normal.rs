@@ -5,7 +5,7 @@ use crate::behaviour::Contact;
 use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::{self, Damping, Form, Loss};
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use crate::regime::TooDeep;
 use crate::unloading::Unloading;
 use libm::fabs;

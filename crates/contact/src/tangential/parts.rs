@@ -1,6 +1,6 @@
 //! The parts of a step with changing rates.
 
-use crate::path::RatePolynomial;
+use crate::history::path::RatePolynomial;
 
 /// Parts of a step in two directions with changing rates.
 const PARTS: usize = 8;

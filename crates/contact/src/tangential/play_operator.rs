@@ -4,8 +4,8 @@ use super::cut::Cut;
 use super::list::{Apex, List};
 use super::vector::{add, difference, length, times};
 use super::{Motion, SAME, Sliding, TINY, Vertex};
-use crate::numbers::{largest, next_above, quotient, smallest};
-use crate::path::Sum;
+use crate::history::path::Sum;
+use crate::numerics::{largest, next_above, quotient, smallest};
 use crate::segment::Segment;
 
 /// The height of a triangle over that of a parabola of the same area.

@@ -2,7 +2,7 @@
 
 use super::SAME;
 use super::vector::{self, across, add, dot, length, times, turned};
-use crate::numbers::{largest, quotient, root, smallest};
+use crate::numerics::{largest, quotient, root, smallest};
 use libm::{exp, fabs, log1p};
 
 /// Relative change of a limit below which the limit counts as constant.

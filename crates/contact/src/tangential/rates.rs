@@ -2,9 +2,9 @@
 
 use super::{Frictional, FrictionalModel, Normal, Quantity};
 use crate::behaviour::Contact;
+use crate::history::path::RatePolynomial;
 use crate::loading::Loading;
-use crate::numbers::quotient;
-use crate::path::RatePolynomial;
+use crate::numerics::quotient;
 use crate::unloading::Unloading;
 use libm::fabs;
 

@@ -1,9 +1,9 @@
 //! The springs of a contact as words for storage.
 
 use super::{PlayOperator, Vertex};
-use crate::path::Sum;
+use crate::history::path::Sum;
+use crate::numerics::words::{load_numbers, store_numbers};
 use crate::segment::Segment;
-use crate::words::{load_numbers, store_numbers};
 
 impl<const D: usize, const N: usize> PlayOperator<D, N> {
     /// Number of words in the saved springs of a contact. Along a line, the springs that slipped follow from the slopes.

@@ -9,7 +9,7 @@ use crate::history::History;
 use crate::loading::Loading;
 use crate::losses::Damping;
 use crate::motion::PlasticContact;
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use crate::regime::TooDeep;
 use crate::segment::Segment;
 use crate::shared::{Row, SharedContact};

@@ -1,7 +1,7 @@
 //! The mean of a force over a way from trial steps.
 
 use super::vector::{add, length};
-use crate::numbers::smallest;
+use crate::numerics::smallest;
 
 /// Error of the mean force on a growing dent that is accepted, relative to the normal force. Where the motion turns, the forces
 /// themselves are off by more.

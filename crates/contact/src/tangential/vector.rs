@@ -1,6 +1,6 @@
 //! Vectors along the surface, in any number of directions.
 
-use crate::numbers::{largest, quotient};
+use crate::numerics::{largest, quotient};
 use libm::{fabs, hypot, sqrt};
 
 /// `one + factor other`

@@ -1,12 +1,12 @@
 //! The unloading of the law `brinell`: recovery and path fitted to finite elements.
 
 use super::{Peak, Recovery, Unloading, path_of_shape, residual_after};
-use crate::large_strain::recovery_factor;
 use crate::loading;
+use crate::loading::two_bodies::{Construction, OwnCurve, Together, Yielding};
 use crate::material::Pair;
+use crate::material::large_strain::recovery_factor;
+use crate::material::strength::{Strength, area_factor, held, slope_factor};
 use crate::segment::Segment;
-use crate::strength::{Strength, area_factor, held, slope_factor};
-use crate::two_bodies::{Construction, OwnCurve, Together, Yielding};
 use libm::sqrt;
 
 /// `F = F_m ((1 + g) s^1.5 - g s^2)` with `s = (d - d_f)/d_e`. The initial slope is `2 E* a_m`, exact for an elastic
@@ -28,11 +28,11 @@ use libm::sqrt;
 ///
 /// Relative to what the plain formula gives for it, this is a factor `c_i` of the recovery and a difference of the shape. Two bodies
 /// have the sums of both, weighted with `E*/E_i`: recovery `c (3 - g) F_m/(4 E* a_m)`, shape `g` between 0 and 0.75. So a single body
-/// under a rigid sphere, and two equal ones, have exactly its own recovery and shape. [Large strain](mod@crate::large_strain) makes the
+/// under a rigid sphere, and two equal ones, have exactly its own recovery and shape. [Large strain](mod@crate::material::large_strain) makes the
 /// recovery of each body smaller.
 ///
 /// Rigid sphere: within 0.9 % of `F_m` of the finite-element curves in `data/truth/materials`, restitution within 0.6 %. Two bodies: see
-/// [`two_bodies`](crate::two_bodies).
+/// [`two_bodies`](crate::loading::two_bodies).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brinell {

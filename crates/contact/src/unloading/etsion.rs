@@ -3,7 +3,7 @@
 use super::{Peak, Unloading, hertzian};
 use crate::loading::KogutEtsion;
 use crate::material::Pair;
-use crate::numbers::quotient;
+use crate::numerics::quotient;
 use crate::segment::Segment;
 use libm::{pow, sqrt};
 

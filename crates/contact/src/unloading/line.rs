@@ -1,8 +1,8 @@
 //! The unloading of a line contact, from the shape of its pressure.
 
 use super::{Peak, Unloading, residual_after};
-use crate::line::Chain;
 use crate::material::Pair;
+use crate::material::line::Chain;
 use crate::segment::Segment;
 use core::f64::consts::PI;
 use libm::sqrt;

@@ -24,7 +24,7 @@ pub use guarded::Guarded;
 use super::laws::{Constant, LawNumbers, Numbered, laws};
 use super::material::Pair;
 use super::segment::Segment;
-use super::two_bodies::{Construction, Together};
+use crate::loading::two_bodies::{Construction, Together};
 use libm::sqrt;
 
 laws! {

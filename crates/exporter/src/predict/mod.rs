@@ -188,7 +188,7 @@ pub fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
     let (law, pair) = (model.loading, model.pair);
     let at = |indentation| law.regime(&pair, indentation);
     let (mut below, mut corner) = (0.0, law.next_corner(&pair, 0.0));
-    while corner < brinell_contact::regime::LARGEST_INDENTATION {
+    while corner < brinell_contact::LARGEST_INDENTATION {
         while at(corner) != at(below) {
             below = end_of_regime(at, below, corner);
             onsets.push((at(below), (2.0 * law.work(&pair, below) / mass).sqrt()));

@@ -1,10 +1,10 @@
-//! Bodies with two principal radii: the contact is an ellipse, and its law that of a [ball](brinell_contact::ellipse) with other numbers.
+//! Bodies with two principal radii: the contact is an ellipse, and its law that of a [ball](brinell_contact::material::ellipse) with other numbers.
 
 use super::file::FLAT;
 use crate::body::{Body, Both};
 use crate::numbers::{out_of_range, quantity, significant};
-use brinell_contact::ellipse::{Ellipse, LARGEST_RATIO};
 use brinell_contact::material::SMALLEST_RADIUS;
+use brinell_contact::material::ellipse::{Ellipse, LARGEST_RATIO};
 use std::ops::RangeInclusive;
 
 /// Sizes of radii of curvature \[m\].

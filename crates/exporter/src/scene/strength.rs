@@ -11,12 +11,12 @@ use crate::numbers::{in_message, in_range, quantity};
 use crate::reading;
 use crate::table::{Class, Material};
 use crate::tension::{self, Curve};
-use brinell_contact::hardening::{Hardening, StraightLine, modulus_of_tangent};
+use brinell_contact::material::hardening::{Hardening, StraightLine, modulus_of_tangent};
 use brinell_contact::rate::FIRST_STRAIN;
 use std::ops::Range;
 
 use crate::measured::{self, MeasuredStrength, Metal, TEST_RATE};
-pub use brinell_contact::hardening::PowerLaw;
+pub use brinell_contact::material::hardening::PowerLaw;
 pub use brinell_contact::rate::Rate;
 
 /// A hardening that stands in each impact for yield strength and hardening modulus, by its strain.

@@ -2,7 +2,7 @@
 //!
 //! Reference: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19-26.
 
-use brinell_contact::numbers::largest;
+use brinell_contact::numerics::largest;
 use libm::pow;
 
 /// The weights of the earlier slopes in each stage; the last stage is the step itself.

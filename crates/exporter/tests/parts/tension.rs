@@ -1,4 +1,4 @@
-use brinell_contact::hardening::PowerLaw;
+use brinell_contact::material::hardening::PowerLaw;
 use brinell_exporter::tension::*;
 
 const STEEL: f64 = 206e9;

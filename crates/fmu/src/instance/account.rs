@@ -9,8 +9,8 @@
 
 use super::*;
 use crate::scene::Real;
-use brinell_contact::numbers::quotient;
-use brinell_contact::words::{load_numbers, store_numbers};
+use brinell_contact::numerics::quotient;
+use brinell_contact::numerics::words::{load_numbers, store_numbers};
 
 /// The end of the last step, as reported to the importer.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,8 +1,8 @@
 //! The data for accurate coupling that a contact stores in addition to its state: the course of its input within a step, and
 //! the momentum of the last step.
 
-use brinell_contact::path::{RatePolynomial, Sum};
-use brinell_contact::words::{load_kept, store_kept};
+use brinell_contact::history::path::{RatePolynomial, Sum};
+use brinell_contact::numerics::words::{load_kept, store_kept};
 
 /// The course of the input over the next step, and the end of the last step.
 #[derive(Clone, Copy, Debug, Default)]

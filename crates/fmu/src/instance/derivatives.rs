@@ -5,8 +5,8 @@ use super::*;
 use crate::scene::Real;
 use brinell_contact::Regime;
 use brinell_contact::behaviour::slopes;
-use brinell_contact::numbers::largest;
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::path::RatePolynomial;
+use brinell_contact::numerics::largest;
 use brinell_contact::tangential::Quantity;
 use core::f64::consts::PI;
 

@@ -4,7 +4,7 @@
 
 use super::*;
 use crate::scene::Real;
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::tangential::Quantity;
 
 impl<S: Scene> Instance<S> {

@@ -3,7 +3,7 @@
 use super::start::pair_of;
 use super::*;
 use crate::scene::Real;
-use brinell_contact::words::{count, load_kept, load_numbers, store_kept, store_numbers};
+use brinell_contact::numerics::words::{count, load_kept, load_numbers, store_kept, store_numbers};
 
 impl<S: Scene> Instance<S> {
     /// Which of time, stop time and last step are stored: the last step only if a force is predicted from it.

@@ -4,9 +4,9 @@ use super::clock::Guarded;
 use super::stability::{Ahead, watch};
 use super::*;
 use crate::scene::Real;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::motion::{ExternalLoad, NoMotion};
-use brinell_contact::numbers::largest;
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::numerics::largest;
 
 /// Result of an attempt at a plain step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Steps of contacts that share bodies: all of them move together.
 
 use super::*;
-use brinell_contact::numbers::largest;
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::path::RatePolynomial;
+use brinell_contact::numerics::largest;
 use brinell_contact::shared::{InverseMasses, Refused};
 use brinell_contact::tangential::Quantity;
 

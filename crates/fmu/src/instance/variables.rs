@@ -3,7 +3,7 @@
 use super::friction::check_tangential_rate;
 use super::*;
 use crate::scene::{Integer, Real};
-use brinell_contact::path::RatePolynomial;
+use brinell_contact::history::path::RatePolynomial;
 use brinell_contact::shared::NotInverseMasses;
 
 impl<S: Scene> Instance<S> {

@@ -8,7 +8,7 @@
 //! coincidence. A product of eight digits, of one step or several, is none.
 
 use super::*;
-use brinell_contact::numbers::{largest, quotient, smallest};
+use brinell_contact::numerics::{largest, quotient, smallest};
 
 /// A change below this fraction of the speeds tells nothing: an importer may compute in single precision.
 const TELLING: f64 = 1e-6;

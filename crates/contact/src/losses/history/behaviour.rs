@@ -3,12 +3,12 @@
 use super::{History, Regime, Sum, TooDeep};
 use crate::Model as Plastic;
 use crate::behaviour::{Contact, slopes};
+use crate::history::path::RatePolynomial;
 use crate::loading::Loading;
 use crate::losses::{Loss, Model};
-use crate::path::RatePolynomial;
+use crate::numerics::words::{load_numbers, store_numbers};
 use crate::unloading::Unloading;
 use crate::validity::largest_radius;
-use crate::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
 impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {

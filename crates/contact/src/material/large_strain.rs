@@ -23,8 +23,8 @@
 //! Outside the tables the correction goes no further: `u` stops where `z` is 0.5, its largest value there, and at 1. Far from all tables,
 //! passivity counts: `u` and `e` fade out where `E*/S` is below 20, and the contact radius never falls below Hertz's.
 
-use crate::dual::Dual;
-use crate::numbers::largest;
+use crate::numerics::dual::Dual;
+use crate::numerics::largest;
 
 // fitted to the finite-element curves
 const PLANE_FORCE: f64 = 1.83;

@@ -3,7 +3,7 @@
 //! Lengths are in units of the yield indentation `d_Y` of the material, forces in units of its yield force `F_Y`:
 //! `k = d/d_Y`, `phi = F/F_Y`. `Phi` and `A` are the force and the area of the law `brinell` itself.
 
-use crate::numbers::largest;
+use crate::numerics::largest;
 use libm::{exp, log, pow, sqrt};
 
 /// Poisson's ratio of the fit of the law `brinell`.

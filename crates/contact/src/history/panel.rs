@@ -4,10 +4,10 @@
 //! not near zero. A few points of Gauss's rule are then exact to rounding, and their number is known in advance. Where the base
 //! is zero at an end, the rule has the power as its weight.
 
-use super::numbers::{largest, root};
-use super::path::RatePolynomial;
-use super::quadrature::{SIX, TEN};
-use super::segment::Segment;
+use crate::history::path::RatePolynomial;
+use crate::numerics::quadrature::{SIX, TEN};
+use crate::numerics::{largest, root};
+use crate::segment::Segment;
 use libm::{fabs, sqrt};
 
 /// Six points of Gauss's rule are exact to rounding for the power 1.5 of a polynomial that has no zero within this distance of

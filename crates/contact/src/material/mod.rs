@@ -1,5 +1,11 @@
 //! Sphere, half-space, effective radius and modulus, yield point.
 
+pub mod ellipse;
+pub mod hardening;
+pub mod large_strain;
+pub mod line;
+pub mod strength;
+
 use libm::sqrt;
 
 /// One of the two bodies.

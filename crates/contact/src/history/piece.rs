@@ -1,12 +1,12 @@
 //! The smooth pieces of a law.
 
-use super::Model;
-use super::history::History;
-use super::loading::Loading;
-use super::numbers::{largest, next_above, smallest};
-use super::regime::LARGEST_INDENTATION;
-use super::segment::Segment;
-use super::unloading::{Peak, Unloading};
+use crate::Model;
+use crate::history::History;
+use crate::loading::Loading;
+use crate::numerics::{largest, next_above, smallest};
+use crate::regime::LARGEST_INDENTATION;
+use crate::segment::Segment;
+use crate::unloading::{Peak, Unloading};
 
 /// The numbers of a smooth piece: all but the model, whose law they belong to.
 #[derive(Clone, Copy)]
@@ -200,10 +200,5 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
             Kind::Unloading => self.lower,
             _ => 0.0,
         }
-    }
-
-    /// Whether the piece is a part of the loading curve beyond yield, where unloading follows another path.
-    pub fn is_loading(&self) -> bool {
-        self.kind == Kind::Loading
     }
 }

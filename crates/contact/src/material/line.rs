@@ -8,7 +8,7 @@
 //! For every convex profile without friction `dd/dF' = (2 ln(s/a) - 1)/(pi E*)` with the present half-width: a flat punch is pushed in. So an
 //! unloading needs only the half-width as a function of the force.
 
-use crate::numbers::{quotient, smallest};
+use crate::numerics::{quotient, smallest};
 use crate::segment::Segment;
 use libm::log;
 

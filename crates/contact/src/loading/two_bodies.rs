@@ -14,17 +14,17 @@
 //! restitution within 0.9 %, dent within 2 %; within 1.7 %, 1.1 % and 4.5 % where a body yields that is three times as stiff as an
 //! elastic partner.
 //!
-//! These laws are those of small strain. [`large_strain`](mod@crate::large_strain) corrects force, contact radius and recovery of each
+//! These laws are those of small strain. [`large_strain`](mod@crate::material::large_strain) corrects force, contact radius and recovery of each
 //! body that yields. The mean pressure of a body then falls beyond a maximum, so that the construction itself stays with small strain.
 //! To first order, a body that is softer by a factor `q_i` makes the pair softer by `q_i^w_i`, where `w_i` is its part of the compliance:
 //! of all bodies together, the product of these factors. This is exact for a rigid partner and for equal bodies.
 
-use crate::dual::Dual;
-use crate::large_strain::{Correction, Pressed, correction};
 use crate::loading::Brinell;
+use crate::material::large_strain::{Correction, Pressed, correction};
+use crate::material::strength::{RADIUS_POWER, Strength, area_factor};
 use crate::material::{Pair, YieldPoint};
-use crate::numbers::{largest, quotient, smallest};
-use crate::strength::{RADIUS_POWER, Strength, area_factor};
+use crate::numerics::dual::Dual;
+use crate::numerics::{largest, quotient, smallest};
 use core::f64::consts::PI;
 use libm::{exp, fabs, log, pow, sqrt};
 

@@ -1,6 +1,6 @@
 //! The indentation over time: its course over a step, and a sum that loses no digits.
 
-use super::numbers::{quotient, root};
+use crate::numerics::{quotient, root};
 use libm::fabs;
 
 /// A relative change so small that its square is below rounding.

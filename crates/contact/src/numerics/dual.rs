@@ -1,6 +1,6 @@
 //! A number with its derivative. It gives the slope of a long formula without a second formula.
 
-use crate::numbers::saturation;
+use crate::numerics::saturation;
 use core::ops::{Add, Mul, Sub};
 use libm::{cos, exp, pow, sin, sqrt};
 

@@ -4,6 +4,10 @@
 //! therefore not skipped, but evaluated for another operand, which is hidden from the compiler. `expm1`, `sinh`, `cosh` and `tanh` of `libm`
 //! choose between a product and one that overflows, so that none of them is used.
 
+pub mod dual;
+pub mod quadrature;
+pub mod words;
+
 use core::hint::black_box;
 use libm::{exp, log, sqrt};
 

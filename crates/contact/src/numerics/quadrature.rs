@@ -23,14 +23,14 @@ pub fn graded_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64) -> 
 /// Positive nodes of the Gauss-Legendre rule with six points, and their weights.
 ///
 /// Reference: M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, table 25.4.
-pub(super) const SIX: [(f64, f64); 3] = [
+pub(crate) const SIX: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691_05),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
     (0.932_469_514_203_152, 0.171_324_492_379_170_35),
 ];
 
 /// The same with ten points.
-pub(super) const TEN: [(f64, f64); 5] = [
+pub(crate) const TEN: [(f64, f64); 5] = [
     (0.148_874_338_981_631_22, 0.295_524_224_714_752_87),
     (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
     (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),

@@ -1,13 +1,13 @@
 //! The integral of force over time: the impulse of a step.
 
-use super::history::History;
-use super::loading::Loading;
-use super::path::RatePolynomial;
-use super::piece::Piece;
-use super::quadrature::{gauss, graded_integral};
-use super::regime::TooDeep;
-use super::unloading::Unloading;
-use super::{Model, Surface};
+use crate::history::History;
+use crate::history::path::RatePolynomial;
+use crate::history::piece::Piece;
+use crate::loading::Loading;
+use crate::numerics::quadrature::{gauss, graded_integral};
+use crate::regime::TooDeep;
+use crate::unloading::Unloading;
+use crate::{Model, Surface};
 use libm::fabs;
 
 /// The largest difference between two integrals of a smooth force, as a fraction of the integral.
@@ -20,7 +20,7 @@ const MOST_PIECES: u32 = 100;
 ///
 /// The path is split where the direction changes and where the law has a corner. On each part the force is smooth in time. If
 /// the rate is constant and the law has segments, the integral is a closed form. Otherwise Gauss's rule integrates to rounding;
-/// for laws with segments it integrates only the [power](super::segment::Segment).
+/// for laws with segments it integrates only the [power](crate::segment::Segment).
 ///
 /// # Errors
 /// [`TooDeep`] as for [`History::advance`].

@@ -17,8 +17,8 @@
 //! 13-26.
 
 use crate::material::Body;
-use crate::numbers::{largest, smallest};
-use crate::strength;
+use crate::material::strength;
+use crate::numerics::{largest, smallest};
 use core::f64::consts::FRAC_PI_2;
 use libm::{exp, fabs, log, sqrt};
 
