@@ -1,5 +1,6 @@
 """The page `brinell.html` as its tests use it, and the program beside it."""
 
+import base64
 import json
 import os
 import subprocess
@@ -47,6 +48,12 @@ PASTE = """(editor, text) => {
   editor.dispatchEvent(new ClipboardEvent("paste", { clipboardData: given, bubbles: true, cancelable: true }));
 }"""
 
+DROP = """([name, bytes]) => {
+  const given = new DataTransfer();
+  given.items.add(new File([Uint8Array.from(atob(bytes), (character) => character.charCodeAt(0))], name));
+  document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: given, bubbles: true, cancelable: true }));
+}"""
+
 # Every control that shows a key of the scene, also one in a folded part.
 FORM = """() => Object.fromEntries([...document.querySelectorAll("form [data-test]")]
   .filter((one) => one.matches("input, select"))
@@ -88,6 +95,10 @@ class ScenePage:
             # others give a paste of a script no text
             self.at("file").set_input_files({"name": "scene.toml", "mimeType": "text/plain", "buffer": text.encode()})
         self.has_read(text)
+
+    def drop(self, name: str, content: bytes) -> None:
+        """Drops a file on the page."""
+        self.page.evaluate(DROP, [name, base64.b64encode(content).decode()])
 
     def has_read(self, text: str) -> None:
         self.page.wait_for_function("(text) => document.querySelector('.printed').textContent === text", arg=text)

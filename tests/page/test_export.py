@@ -11,7 +11,7 @@ from pathlib import Path
 import fmpy
 import pytest
 from fmpy.validation import validate_fmu
-from scene_page import ScenePage, brinell, export, scene, wait_until
+from scene_page import ROOT, ScenePage, brinell, export, scene, wait_until
 
 # One of each kind of library and of description.
 SCENES = [
@@ -131,3 +131,38 @@ def test_scene_curve_picture_and_a_script_that_runs_the_fmu(opened: ScenePage, t
     assert force, printed
     predicted = json.loads(brinell(tmp_path, "predict", "scene.toml", "--json").stdout)
     assert float(force[1]) == pytest.approx(predicted["laws"][0]["largest_force"], rel=0.02)
+
+
+def test_a_curve_of_depth_and_force_dropped_on_it_is_the_loading_law(opened: ScenePage, tmp_path: Path) -> None:
+    text, record = scene("shapes/record"), (ROOT / "scenes/shapes/record.csv").read_bytes()
+    (tmp_path / "scene.toml").write_text(text)
+    (tmp_path / "record.csv").write_bytes(record)
+    ran = brinell(tmp_path, "predict", "scene.toml", "--json")
+    assert ran.returncode == 0, ran.stderr
+
+    # in the place of the file that the page can't read, and of another law
+    other = text.replace('{ table = "record.csv" }', '"hertz"\nunloading = "thornton"')
+    for before in (text, other):
+        opened.write(before)
+        if before == text:
+            opened.at("mistake").get_by_text("the file isn't at hand; drop the file on this page").wait_for()
+        opened.drop("record.csv", record)
+        changed = opened.changes_from(before)
+        law = tomllib.loads(changed)["law"]
+        assert law.keys() == {"loading"}
+        assert len(law["loading"]["table"]["depth"]) == len(law["loading"]["table"]["force"]) > 20
+        [answer] = opened.ask({"method": "predict", "text": changed})
+        assert answer["ok"]["laws"] == json.loads(ran.stdout)["laws"]
+        assert opened.at("law.chosen").text_content() == "Law: a curve of your own"
+    choose_linux(opened)
+    assert downloaded(opened, "download.fmu")[1] == export(tmp_path, changed)
+    # one without a radius of the contact takes the place of one with it
+    rows = "".join(f"{depth};{depth**1.4:.6g};{0.1 * depth**0.5:.6g}\n" for depth in range(1, 20))
+    opened.drop("wide.csv", f"depth [um];force [N];contact radius [mm]\n{rows}".encode())
+    wide = opened.changes_from(changed)
+    assert "contact_radius" in tomllib.loads(wide)["law"]["loading"]["table"]
+    opened.drop("record.csv", record)
+    assert "contact_radius" not in tomllib.loads(opened.changes_from(wide))["law"]["loading"]["table"]
+    # a file that is neither changes nothing, and says what each would have
+    opened.drop("neither.csv", b"time [s];force [N]\n0;1\n1;2\n")
+    opened.at("toast").get_by_text("no loading curve: no column is called depth").wait_for()

@@ -1,6 +1,5 @@
 """The page on a phone, in the dark, on paper, for who can't see it; and that it asks the network for nothing."""
 
-import base64
 import tomllib
 from pathlib import Path
 from typing import Literal
@@ -120,13 +119,6 @@ def test_every_connection_is_refused_and_none_is_tried(page: Page) -> None:
     assert refused == ["connect-src", "connect-src", "connect-src", "frame-src", "img-src", "script-src-elem"]
 
 
-DROP = """([name, bytes]) => {
-  const given = new DataTransfer();
-  given.items.add(new File([Uint8Array.from(atob(bytes), (character) => character.charCodeAt(0))], name));
-  document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: given, bubbles: true, cancelable: true }));
-}"""
-
-
 def test_a_scene_or_an_fmu_dropped_on_it_is_opened(opened: ScenePage, tmp_path: Path) -> None:
     first, second = scene("steel_ball"), scene("two_contacts")
     opened.write(first)
@@ -134,7 +126,7 @@ def test_a_scene_or_an_fmu_dropped_on_it_is_opened(opened: ScenePage, tmp_path: 
         ("scene.toml", second.encode(), second),
         ("unit.fmu", export(tmp_path, first), first),
     ):
-        opened.page.evaluate(DROP, [name, base64.b64encode(content).decode()])
+        opened.drop(name, content)
         opened.has_read(text)
     # each is a step of undo of its own, however soon the next one comes
     opened.at("undo").click()
@@ -142,7 +134,7 @@ def test_a_scene_or_an_fmu_dropped_on_it_is_opened(opened: ScenePage, tmp_path: 
     opened.at("redo").click()
     opened.has_read(first)
     # a file that is none changes nothing, and says so
-    opened.page.evaluate(DROP, ["broken.fmu", base64.b64encode(b"no archive").decode()])
+    opened.drop("broken.fmu", b"no archive")
     opened.at("toast").get_by_text("broken.fmu").wait_for()
     assert opened.text == first
     opened.at("file").set_input_files({"name": "chosen.toml", "mimeType": "text/plain", "buffer": second.encode()})
@@ -154,7 +146,7 @@ def test_a_tensile_test_dropped_on_it_is_that_of_the_target(opened: ScenePage) -
     opened.write(text)
     rows = "".join(f"{strain:g};{10 * strain**0.2:.6g}\n" for strain in (0.5, 1, 2, 4, 8))
     table = f"# plastic strain [%];true stress [kgf/mm2]\n{rows}".replace(".", ",").encode()
-    opened.page.evaluate(DROP, ["curve.csv", base64.b64encode(table).decode()])
+    opened.drop("curve.csv", table)
     target = tomllib.loads(opened.changes_from(text))["target"]
     assert target["tensile_test"]["plastic_strain"] == [0.005, 0.01, 0.02, 0.04, 0.08]
     assert "yield_strength" not in target

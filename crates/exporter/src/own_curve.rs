@@ -9,6 +9,8 @@ use crate::numbers::{cell, quantity};
 use brinell_contact::loading::Tabulated;
 use brinell_contact::loading::tabulated::{MOST, TableKnot};
 use brinell_contact::{Loading, Model, Pair, Segment, Surface, unloading};
+// the same digits on every machine, and in the page
+use libm::{cbrt, hypot, log, pow};
 use serde::{Deserialize, Serialize};
 
 /// The least and the largest number of rows.
@@ -176,7 +178,7 @@ pub fn law(rows: &Rows, pair: &Pair) -> Result<(Tabulated, String), String> {
 }
 
 fn hertz(pair: &Pair, depth: f64) -> f64 {
-    pair.hertz_stiffness() * depth.powf(1.5)
+    pair.hertz_stiffness() * pow(depth, 1.5)
 }
 
 /// Refuses forces that are more than `allowed` \[N\] off the closest ones that don't fall.
@@ -245,12 +247,12 @@ impl Noise {
     }
 
     fn at(&self, force: f64) -> f64 {
-        self.constant.hypot(self.part * force)
+        hypot(self.constant, self.part * force)
     }
 
     /// What the deviation of a curve counts by.
     fn weight(&self, force: f64) -> f64 {
-        let size = self.at(force).hypot(NEAR * force);
+        let size = hypot(self.at(force), NEAR * force);
         1.0 / (size * size)
     }
 }
@@ -294,8 +296,8 @@ impl Chain {
         };
         let is_near = |chain: &Chain| mean(chain, &|force| 1.0 / (force * force)) < NEAR * NEAR;
         let cost = |chain: &Chain| {
-            count * mean(chain, &|force| noise.weight(force)).max(1e-30).ln()
-                + 2.0 * chain.knots.len() as f64 * count.ln()
+            count * log(mean(chain, &|force| noise.weight(force)).max(1e-30))
+                + 2.0 * chain.knots.len() as f64 * log(count)
         };
         let place = chains.iter().position(is_near).unwrap_or_else(|| {
             (0..chains.len())
@@ -313,10 +315,10 @@ impl Chain {
         }
         // a slope is known roughly only
         let power = (stiffness * depth / force).min(STEEPEST);
-        let begin = depth * above.powf(-1.0 / (1.5 - power));
+        let begin = depth * pow(above, -1.0 / (1.5 - power));
         let knot = |step: usize| {
-            let part = (depth / begin).powf(step as f64 / BEFORE as f64 - 1.0);
-            let (depth, force) = (depth * part, force * part.powf(power));
+            let part = pow(depth / begin, step as f64 / BEFORE as f64 - 1.0);
+            let (depth, force) = (depth * part, force * pow(part, power));
             [depth, force, power * force / depth]
         };
         self.knots.splice(0..0, (0..BEFORE).map(knot));
@@ -430,7 +432,7 @@ fn interpolated(points: &[Point], depth: f64) -> Point {
 /// enough of a rise between two.
 fn knots(points: &[Point], noise: &Noise, most: usize) -> Vec<f64> {
     let last = points.len() - 1;
-    let step = (points[last].depth / points[0].depth).powf(1.0 / (most - 1) as f64);
+    let step = pow(points[last].depth / points[0].depth, 1.0 / (most - 1) as f64);
     let is_piece = |begin: usize, end: usize| {
         let (rows, rise) = (end - begin, points[end].force - points[begin].force);
         rows >= OF_PIECE.0 && rise * (rows as f64).sqrt() >= OF_PIECE.1 * noise.at(points[end].force)
@@ -521,7 +523,7 @@ fn unloading(rows: &Rows, deepest: usize, force: f64) -> FromFile {
     back.retain(|(_, force)| *force > 0.0);
     back.sort_by(|one, other| one.0.total_cmp(&other.0));
     let low: Vec<_> =
-        back.iter().filter(|(_, at)| *at < 0.5 * force).map(|(depth, force)| (*depth, force.cbrt().powi(2))).collect();
+        back.iter().filter(|(_, at)| *at < 0.5 * force).map(|(depth, force)| (*depth, cbrt(*force).powi(2))).collect();
     if back.len() < ROWS.0 || low.len() < OF_PIECE.0 {
         return None;
     }

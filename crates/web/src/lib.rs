@@ -106,7 +106,7 @@ fn dispatch(question: &[u8]) -> Result<(Value, Vec<u8>), Refused> {
         "libraries" => archive::libraries(&read(&asked)?, bytes)?,
         "export" => return archive::export(&read(&asked)?),
         "scene_of" => archive::scene_of(bytes)?,
-        "tensile_test" => text::tensile_test(&read(&asked)?, bytes)?,
+        "table" => text::table(&read(&asked)?, bytes)?,
         "ways" => bounce::ways(),
         "bounce" => bounce::bounce(&read(&asked)?)?,
         other => return Err(format!("there is no method `{other}`").into()),

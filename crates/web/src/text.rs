@@ -2,8 +2,9 @@
 
 use crate::Refused;
 use brinell_exporter::mistake::SceneError;
+use brinell_exporter::own_curve::{self, Rows};
 use brinell_exporter::scene::{self, Beside, Scene, quantity_of};
-use brinell_exporter::tension::{self, Specimen};
+use brinell_exporter::tension::{self, Curve, Specimen};
 use brinell_exporter::{reading, units};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -81,18 +82,39 @@ fn parts((table, key): (&str, &str), text: &str) -> Option<Value> {
     Some(json!({ "digits": shown.digits, "unit": shown.unit, "size": shown.size, "number": shown.number }))
 }
 
-/// The scene with the curve in the bytes of a table as the tensile test of its target, in place of another strength.
+/// The scene with what the bytes of a table are: a tensile test of its target, in place of another strength, or else depth and force, as
+/// its loading curve.
 ///
 /// # Errors
-/// What is wrong with the table.
-pub fn tensile_test(asked: &Asked, bytes: &[u8]) -> Result<Value, Refused> {
-    let curve = tension::read(bytes, &Specimen::default())?;
-    let (strains, stresses): (Vec<f64>, Vec<f64>) = curve.points.into_iter().unzip();
-    let strain = if curve.is_plastic { "plastic_strain" } else { "true_strain" };
-    let mut edits: Vec<Edit> = STRENGTHS.iter().map(|key| Edit::of(&["target", key], Value::Null)).collect();
-    edits.push(Edit::of(&["target", "tensile_test"], json!({ strain: strains, "true_stress": stresses })));
+/// What is wrong with the table as either.
+pub fn table(asked: &Asked, bytes: &[u8]) -> Result<Value, Refused> {
+    let edits = match tension::read(bytes, &Specimen::default()) {
+        Ok(test) => tensile_test(test),
+        Err(no_test) => match own_curve::read(bytes) {
+            Ok(rows) => loading_curve(&rows),
+            Err(no_curve) => return Err(format!("no tensile test: {no_test}; no loading curve: {no_curve}").into()),
+        },
+    };
     Ok(json!({ "text": edited(&asked.text, &edits)? }))
 }
+
+fn tensile_test(test: Curve) -> Vec<Edit> {
+    let (strains, stresses): (Vec<f64>, Vec<f64>) = test.points.into_iter().unzip();
+    let strain = if test.is_plastic { "plastic_strain" } else { "true_strain" };
+    let mut edits: Vec<Edit> = STRENGTHS.iter().map(|key| Edit::of(&["target", key], Value::Null)).collect();
+    edits.push(Edit::of(&["target", "tensile_test"], json!({ strain: strains, "true_stress": stresses })));
+    edits
+}
+
+fn loading_curve(rows: &Rows) -> Vec<Edit> {
+    let mut edits: Vec<Edit> = OF_LAW.iter().map(|key| Edit::of(&["law", key], Value::Null)).collect();
+    edits.push(Edit::of(&["law", "loading"], json!({ "table": rows })));
+    edits
+}
+
+/// The keys of another loading law. An older curve may have columns that a new one lacks.
+const OF_LAW: [&str; 7] =
+    ["loading", "unloading", "loading_parameters", "unloading_parameters", "passivity_guard", "restitution", "damping"];
 
 /// The keys that say how strong a body is.
 const STRENGTHS: [&str; 8] = [

@@ -68,7 +68,7 @@ impl<'a> Cylinders<'a> {
             BaseName::Smooth => (SMOOTH, "on a smooth rigid base"),
             BaseName::Bonded => (bonded(), "bonded to a rigid base"),
         };
-        let reach = 2.0 * thickness * (0.5 * k).exp();
+        let reach = 2.0 * thickness * libm::exp(0.5 * k);
         Size { reach, tension: c / thickness, words: format!("a plate of {} {on}", quantity(thickness, "m")) }
     }
 

@@ -224,7 +224,7 @@ export interface Methods {
   libraries: Table;
   export: Exported;
   scene_of: { text: string };
-  tensile_test: { text: string };
+  table: { text: string };
   picture: { svg: string };
   csv: { csv: string };
   translate: Translate;

@@ -93,10 +93,11 @@ function laws(context: Context): Field {
       for (const box of boxes) box.checked = box === found;
       const isDamped = damped.some((label) => label.contains(found ?? null));
       const entry = [...about.laws.loading, ...about.laws.damped].find((law) => law.name === found?.value);
-      chosen.textContent = entry && !entry.recommended ? `Law: ${entry.title}` : "";
+      const isOwn = typeof now === "object"; // rows of depth and force
+      chosen.textContent = isOwn ? "Law: a curve of your own" : entry && !entry.recommended ? `Law: ${entry.title}` : "";
       chosen.hidden = !chosen.textContent;
       damping.element.hidden = !isDamped;
-      details.element.hidden = isDamped;
+      details.element.hidden = isDamped || isOwn;
       damping.update();
       details.update();
     },
@@ -270,7 +271,8 @@ export class Form {
     const all = [...this.#fields, ...this.#contacts.fields()];
     for (const field of all) field.mark(at, mistake ? mistake.message : null);
     this.#banner.hidden = !mistake;
-    if (mistake) this.#banner.replaceChildren(h("span", {}, mistake.message),
+    const isFile = mistake?.message.startsWith('law.loading.table = "'); // which only a drop brings here
+    if (mistake) this.#banner.replaceChildren(h("span", {}, mistake.message, isFile ? "; drop the file on this page" : ""),
       h("button", { type: "button", "data-test": "mistake.show", onclick: () => this.show(mistake) }, `Line ${mistake.line}`));
     this.element.classList.toggle("stale", scene.check.values === null);
     for (const { element } of all) {

@@ -126,7 +126,7 @@ async function start(): Promise<void> {
       h("p", { class: "tagline" }, "What an impact does to metal, and its FMU. Nothing leaves this page."),
     h("div", { class: "row" }, undo, redo, button("new", "New", "Start with a commented scene",
       async () => editor.open((await engine.ask("new", { name: "ball" })).ok.text)),
-      button("open", "Open", "Open a scene (.toml), an FMU or a tensile test (.csv); or drop one anywhere", () => chooser.choose()),
+      button("open", "Open", "Open a scene (.toml), an FMU, a tensile test (.csv) or a curve of depth and force (.csv); or drop one anywhere", () => chooser.choose()),
         button("export", "FMU", "Make the FMU and download it", () => (select("download"), void download.fmu()), "primary")));
   const [formPart, textPart, ...others] = parts.map(({ panel }) => panel);
   document.body.append(head, results.summary, h("main", {}, formPart!, h("nav", { "aria-label": "parts of the page" }, bar),

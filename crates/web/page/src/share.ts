@@ -70,11 +70,11 @@ export class Share {
 async function sceneIn(file: File, engine: Engine, now: string): Promise<string> {
   const bytes = async (): Promise<Uint8Array<ArrayBuffer>> => new Uint8Array(await file.arrayBuffer());
   if (/\.fmu$/i.test(file.name)) return (await engine.ask("scene_of", {}, await bytes())).ok.text;
-  if (/\.(csv|tsv|txt|dat)$/i.test(file.name)) return (await engine.ask("tensile_test", { text: now }, await bytes())).ok.text;
+  if (/\.(csv|tsv|txt|dat)$/i.test(file.name)) return (await engine.ask("table", { text: now }, await bytes())).ok.text;
   return file.text();
 }
 
-/** Opens files that are dropped or chosen; a table is the tensile test of the scene that is there `now`. */
+/** Opens files that are dropped or chosen; a table is the tensile test or the loading curve of the scene that is there `now`. */
 export function files(engine: Engine, now: () => string, open: (text: string, name: string) => void): { choose(): void } {
   const take = async (file: File | undefined): Promise<void> => {
     if (!file) return;
@@ -86,7 +86,7 @@ export function files(engine: Engine, now: () => string, open: (text: string, na
   };
   const input = h("input", { type: "file", accept: ".toml,.fmu,.csv,.tsv,.txt,.dat", hidden: true, "data-test": "file",
     onchange: () => (void take(input.files?.[0]), (input.value = "")) });
-  const shade = h("div", { class: "drop", hidden: true, "data-test": "drop" }, h("p", {}, "Drop a scene (.toml), an FMU, or the table of a tensile test (.csv)"));
+  const shade = h("div", { class: "drop", hidden: true, "data-test": "drop" }, h("p", {}, "Drop a scene (.toml), an FMU, or a table (.csv): a tensile test, or depth and force"));
   document.body.append(input, shade);
   addEventListener("dragover", (event) => {
     if (!event.dataTransfer?.types.includes("Files")) return;
