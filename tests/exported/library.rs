@@ -19,7 +19,7 @@ const LARGEST_WITH_FRICTION: u64 = 156_000;
 const LARGEST_OF_SHARED_BODIES: u64 = 182_000;
 
 /// The same with friction in two directions, whose springs are followed along chords.
-const LARGEST_OF_SHARED_BODIES_WITH_FRICTION: u64 = 250_000;
+const LARGEST_OF_SHARED_BODIES_WITH_FRICTION: u64 = 256_000;
 
 /// Largest size of the library of the default scene [bytes].
 const LARGEST_OF_DEFAULT: u64 = 39_000;
