@@ -90,8 +90,8 @@ fn the_law_equals_the_fitted_one() {
 #[test]
 fn the_constants_in_the_source_equal_those_of_the_fit() {
     let written: serde_json::Value = serde_json::from_str(&read("data/fit/materials_law.json")).unwrap();
-    let source = read("crates/contact/src/strength.rs");
-    let has = |line: &str| assert!(source.contains(line), "crates/contact/src/strength.rs lacks {line}");
+    let source = read("crates/contact/src/material/strength.rs");
+    let has = |line: &str| assert!(source.contains(line), "crates/contact/src/material/strength.rs lacks {line}");
     for (name, value) in written.as_object().unwrap() {
         match value.as_f64() {
             Some(value) if name == "largest_g" => has(&format!("const LARGEST_SHAPE: f64 = {value};")),
