@@ -1,4 +1,6 @@
-//! Sphere, half-space, effective radius and modulus, yield point.
+//! Two bodies: sphere, half-space, effective radius and modulus, yield point.
+//!
+//! The files beside have what laws ask of the bodies: hardening, strength, large strain, and contacts that are ellipses or lines.
 
 pub mod ellipse;
 pub mod hardening;

@@ -79,10 +79,6 @@ impl From<TooDeep> for NoMotion {
 /// most half a second for others. An impact takes a few hundred evaluations, with laws without segments a few thousand.
 pub const MOST_EVALUATIONS: u32 = 1_000_000;
 
-/// The smallest size of an integrated motion \[m, m/s\], by which smaller errors are measured: numbers far below it have no
-/// digits. Bodies that are less deep have just touched.
-pub const SMALLEST_MOTION: f64 = 1e-300;
-
 /// The number of evaluations that one evaluation of a law without segments counts for.
 pub(crate) const COSTLY: u32 = 10;
 

@@ -3,6 +3,8 @@
 //! A compiler that optimizes for size may compute both sides of a choice between two numbers. A forbidden division or root is
 //! therefore not skipped, but evaluated for another operand, which is hidden from the compiler. `expm1`, `sinh`, `cosh` and `tanh` of `libm`
 //! choose between a product and one that overflows, so that none of them is used.
+//!
+//! The files beside integrate, differentiate, and store numbers as words.
 
 pub mod dual;
 pub mod quadrature;

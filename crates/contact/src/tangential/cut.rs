@@ -33,9 +33,9 @@ pub(super) struct Point<const D: usize> {
     pub height: f64,
     /// Largest tension of the springs before the way \[m\].
     limit: f64,
-    /// PlayOperator offset before the way \[m\].
+    /// Stuck offset before the way \[m\].
     pub before: [f64; D],
-    /// PlayOperator offset after the way \[m\].
+    /// Stuck offset after the way \[m\].
     after: [f64; D],
     /// Whether the springs at the point slip, at least in the end.
     slips: bool,

@@ -28,7 +28,7 @@ pub(super) fn mean_over<const D: usize>(
     let mut known = None;
     for turn in 1..=MOST_TRIES {
         let left = 1.0 - from;
-        // the last part is all that is left, however frictional the force is there
+        // the last part is all that is left, however rough the force is there
         let is_last = turn == MOST_TRIES;
         let part = if is_last { left } else { smallest(width, left) };
         let (middle, next) = known.take().filter(|_| !is_last).unwrap_or_else(|| {

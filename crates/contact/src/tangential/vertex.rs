@@ -9,7 +9,7 @@ use crate::segment::Segment;
 pub struct Vertex<const D: usize> {
     /// Height of the springs at the vertex: the indentation at which they touch \[m\].
     pub height: f64,
-    /// PlayOperator offset of the vertex \[m\]: the scaled tangential displacement at which these springs are relaxed.
+    /// Stuck offset of the vertex \[m\]: the scaled tangential displacement at which these springs are relaxed.
     pub offset: [f64; D],
     /// d(offset)/d(height) of the segment; of length 1 where its springs slip. It may be longer where the direction of slip
     /// turns, and on a dent that has grown.
