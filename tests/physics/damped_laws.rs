@@ -1,6 +1,7 @@
 //! The rate-dependent laws: reference values, energy, and the forces along a path.
 
 use crate::physics::{MASS, logarithmic, mild};
+use crate::prescribed::rate_dependent_laws;
 use brinell_contact::Contact;
 use brinell_contact::behaviour::is_finite_at;
 use brinell_contact::damped::hunt_crossley::DampingFactor;
@@ -168,92 +169,6 @@ fn the_impact_function_is_that_of_the_manuals() {
     }
 }
 
-/// Every law, in its different variants.
-fn every_law() -> Vec<(String, AnyDamped)> {
-    let mut laws: Vec<_> = AnyDamped::ALL.iter().map(|(name, law)| ((*name).to_string(), *law)).collect();
-    laws.extend(DampingFactor::ALL.iter().map(|(name, factor)| ((*name).to_string(), hunt_crossley(*factor))));
-    laws.extend([(1.0, 1e-5), (1.2, 1e-5), (1.5, 1e-4), (1.9, 3e-5), (2.0, 1e-5), (3.0, 1e-5)].map(
-        |(exponent, damping_depth)| {
-            let law = Adams { exponent, damping_depth, ..Adams::REFERENCE };
-            (format!("adams with {exponent}"), AnyDamped::Adams(law))
-        },
-    ));
-    laws
-}
-
-#[test]
-fn work_is_the_integral_of_the_force_and_heat_never_falls() {
-    for (name, law) in every_law() {
-        let model = model_of(law, 0.4);
-        // indentation and separation at several rates, with and without a force that would have to pull
-        for back in [-0.01, -0.5, -20.0] {
-            let mut history = History::start(&model, 0.0).unwrap();
-            let (mut work, mut heat, mut largest) = (0.0, 0.0, 0.0f64);
-            for (rate, way, pieces) in [(1.0, 30e-6, 3000), (back, 12e-6, 3000), (0.2, 4e-6, 1000), (back, 22e-6, 4000)]
-            {
-                let step = way / f64::abs(rate) / f64::from(pieces);
-                for _ in 0..pieces {
-                    let before = history.force(rate);
-                    history.advance(&model, rate, step).unwrap();
-                    let after = history.force(rate);
-                    work += 0.5 * (before + after) * rate * step;
-                    largest = largest.max(work.abs());
-                    assert!(history.dissipated_energy(&model) >= heat, "{name}: heat falls");
-                    heat = history.dissipated_energy(&model);
-                }
-                let difference = (history.work(&model) - work).abs() / largest;
-                assert!(difference < 2e-3, "{name} after {rate}: {} against {work}", history.work(&model));
-            }
-            assert!(history.plastic().indentation().abs() < 1e-18, "{name}: the way back is as long as the way there");
-        }
-    }
-}
-
-#[test]
-fn one_step_does_what_a_thousand_do() {
-    for (name, law) in every_law() {
-        let model = model_of(law, 0.4);
-        let (mut one, mut many) = (History::start(&model, 1e-6).unwrap(), History::start(&model, 1e-6).unwrap());
-        for (rate, time) in [(1.0, 2.1e-5), (-20.0, 0.5e-6), (0.4, 3e-5), (-3.0, 8e-6), (-3.0, 4e-6)] {
-            one.advance(&model, rate, time).unwrap();
-            for _ in 0..1000 {
-                many.advance(&model, rate, time / 1000.0).unwrap();
-            }
-            let scale = one.work(&model);
-            assert!((one.plastic().indentation() - many.plastic().indentation()).abs() < 1e-19, "{name}");
-            let difference = one.dissipated_energy(&model) - many.dissipated_energy(&model);
-            assert!(difference.abs() < 1e-12 * scale, "{name} after {rate}: {difference:e} of {scale:e}");
-            let depth = |history: &History<Damper>| Contact::<Model>::max_indentation(history);
-            assert_close(&name, depth(&many), depth(&one), 1e-12);
-        }
-    }
-}
-
-#[test]
-fn stiffness_is_the_slope_of_the_force_at_a_held_rate() {
-    for (name, law) in every_law() {
-        let model = model_of(law, 0.6);
-        for depth in logarithmic(1e-8, 1e-3, 30) {
-            let at = |depth: f64| {
-                let mut history = History::start(&model, 0.0).unwrap();
-                history.advance(&model, 1.0, depth).unwrap();
-                history
-            };
-            for rate in [2.0, 0.0, -0.1] {
-                let width = 1e-6 * depth;
-                let (low, high) = (at(depth - width).force(rate), at(depth + width).force(rate));
-                if low <= 0.0 || high <= 0.0 {
-                    continue;
-                }
-                let slope = (high - low) / (2.0 * width);
-                let scale = slope.abs() + at(depth).force(rate) / depth;
-                let error = (at(depth).stiffness(rate) - slope).abs() / scale;
-                assert!(error < 1e-6, "{name} at {depth:e} m, {rate} m/s: off by {error:e}");
-            }
-        }
-    }
-}
-
 #[test]
 fn the_touch_speed_is_that_of_the_step_that_closes_the_contact() {
     let model = model_of(hunt_crossley(DampingFactor::HuntCrossley), 0.5);
@@ -287,7 +202,7 @@ fn a_contact_that_starts_pressed_in_counts_its_first_closing_rate_as_the_touch()
 
 #[test]
 fn accepted_values_are_finite_and_nothing_physical_is_refused() {
-    for (name, law) in every_law() {
+    for (name, law) in rate_dependent_laws() {
         let model = model_of(law, 0.3);
         for depth in logarithmic(1e-300, 1e99, 120) {
             for rate in [1e-300, 1e-9, 1e4] {
@@ -343,57 +258,6 @@ fn factors_follow_the_bodies() {
             history.force(1.0) - history.force(0.0)
         };
         assert_close(name, damping(stiffer) / damping(pair), f64::powf(2.0, power), 1e-10);
-    }
-}
-
-/// The integral knows where the force begins and ends, so a cut anywhere is no loss.
-#[test]
-fn the_mean_force_of_a_step_is_the_mean_of_those_of_its_parts() {
-    for (name, law) in every_law() {
-        for out in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0] {
-            let model = model_of(law, 0.4);
-            let mut history = History::start(&model, 0.0).unwrap();
-            history.advance(&model, 1.0, 2e-5).unwrap();
-            let time = 3e-5 / out;
-            let whole = history.mean_force(&model, -out, time).unwrap();
-            for parts in [2, 3, 10] {
-                let mut moved = history;
-                let sum: f64 = (0..parts)
-                    .map(|_| {
-                        let part = time / f64::from(parts);
-                        let mean = moved.mean_force(&model, -out, part).unwrap();
-                        moved.advance(&model, -out, part).unwrap();
-                        mean
-                    })
-                    .sum();
-                let error = (sum / f64::from(parts) - whole).abs() / history.force(1.0);
-                assert!(error <= 1e-12, "{name} at {out} m/s in {parts} parts: {error:e}");
-            }
-        }
-    }
-}
-
-#[test]
-fn the_mean_force_of_a_step_is_that_of_many_small_ones() {
-    for (name, law) in every_law() {
-        let model = model_of(law, 0.4);
-        let mut history = History::start(&model, 1e-6).unwrap();
-        // to the surface and in, out slowly, out faster than the surface follows, and out of contact
-        for (rate, time) in [(1.0, 2.1e-5), (-0.3, 5e-6), (-20.0, 0.5e-6), (0.4, 3e-5), (-3.0, 8e-6), (-3.0, 4e-6)] {
-            let mean = history.mean_force(&model, rate, time).unwrap();
-            let parts = 6_000;
-            let part = time / f64::from(parts);
-            let (mut sum, mut largest) = (0.0, 1e-3f64);
-            for _ in 0..parts {
-                let before = history.force(rate);
-                history.advance(&model, rate, part).unwrap();
-                let after = history.force(rate);
-                sum += 0.5 * (before + after);
-                largest = largest.max(after);
-            }
-            let slow = sum / f64::from(parts);
-            assert!((mean - slow).abs() < 2e-4 * largest, "{name} at {rate} m/s: {mean:e} N instead of {slow:e} N");
-        }
     }
 }
 

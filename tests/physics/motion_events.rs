@@ -1,6 +1,6 @@
 //! A contact that knows the mass in delicate cases: at the surface, at rest, in equilibrium, and pulled away.
 
-use crate::physics::{self, AnyModel, MASS, all_models, mild, model, unit};
+use crate::physics::{self, AnyModel, MASS, all_models, mild, model, pair_of, unit};
 use brinell_contact::motion::{ExternalLoad, NoMotion, Outcome, follow};
 use brinell_contact::{History, Surface};
 
@@ -150,6 +150,35 @@ fn the_slowest_impact_that_numbers_can_say_loses_nothing() {
             let outcome = go(&mut history, &model, 0.0, speed, time);
             assert!((-outcome.speed / speed - 1.0).abs() < 1e-13, "{name} at {speed:e} m/s: {outcome:?}");
             assert!(history.indentation() < 0.0 && outcome.deepest > 0.0, "{name} at {speed:e} m/s");
+        }
+    }
+}
+
+/// A body that touches at a speed far below what its acceleration gives it afterwards is where one is that touches at rest, a
+/// little earlier: near the surface, the contact force is negligible.
+#[test]
+fn a_touch_that_is_slow_beside_the_motion_after_it_is_as_exact_as_any() {
+    // a line contact is so stiff that the body has turned many times by then
+    let of_balls = |(_, model): &(String, AnyModel)| !model.loading.is_line();
+    for (name, model) in all_models(pair_of(0.005, 2e11, 4e8)).into_iter().filter(of_balls) {
+        let yields = model.pair.yield_point(1.1);
+        let mass = 1.0;
+        // the body stays in the elastic range of the laws that have one
+        let acceleration = 0.05 * yields.force / mass;
+        let scale = (0.1 * yields.indentation / acceleration).sqrt();
+        for time in [0.1 * scale, 0.3 * scale, scale] {
+            for part in [1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12, 1e-14] {
+                let speed = part * acceleration * time;
+                let end = |speed: f64, time: f64| {
+                    let mut history = History::start(&model, 0.0).expect("within range");
+                    let outcome = follow(&mut history, &model, &ExternalLoad { mass, acceleration }, speed, time);
+                    (history.indentation(), outcome.expect("within range").speed)
+                };
+                let (slow, rest) = (end(speed, time), end(0.0, time + speed / acceleration));
+                let largest = acceleration * time;
+                let off = ((slow.0 - rest.0) / rest.0).abs().max((slow.1 - rest.1).abs() / largest);
+                assert!(off < 1e-12 + part * part, "{name}: {off:e} after {time:e} s from {part:e} of the speed");
+            }
         }
     }
 }

@@ -1,53 +1,12 @@
 //! Contacts on paths: the result depends on the path, not on the number of steps.
 
 use crate::physics::{
-    self, AnyModel, Random, TURNS, advance, all_models, exactly, go, is_passive, loading_force, mild, model, on_grid,
-    pressed, some_models, unloading_force,
+    self, AnyModel, Random, advance, all_models, exactly, go, is_passive, loading_force, mild, model, on_grid, pressed,
+    some_models, unloading_force,
 };
 use brinell_contact::loading::KogutEtsion;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Contact, History, Regime, Surface};
-
-/// The outputs along a path: force, energies, dent, contact radius.
-fn readings(history: &History, model: &AnyModel) -> [f64; 5] {
-    [
-        history.force(),
-        history.elastic_energy(model),
-        history.dissipated_energy(model),
-        history.residual_indentation(model),
-        history.contact_radius(model),
-    ]
-}
-
-#[test]
-fn a_path_gives_the_same_however_it_is_cut() {
-    for (name, dented) in all_models(mild()) {
-        for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
-            let (mut whole, mut cut) = (pressed(&model, 0.0), pressed(&model, 0.0));
-            let deepest = pressed(&model, on_grid(200.0));
-            let largest = readings(&deepest, &model).map(f64::abs);
-            for turn in TURNS {
-                let increment = on_grid(turn) - whole.indentation();
-                advance(&mut whole, &model, increment);
-                for _ in 0..1000 {
-                    advance(&mut cut, &model, increment / 1000.0);
-                }
-                let pairs = readings(&whole, &model).into_iter().zip(readings(&cut, &model));
-                for (index, (one, thousand)) in pairs.enumerate() {
-                    // 1e-13 of the largest: the thousandth is rounded once, which moves the end by 1e-16 of the path. The root
-                    // in the contact radius turns this into 1e-8 at the residual indentation; no path turns there.
-                    let size = if index < 3 { largest[index].max(largest[0] * on_grid(200.0)) } else { largest[index] };
-                    let size = if index == 0 { largest[0] } else { size };
-                    assert!(
-                        (one - thousand).abs() <= 1e-13 * size,
-                        "{name}, {:?} at {turn}, {index}: {one:e} in one step, {thousand:e} in 1000",
-                        model.surface
-                    );
-                }
-            }
-        }
-    }
-}
 
 #[test]
 fn a_hundred_million_small_steps_lose_nothing() {

@@ -1,6 +1,6 @@
 //! Predictions: the root of the energy balance.
 
-use crate::physics::{AnyModel, MASS, logarithmic, mild, model, unit};
+use crate::physics::{AnyModel, MASS, advance, logarithmic, mild, model, pressed, some_models, unit};
 use brinell_contact::Loading;
 use brinell_contact::impact::{Impact, predict};
 use brinell_contact::loading::AnyLoading;
@@ -56,6 +56,46 @@ fn times_are_right_to_rounding_though_the_kinetic_energy_vanishes_at_the_turning
         for (name, time) in [("loading", prediction.loading_time), ("unloading", prediction.unloading_time)] {
             let error = time / half - 1.0;
             assert!(error.abs() < 1e-14, "{name} at {speed} m/s is off by {error:e}");
+        }
+    }
+}
+
+/// Largest indentation [m], restitution and duration [s] of an impact, by leapfrog steps of `1/steps` of `duration`.
+fn leapfrog(model: &AnyModel, impact: &Impact, duration: f64, steps: u32) -> (f64, f64, f64) {
+    let step = duration / f64::from(steps);
+    let mut history = pressed(model, 0.0);
+    let (mut speed, mut largest, mut time) = (impact.speed, 0.0_f64, 0.0);
+    loop {
+        speed -= 0.5 * step * history.force() / impact.mass;
+        advance(&mut history, model, step * speed);
+        speed -= 0.5 * step * history.force() / impact.mass;
+        largest = largest.max(history.indentation());
+        time += step;
+        if speed < 0.0 && history.force() == 0.0 {
+            // the bodies separated within the last step: go back to the residual indentation at the speed of separation
+            let passed = (history.residual_indentation(model) - history.indentation()) / -speed;
+            return (largest, -speed / impact.speed, time - passed);
+        }
+    }
+}
+
+#[test]
+fn predictions_agree_with_a_fine_simulation() {
+    for (name, model) in some_models(mild()) {
+        for speed in [1e-3, 4e-3, 0.03, 0.2, 2.0] {
+            let impact = Impact { mass: MASS, speed };
+            let prediction = predict(&model, &impact).expect("an ordinary impact");
+            let duration = prediction.contact_time();
+            let (largest, restitution, time) = leapfrog(&model, &impact, duration, 20_000);
+            // second order: (1/20000)^2 times some tens, and ten times that for the corners of the curves
+            let errors = [
+                largest / prediction.max_indentation - 1.0,
+                restitution - prediction.restitution,
+                time / duration - 1.0,
+            ];
+            for error in errors {
+                assert!(error.abs() <= 1e-6, "{name} at {speed} m/s: {errors:?}, {prediction:?}");
+            }
         }
     }
 }

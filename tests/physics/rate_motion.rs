@@ -1,8 +1,7 @@
 //! Bodies of known mass on a target whose strength depends on the strain rate, without FMI.
 
+use crate::moved_bodies::{Group, LosingModel, RATES};
 use crate::physics::{AnyModel, Random, elastic_partner};
-use crate::shared_losses::{LosingModel, random_losing_bodies};
-use crate::shared_motion::{Group, random_bodies};
 use brinell_contact::impact::{self, Impact};
 use brinell_contact::loading::{self, AnyLoading, Loading};
 use brinell_contact::losses::{self, AnyLoss, RestitutionFitted};
@@ -13,7 +12,6 @@ use brinell_contact::unloading::{self, AnyUnloading, Unloading};
 use brinell_contact::{Contact, Pair, Surface, TwoBodies};
 
 const MASS: f64 = 4.11e-3;
-const RATES: [Rate; 2] = [Rate::JohnsonCook { c: 0.014, reference_rate: 1.0 }, Rate::CowperSymonds { d: 40.4, q: 5.0 }];
 
 fn pair() -> Pair {
     Pair { radius: 5e-3, modulus: 115e9, yield_strength: 300e6, youngs_modulus: 210e9, poissons_ratio: 0.3 }
@@ -175,64 +173,6 @@ fn an_elastic_impact_makes_no_dent_for_a_slower_one() {
         assert!((history.factors().softer / restitution(&model, speed).1 - 1.0).abs() < 1e-11, "{speed}");
         bounce(&model, &mut history, -1.0, 1e-3);
     }
-}
-
-/// Random bodies whose contacts find their strengths, by one of the [`RATES`] each.
-fn rated<M: Slow, C: Contact<M> + SharedContact<M>>(
-    (start, kinetic): (Group<M, C>, f64),
-    random: &mut Random,
-) -> (Group<rate::Model<M>, History<C>>, f64) {
-    let mut any = || RATES[usize::from(random.next() < 0.5)];
-    let models = start.models.iter().map(|&slow| rate::Model { slow, rate: any(), harder: any() }).collect();
-    let gaps: Vec<f64> = start.depths().iter().map(|depth| -depth).collect();
-    (Group::new(models, &gaps, start.entries, start.accelerations, start.rates), kinetic)
-}
-
-/// The largest difference of the end in parts, as a part of the speed and of the largest depth, with that of a motion that starts with
-/// nearly the same rates, for each number of `parts`. Asserts the balance of work.
-fn cuts<M: Slow, C: Contact<M> + SharedContact<M>>(
-    (start, kinetic): (Group<rate::Model<M>, History<C>>, f64),
-    name: &str,
-) -> (u32, u32) {
-    let most = (0..start.contacts.len()).map(|i| start.masses().of(i, i)).fold(0.0, f64::max);
-    let (speed, radius) = ((2.0 * kinetic * most).sqrt(), { start.models[0].slow }.plastic().pair.radius);
-    let step = (1e-1 * radius / speed).min(1e-2);
-    let mut whole = start.clone();
-    whole.step(step);
-    assert!(whole.imbalance < 1e-10 * kinetic, "{name}: {:e} of {kinetic:e} J", whole.imbalance);
-    let stronger = whole.contacts.iter().filter(|contact| contact.factors().softer > 1.0).count();
-    let mut sensitive = 0;
-    for parts in [7, 100, 1000] {
-        let mut cut = start.clone();
-        (0..parts).for_each(|_| cut.step(step / f64::from(parts)));
-        let difference = whole.difference(&cut, speed, 1e-2 * radius);
-        if difference > 1e-9 {
-            let mut near = start.clone();
-            let nudge = |i: usize| 1e-11 * speed * ((i * 7 % 5) as f64 - 2.0);
-            near.rates.iter_mut().enumerate().for_each(|(i, rate)| *rate += nudge(i));
-            near.step(step);
-            let nudged = whole.difference(&near, speed, 1e-2 * radius);
-            assert!(difference < nudged, "{name} in {parts} parts: {difference:.1e}, {nudged:.1e} if nudged");
-            sensitive += 1;
-        }
-    }
-    (stronger as u32, sensitive)
-}
-
-#[test]
-fn bodies_that_share_contacts_keep_the_balance_of_work_and_do_not_care_how_time_is_cut() {
-    let mut random = Random(31);
-    let (mut stronger, mut sensitive, mut contacts) = (0, 0, 0);
-    for index in 0..36 {
-        let count = 2 + index % 5;
-        let bodies = random_bodies(&mut random, count);
-        let (plain, off) = cuts(rated(bodies, &mut random), &format!("{index}"));
-        let bodies = random_losing_bodies(&mut random, count);
-        let (losing, other) = cuts(rated(bodies, &mut random), &format!("{index} with losses"));
-        (stronger, sensitive, contacts) = (stronger + plain + losing, sensitive + off + other, contacts + 2 * count);
-    }
-    println!("{stronger} of {contacts} contacts found a strength, {sensitive} sensitive cuts of 216");
-    assert!(stronger > contacts as u32 / 3 && sensitive < 10, "{stronger} of {contacts}, {sensitive}");
 }
 
 /// The second contact is far away, so that the first one moves as if it were alone, but by the motion of bodies that share contacts.

@@ -1,20 +1,14 @@
 //! Contacts with friction that share bodies: what must hold for any bodies and any step, and how they come to rest.
 
+use crate::moved_bodies::{Group, LosingOneWay, LosingTwoWays, OneWay, Rough};
 use crate::physics::{AnyModel, Random, loading, pair_of, unloading};
-use crate::shared_motion::{Group, random_rows};
-use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{AnyLoss, History as LosingHistory, RestitutionFitted};
+use brinell_contact::losses::{AnyLoss, RestitutionFitted};
 use brinell_contact::shared::{Refused, SharedContact};
-use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel, PlaneContact, Quantity};
-use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::tangential::{Friction, FrictionalModel, Quantity};
 use brinell_contact::{Contact, Surface};
 
-type Model = FrictionalModel<AnyLoading, AnyUnloading>;
-type LosingModel = FrictionalModel<AnyLoading, AnyUnloading, AnyLoss>;
-type OneWay = FrictionalContact<16>;
-type TwoWays = PlaneContact<16>;
-type LosingOneWay = FrictionalContact<16, true, LosingHistory<AnyLoss>>;
-type LosingTwoWays = PlaneContact<16, true, LosingHistory<AnyLoss>>;
+type Model = Rough<()>;
+type LosingModel = Rough<AnyLoss>;
 
 const G: f64 = 9.81;
 
@@ -157,117 +151,6 @@ fn a_box_that_slides_loses_the_work_of_friction() {
     let work = coefficient * BOX.mass * G * slope.cos() * way;
     let lost = energy(&group) - before;
     assert!((lost / work - 1.0).abs() < 1e-6, "{lost} instead of {work} J");
-}
-
-/// A model with friction and a loss of this kind.
-type WithLoss<X> = FrictionalModel<AnyLoading, AnyUnloading, X>;
-
-/// Random bodies with friction in as many directions as their contacts have, and their energy [J].
-fn random_rough<X: Copy, C: Contact<WithLoss<X>> + SharedContact<WithLoss<X>>>(
-    random: &mut Random,
-    count: usize,
-    loss: impl Fn(&mut Random) -> X,
-) -> (Group<WithLoss<X>, C>, f64) {
-    let directions = <C as Contact<WithLoss<X>>>::DIRECTIONS;
-    let (start, kinetic) = random_rows(random, count, directions);
-    let models = start.models.iter().map(|normal| {
-        let coefficient = random.next();
-        let friction = Friction { coefficient, stiffness_ratio: RATIO };
-        // a law without segments has no springs
-        let normal = match normal.is_segmented() {
-            true => *normal,
-            false => AnyModel { unloading: unloading("contact-radius"), loading: loading("johnson"), ..*normal },
-        };
-        FrictionalModel { normal, friction, loss: loss(random) }
-    });
-    let models: Vec<WithLoss<X>> = models.collect();
-    let gaps: Vec<f64> = start.depths().iter().map(|depth| -depth).collect();
-    (Group::new(models, &gaps, start.entries, start.accelerations, start.rates), kinetic)
-}
-
-/// Follows random bodies in steps that are cut in different ways; returns the differences in rising order.
-fn differences<X: Copy, C: Contact<WithLoss<X>> + SharedContact<WithLoss<X>>>(
-    seed: u64,
-    loss: impl Fn(&mut Random) -> X,
-) -> Vec<f64> {
-    let mut random = Random(seed);
-    let mut differences = Vec::new();
-    for index in 0..60 {
-        let count = 1 + index % 6;
-        let (start, kinetic) = random_rough::<X, C>(&mut random, count, &loss);
-        let rows = start.rates.len();
-        let most = (0..rows).map(|i| start.masses().of(i, i)).fold(0.0, f64::max);
-        let speed = (2.0 * kinetic * most).sqrt();
-        let radius = start.models[0].normal.pair.radius;
-        let step = (3e-2 * radius / speed).min(1e-2);
-        let mut whole = start.clone();
-        // bodies that are wedged oscillate too often for one step
-        if let Err(refused) = whole.try_step(step) {
-            assert!(matches!(refused, Refused::TooLong { .. }), "{index}: {refused:?}");
-            continue;
-        }
-        let energy = kinetic.max(whole.energy());
-        assert!(whole.imbalance < 1e-10 * energy, "{index}: {:e} of {energy:e} J", whole.imbalance);
-        for (contact, model) in whole.models.iter().enumerate() {
-            let tangents = (1..=<C as Contact<WithLoss<X>>>::DIRECTIONS)
-                .map(|direction| whole.impulses[contact + direction * count].powi(2));
-            let (slipped, pressed) = (tangents.sum::<f64>().sqrt(), whole.impulses[contact]);
-            let limit = model.friction.coefficient * pressed;
-            // mean forces are found by iteration
-            let iterated = 1e-12 * (2.0 * energy / most).sqrt();
-            assert!(
-                slipped <= limit * (1.0 + 1e-10) + iterated,
-                "{index}: an impulse of {slipped} N.s, not {limit} N.s + {iterated} N.s"
-            );
-        }
-        for parts in [3, 50] {
-            let mut cut = start.clone();
-            for _ in 0..parts {
-                cut.step(step / f64::from(parts));
-                assert_bound(&cut);
-            }
-            differences.push(whole.difference(&cut, speed, 1e-2 * radius));
-        }
-    }
-    differences.sort_by(f64::total_cmp);
-    differences
-}
-
-#[test]
-fn random_bodies_with_friction_keep_balance_and_bound_and_hardly_care_how_time_is_cut() {
-    let none = |_: &mut Random| ();
-    for differences in [differences::<_, OneWay>(21, none), differences::<_, TwoWays>(22, none)] {
-        let at = |part: usize| differences[differences.len() * part / 100];
-        let (median, most) = (at(50), at(95));
-        println!("{} differences: median {median:.1e}, 95 % below {most:.1e}", differences.len());
-        assert!(differences.len() >= 110, "{}", differences.len());
-        assert!(median < 1e-5 && most < 1e-3, "{median:.1e}, {most:.1e}");
-    }
-}
-
-/// No tangential force is above Coulomb's bound, for the normal force at the present rates.
-fn assert_bound<X: Copy, C: Contact<WithLoss<X>>>(group: &Group<WithLoss<X>, C>) {
-    let count = group.models.len();
-    for (place, (contact, model)) in group.contacts.iter().zip(&group.models).enumerate() {
-        let rate = group.rates[place];
-        let tangents = (0..C::DIRECTIONS).map(|it| contact.tangential(model, Quantity::Force(it), rate).powi(2));
-        let (found, limit) = (tangents.sum::<f64>().sqrt(), model.friction.coefficient * contact.force(rate));
-        assert!(found <= limit * (1.0 + 1e-12), "contact {place} of {count}: {found:e} N of {limit:e} N");
-    }
-}
-
-#[test]
-fn friction_with_a_loss_keeps_balance_and_bound_and_hardly_cares_how_time_is_cut() {
-    let fitted = |random: &mut Random| {
-        AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.05 + 0.94 * random.next() })
-    };
-    for differences in [differences::<_, LosingOneWay>(23, fitted), differences::<_, LosingTwoWays>(24, fitted)] {
-        let at = |part: usize| differences[differences.len() * part / 100];
-        let (median, most) = (at(50), at(95));
-        println!("{} differences: median {median:.1e}, 95 % below {most:.1e}", differences.len());
-        assert!(differences.len() >= 90, "{}", differences.len());
-        assert!(median < 1e-4 && most < 1e-2, "{median:.1e}, {most:.1e}");
-    }
 }
 
 /// Balls of 1 g to 1 kg on each other and on the ground, dropped from up to 10 um with a slip at the ground, and their number.

@@ -1,31 +1,12 @@
 //! Contacts with losses that share bodies: what must hold for any step, and how they come to rest.
 
+use crate::moved_bodies::{LOSSES, Losing, LosingModel, STEEL};
 use crate::physics::{AnyModel, Random, all_models, loading, model, pair_of, unloading};
-use crate::shared_motion::{Group, random_bodies};
-use brinell_contact::damped::{Adams, AnyDamped, Damped};
-use brinell_contact::loading::AnyLoading;
-use brinell_contact::losses::{self, AnyLoss, HalfSpaceRadiation, History, Plate, RestitutionFitted, Solid};
-use brinell_contact::shared::InverseMasses;
-use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::losses::{self, AnyLoss, Plate, RestitutionFitted};
 use brinell_contact::{Loading, Surface, Unloading};
-
-pub type LosingModel = losses::Model<AnyLoading, AnyUnloading, AnyLoss>;
 
 /// The number of evaluations of a step over one impact, above the most that the machine states; of a law without segments ten times as many.
 const MOST_OF_AN_IMPACT: u32 = 4000;
-
-const STEEL: Solid = Solid { density: 7850.0, youngs_modulus: 206e9, poissons_ratio: 0.3 };
-
-/// Losses of every kind, one of which makes the surface come loose before the bodies part.
-pub const LOSSES: [AnyLoss; 4] = [
-    AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.9 }),
-    AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.3 }),
-    AnyLoss::HalfSpaceRadiation(HalfSpaceRadiation { target: STEEL }),
-    AnyLoss::Plate(Plate { target: STEEL, thickness: 0.01 }),
-];
-
-/// Contacts with losses that share bodies, in motion.
-pub type Losing = Group<LosingModel, History<AnyLoss>>;
 
 /// A contact of two steel balls of 10 mm.
 fn steel(law: (&str, &str), loss: AnyLoss) -> LosingModel {
@@ -34,75 +15,16 @@ fn steel(law: (&str, &str), loss: AnyLoss) -> LosingModel {
     losses::Model { plastic: plastic.prepared(), loss }
 }
 
-const LAWS: [(&str, &str); 4] =
-    [("hertz", "contact-radius"), ("brinell", "brinell"), ("kogut-etsion", "etsion"), ("line", "line")];
-
-/// Random bodies as [`random_bodies`] makes them, with a random loss at each contact, and their energy [J].
-pub fn random_losing_bodies(random: &mut Random, count: usize) -> (Losing, f64) {
-    let (start, kinetic) = random_bodies(random, count);
-    let any = |random: &mut Random| LOSSES[(random.next() * LOSSES.len() as f64) as usize];
-    let models = start.models.iter().map(|&plastic| losses::Model { plastic, loss: any(random) }).collect();
-    let gaps: Vec<f64> = start.depths().iter().map(|depth| -depth).collect();
-    (Losing::new(models, &gaps, start.entries, start.accelerations, start.rates), kinetic)
-}
-
 /// The inverse masses of three balls of 33 g on the ground.
 fn stack_of_three() -> Vec<f64> {
     let one = 1.0 / 0.033;
     vec![one, -one, 0.0, 2.0 * one, -one, 2.0 * one]
 }
 
-/// The same by a rate-dependent law.
-fn rate_dependent(law: AnyDamped) -> LosingModel {
-    let losses::Model { plastic, loss } = law.model(pair_of(5e-3, 1.13e11, 3e8), 0.6, 0.033);
-    let (loading, unloading) = (AnyLoading::Elastic(plastic.loading), AnyUnloading::ContactRadius(plastic.unloading));
-    let plastic = AnyModel { pair: plastic.pair, loading, unloading, surface: plastic.surface };
-    losses::Model { plastic, loss: AnyLoss::Damper(loss) }
-}
-
-/// Every rate-dependent law, and springs of other powers.
-fn rate_dependent_laws() -> impl Iterator<Item = LosingModel> {
-    let springs = [1.0, 1.2, 1.9, 2.2, 3.0].map(|exponent| AnyDamped::Adams(Adams { exponent, ..Adams::REFERENCE }));
-    AnyDamped::ALL.map(|(_, law)| law).into_iter().chain(springs).map(rate_dependent)
-}
-
 /// Three balls that fall from this height [m] above the ground, on each other.
 fn stack(model: LosingModel, height: f64) -> Losing {
     let models = vec![model; 3];
     Losing::new(models, &[height, 0.0, 0.0], stack_of_three(), vec![9.81, 0.0, 0.0], vec![0.0; 3])
-}
-
-#[test]
-fn a_stack_with_losses_ends_in_the_same_way_however_time_is_cut() {
-    let steels = LAWS.into_iter().flat_map(|law| LOSSES.map(|loss| steel(law, loss)));
-    for model in steels.chain(rate_dependent_laws()) {
-        let mut start = stack(model, 1e-6);
-        start.rates[0] = 0.4;
-        let mut whole = start.clone();
-        whole.step(4e-4);
-        let energy = 0.5 * 0.4 * 0.4 * 0.099;
-        assert!(whole.imbalance < 1e-10 * energy, "{model:?}: {:e}", whole.imbalance);
-        for parts in [3, 10, 100, 1000] {
-            let mut cut = start.clone();
-            (0..parts).for_each(|_| cut.step(4e-4 / f64::from(parts)));
-            let difference = whole.difference(&cut, 0.4, 1e-5);
-            assert!(difference < 1e-9, "{model:?}, {parts} parts: {difference:.1e}");
-        }
-    }
-}
-
-#[test]
-fn random_bodies_with_losses_keep_the_balance_of_work() {
-    let mut random = Random(23);
-    for index in 0..200 {
-        let count = 2 + index % 7;
-        let (mut group, kinetic) = random_losing_bodies(&mut random, count);
-        let masses = InverseMasses::new(count, &group.entries).expect("a triangle");
-        let speed = (2.0 * kinetic * (0..count).map(|i| masses.of(i, i)).fold(0.0, f64::max)).sqrt();
-        let step = (1e-1 * group.models[0].plastic.pair.radius / speed).min(1e-2);
-        group.step(step);
-        assert!(group.imbalance < 1e-10 * kinetic, "{index}: {:e} of {kinetic:e} J", group.imbalance);
-    }
 }
 
 /// After a fast touch, events that were none once took 27,600 evaluations.

@@ -1,101 +1,10 @@
 //! Contacts that share bodies: what must hold for any bodies, any laws and any step.
 
+use crate::moved_bodies::{Plain, random_bodies};
 use crate::physics::{AnyModel, Random, all_models, has_jumps, loading, model, pair_of, unloading};
 use brinell_contact::motion::{self, ExternalLoad};
-use brinell_contact::shared::{
-    InverseMasses, NotInverseMasses, Outcome, Refused, SharedContact, Work, follow, inverse_masses, work_of_step,
-};
-use brinell_contact::tangential::Quantity;
-use brinell_contact::{Contact, History, Surface};
-
-/// Contacts that share bodies, in motion.
-#[derive(Clone)]
-pub struct Group<M, C> {
-    pub models: Vec<M>,
-    pub contacts: Vec<C>,
-    /// The upper triangle [1/kg].
-    pub entries: Vec<f64>,
-    pub accelerations: Vec<f64>,
-    pub rates: Vec<f64>,
-    /// Of all normals, then of the tangents in each direction.
-    pub impulses: Vec<f64>,
-    pub moments: Vec<f64>,
-    pub evaluations: u32,
-    /// The largest defect of the balance of work in a step [J].
-    pub imbalance: f64,
-}
-
-/// Contacts without losses and without friction.
-pub type Plain = Group<AnyModel, History>;
-
-impl<M, C: Contact<M> + SharedContact<M>> Group<M, C> {
-    pub fn new(
-        models: Vec<M>,
-        gaps: &[f64],
-        entries: Vec<f64>,
-        accelerations: Vec<f64>,
-        rates: Vec<f64>,
-    ) -> Group<M, C> {
-        let contacts = models.iter().zip(gaps).map(|(model, &gap)| C::start(model, gap).expect("within range"));
-        let (contacts, count) = (contacts.collect(), rates.len());
-        let (impulses, moments) = (vec![0.0; count], vec![0.0; count]);
-        Group { models, contacts, entries, accelerations, rates, impulses, moments, evaluations: 0, imbalance: 0.0 }
-    }
-
-    pub fn masses(&self) -> InverseMasses<'_> {
-        InverseMasses::new(self.contacts.len() * (1 + <C as Contact<M>>::DIRECTIONS), &self.entries)
-            .expect("a triangle")
-    }
-
-    pub fn try_step(&mut self, step: f64) -> Result<Outcome, Refused> {
-        let before = (self.rates.clone(), self.energy());
-        let entries = self.entries.clone();
-        let masses = InverseMasses::new(self.contacts.len() * (1 + <C as Contact<M>>::DIRECTIONS), &entries)
-            .expect("a triangle");
-        let mut work: Vec<Work<C>> = self.contacts.iter().map(|&contact| Work::new(contact)).collect();
-        let (models, accelerations) = (&self.models, &self.accelerations);
-        let model = |contact: usize| &models[contact];
-        let outcome = follow(&mut self.contacts, model, &masses, accelerations, &mut self.rates, &mut work, step)?;
-        self.evaluations += outcome.evaluations;
-        for (row, (impulse, moment)) in self.impulses.iter_mut().zip(&mut self.moments).enumerate() {
-            let work = &work[row % models.len()];
-            let [new_impulse, new_moment] = match (row / models.len()).checked_sub(1) {
-                None => [work.impulse(), work.moment()],
-                Some(direction) => [work.tangential_impulse(direction), work.tangential_moment(direction)],
-            };
-            *moment += step * *impulse + new_moment;
-            *impulse += new_impulse;
-        }
-        let balance = work_of_step(&work, (&before.0, &self.rates), accelerations, step) - (self.energy() - before.1);
-        self.imbalance = self.imbalance.max(balance.abs());
-        Ok(outcome)
-    }
-
-    pub fn step(&mut self, step: f64) {
-        self.try_step(step).expect("a motion");
-    }
-
-    /// Energy that the contacts have taken up [J].
-    pub fn energy(&self) -> f64 {
-        let of = |contact: &C, model: &M| {
-            let quantities = [Quantity::Energy, Quantity::FrictionWork];
-            let friction: f64 = quantities.map(|quantity| contact.tangential(model, quantity, 0.0)).iter().sum();
-            contact.work(model) + if C::HAS_FRICTION { friction } else { 0.0 }
-        };
-        self.contacts.iter().zip(&self.models).map(|(contact, model)| of(contact, model)).sum()
-    }
-
-    pub fn depths(&self) -> Vec<f64> {
-        self.contacts.iter().map(Contact::<M>::indentation).collect()
-    }
-
-    /// The largest difference from another end of the same motion, as a part of `speed` [m/s] and `depth` [m].
-    pub fn difference(&self, other: &Group<M, C>, speed: f64, depth: f64) -> f64 {
-        let rates = self.rates.iter().zip(&other.rates).map(|(one, other)| (one - other).abs() / speed);
-        let depths = self.depths().into_iter().zip(other.depths()).map(|(one, other)| (one - other).abs() / depth);
-        rates.chain(depths).fold(0.0, f64::max)
-    }
-}
+use brinell_contact::shared::{InverseMasses, NotInverseMasses, Refused, inverse_masses};
+use brinell_contact::{History, Surface};
 
 /// The inverse masses of balls in a row.
 fn row_of_balls(masses: &[f64]) -> Vec<f64> {
@@ -226,139 +135,6 @@ fn a_symmetric_arrangement_stays_symmetric() {
     }
 }
 
-/// These bodies with contacts along lines.
-pub fn as_rollers(bodies: Plain) -> Plain {
-    let gaps: Vec<f64> = bodies.depths().iter().map(|depth| -depth).collect();
-    let along_line =
-        |model: &AnyModel| AnyModel { loading: loading("line"), unloading: unloading("line"), ..*model }.prepared();
-    let models = bodies.models.iter().map(along_line).collect();
-    Plain::new(models, &gaps, bodies.entries, bodies.accelerations, bodies.rates)
-}
-
-/// Rigid bodies in space, some of which touch each other and the ground, with any laws. Also returns their energy [J].
-pub fn random_bodies(random: &mut Random, count: usize) -> (Plain, f64) {
-    random_rows(random, count, 0)
-}
-
-/// The same. The inverse masses, rates and accelerations also have rows of so many tangential `directions`.
-pub fn random_rows(random: &mut Random, count: usize, directions: usize) -> (Plain, f64) {
-    let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
-    let (radius, modulus) = (decades(-3.0, -1.0), decades(9.0, 11.5));
-    let strength = modulus / decades(1.5, 3.0);
-    let speed = decades(-2.0, 0.5);
-    let bodies = 2 + (random.next() * 3.0) as usize;
-    let inverse: Vec<[f64; 2]> = (0..bodies)
-        .map(|body| {
-            let mass = 7850.0 * 4.2 * radius.powi(3) * (0.3 + random.next());
-            // the first one is the ground
-            if body == 0 { [0.0; 2] } else { [1.0 / mass, 1.0 / (0.4 * mass * radius * radius)] }
-        })
-        .collect();
-    let cross =
-        |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let vector = |random: &mut Random| [random.next() - 0.5, random.next() - 0.5, random.next() - 0.5];
-    let unit = |a: [f64; 3]| a.map(|number| number / dot(a, a).sqrt());
-    // each contact has rows for every body, of the normal and of the tangents: a direction and a moment
-    let contacts: Vec<[Vec<[[f64; 3]; 2]>; 3]> = (0..count)
-        .map(|_| {
-            let one = 1 + (random.next() * (bodies - 1) as f64) as usize;
-            let other = (one + 1 + (random.next() * (bodies - 1) as f64) as usize) % bodies;
-            let normal = unit(vector(random));
-            let arm = |random: &mut Random| vector(random).map(|number| number * 2.0 * radius);
-            let arms = [arm(random), arm(random)];
-            let tangent = unit(cross(normal, [0.3, -0.5, 0.8]));
-            [normal, tangent, cross(normal, tangent)].map(|direction| {
-                let mut row = vec![[[0.0; 3]; 2]; bodies];
-                row[one] = [direction, cross(arms[0], direction)];
-                row[other] = [direction, cross(arms[1], direction)].map(|vector| vector.map(|number| -number));
-                row
-            })
-        })
-        .collect();
-    let of_direction = |direction: usize| contacts.iter().map(move |rows| rows[direction].clone());
-    let rows: Vec<Vec<[[f64; 3]; 2]>> = (0..=directions).flat_map(of_direction).collect();
-    let mut entries = Vec::new();
-    for i in 0..rows.len() {
-        for j in i..rows.len() {
-            let terms = (0..bodies).map(|body| {
-                let ([n, m], [o, p]) = (rows[i][body], rows[j][body]);
-                inverse[body][0] * dot(n, o) + inverse[body][1] * dot(m, p)
-            });
-            entries.push(terms.sum());
-        }
-    }
-    let velocities: Vec<[[f64; 3]; 2]> = (0..bodies)
-        .map(|body| {
-            let moves = if body == 0 { 0.0 } else { 2.0 * speed };
-            [vector(random).map(|number| number * moves), vector(random).map(|number| number * moves / radius)]
-        })
-        .collect();
-    let rates = rows
-        .iter()
-        .map(|row| row.iter().zip(&velocities).map(|(r, v)| dot(r[0], v[0]) + dot(r[1], v[1])).sum())
-        .collect();
-    let energy: f64 = (1..bodies)
-        .map(|body| {
-            let [v, w] = velocities[body];
-            0.5 * dot(v, v) / inverse[body][0] + 0.5 * dot(w, w) / inverse[body][1]
-        })
-        .sum();
-    let pair = pair_of(radius, modulus, strength);
-    // a line contact has no friction
-    let all: Vec<_> = all_models(pair).into_iter().filter(|(_, model)| !model.loading.is_line()).collect();
-    let models: Vec<AnyModel> = (0..count)
-        .map(|_| {
-            let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
-            AnyModel { surface, ..all[(random.next() * all.len() as f64) as usize].1 }
-        })
-        .collect();
-    let gaps: Vec<f64> = (0..count).map(|_| (random.next() - 0.3).max(0.0) * 1e-3 * radius).collect();
-    let accelerations = (0..rows.len()).map(|_| if random.next() < 0.5 { 9.81 } else { 0.0 }).collect();
-    (Plain::new(models, &gaps, entries, accelerations, rates), energy)
-}
-
-#[test]
-fn random_bodies_keep_the_balance_of_work_and_do_not_care_how_time_is_cut() {
-    let mut random = Random(11);
-    let (mut worst, mut rattling) = (0.0_f64, 0);
-    for index in 0..300 {
-        let count = 2 + index % 7;
-        let (start, kinetic) = random_bodies(&mut random, count);
-        let start = if index % 5 == 4 { as_rollers(start) } else { start };
-        let most = (0..count).map(|i| start.masses().of(i, i)).fold(0.0, f64::max);
-        let speed = (2.0 * kinetic * most).sqrt();
-        let radius = start.models[0].pair.radius;
-        // a few times as long as an impact
-        let step = (1e-1 * radius / speed).min(1e-2);
-        let mut scratch = vec![0.0; start.entries.len()];
-        assert_eq!(start.masses().check(&mut scratch), Ok(()));
-        let mut whole = start.clone();
-        whole.step(step);
-        worst = worst.max(whole.imbalance / kinetic);
-        assert!(whole.imbalance < 1e-10 * kinetic, "{index}: {:e} of {kinetic:e} J", whole.imbalance);
-        for parts in [7, 100] {
-            let mut cut = start.clone();
-            (0..parts).for_each(|_| cut.step(step / f64::from(parts)));
-            let difference = whole.difference(&cut, speed, 1e-2 * radius);
-            if difference > 1e-9 {
-                // wedged bodies that rattle: how far apart do two motions end that start with nearly the same rates?
-                let mut near = start.clone();
-                near.rates
-                    .iter_mut()
-                    .enumerate()
-                    .for_each(|(i, rate)| *rate += 1e-11 * speed * ((i * 7 % 5) as f64 - 2.0));
-                near.step(step);
-                let nudged = whole.difference(&near, speed, 1e-2 * radius);
-                assert!(difference < nudged, "{index} in {parts} parts: {difference:.1e}, {nudged:.1e} if nudged");
-                rattling += 1;
-            }
-        }
-    }
-    println!("worst imbalance {worst:.1e}, {rattling} sensitive cuts of 600");
-    assert!(rattling < 10, "{rattling}");
-}
-
 #[test]
 fn powers_of_two_in_mass_length_and_time_change_nothing_else() {
     // mass, length, time: force, stiffness and strength follow
@@ -411,7 +187,7 @@ fn numbers_that_are_no_inverse_masses_are_refused_with_their_contacts() {
     assert_eq!(inverse_masses::entries(64), 2080);
     let mut random = Random(3);
     for _ in 0..200 {
-        let (group, _) = random_bodies(&mut random, 8);
+        let group = random_bodies(&mut random, 8, 0).group;
         let mut scratch = vec![0.0; group.entries.len()];
         assert_eq!(group.masses().check(&mut scratch), Ok(()));
         // an inverse mass that is too small for the couplings
