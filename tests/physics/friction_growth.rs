@@ -1,7 +1,7 @@
 //! Properties of every history of a yielding contact with friction, for all pairs of laws whose unloading is one segment.
 
 use crate::friction;
-use crate::physics::{self, Random, is_passive, mild, some_models, unit};
+use crate::physics::{self, AnyModel, Random, is_passive, mild, some_models, unit};
 use brinell_contact::tangential::{Friction, Frictional, FrictionalModel, Mean, SpringsOf};
 use brinell_contact::{Contact, History};
 use brinell_contact::{loading::AnyLoading, unloading::AnyUnloading};
@@ -16,12 +16,15 @@ const MEMORY: usize = 16;
 
 pub type Model = FrictionalModel<AnyLoading, AnyUnloading>;
 
-/// Pairs of laws that are passive in normal motion and support friction.
+/// Whether a pair of laws, with its name, is passive in normal motion and supports friction.
+pub fn has_friction((name, model): &(String, AnyModel)) -> bool {
+    let unloading = name.rsplit(' ').next().expect("a law's name");
+    is_passive(model) && laws::entry("unloading", unloading).get("no_friction").is_none()
+}
+
+/// All of them.
 pub fn models() -> Vec<(String, Model)> {
-    let models = some_models(mild()).into_iter().filter(|(name, model)| {
-        let unloading = name.rsplit(' ').next().expect("a law's name");
-        is_passive(model) && laws::entry("unloading", unloading).get("no_friction").is_none()
-    });
+    let models = some_models(mild()).into_iter().filter(has_friction);
     models.map(|(name, normal)| (name, FrictionalModel { normal, friction: FRICTION, loss: () })).collect()
 }
 
@@ -109,7 +112,7 @@ fn distance<const D: usize>(one: [f64; D], other: [f64; D]) -> f64 {
 }
 
 /// A way of the length `slip` [m]: in any direction of a plane, or along a line.
-fn way_of<const D: usize>(slip: f64, random: &mut Random) -> [f64; D] {
+pub fn way_of<const D: usize>(slip: f64, random: &mut Random) -> [f64; D] {
     let angle = 2.0 * PI * random.next();
     std::array::from_fn(|direction| match (D, direction) {
         (1, _) => slip,

@@ -1,11 +1,11 @@
-//! Friction in two directions makes no force and no energy, whatever the history: every pair of laws, steps of any size, dents that
-//! grow. See `friction_passive` for one direction.
+//! Friction makes no force and no energy, whatever the history: every pairing of laws that has friction, in one and in two directions,
+//! dents that grow, steps over ten decades.
 
-use super::friction_growth::{Model, models};
-use crate::physics::{AnyModel, Random};
+use super::friction_growth::{Model, has_friction, models, way_of};
+use crate::physics::{AnyModel, Random, model, some_models, unit};
 use brinell_contact::history::path::RatePolynomial;
-use brinell_contact::tangential::{Friction, FrictionalContact, PlaneContact, Sliding};
-use brinell_contact::{Contact, Pair};
+use brinell_contact::tangential::{Friction, Frictional, FrictionalContact, FrictionalModel, PlaneContact, Sliding};
+use brinell_contact::{Body, Contact, Pair};
 use brinell_testing::long;
 use std::f64::consts::PI;
 
@@ -17,57 +17,155 @@ fn any_size(random: &mut Random, largest: f64, decades: f64) -> f64 {
     if random.next() < 0.5 { size } else { -size }
 }
 
-/// Worst excess over Coulomb's bound, fall of the friction work and excess over what friction can take, and of the stick radius,
-/// over 2 to 50 steps.
-fn worst(model: &Model, seed: u64) -> [f64; 4] {
-    let mut random = Random(seed);
-    let coefficient = 10f64.powf(3.0 * random.next() - 2.0);
-    let model = Model { friction: Friction { coefficient, ..model.friction }, ..*model };
-    let unit = model.normal.yield_point().indentation.min(2e-6);
-    let deepest = unit * 10f64.powf(2.5 * random.next());
-    let mut contact = PlaneContact::<16>::start(&model, 0.0).expect("within range");
-    let (mut found, mut bound, mut scale, mut limit) = ([0.0_f64; 4], 0.0, 0.0_f64, 0.0_f64);
-    for _ in 0..2 + (48.0 * random.next()) as usize {
-        let here = Contact::<Model>::indentation(&contact);
-        let mut rise = any_size(&mut random, deepest, 10.0);
-        if !(-0.1 * deepest..deepest).contains(&(here + rise)) {
-            rise = -rise;
-        }
-        let (slip, angle) = (any_size(&mut random, 10.0 * deepest, 10.0), 2.0 * PI * random.next());
-        let rates = [angle.cos(), angle.sin()].map(|along| along * slip / STEP);
-        let (before, work) = (contact, contact.friction_work(&model));
-        contact.set_tangential_rates(rates);
-        contact.step(&RatePolynomial::held(rise / STEP), STEP, || model).expect("within range");
-        let size = |[x, y]: [f64; 2]| x.hypot(y);
-        let force = Contact::<Model>::force(&contact, 0.0);
-        limit = limit.max(coefficient * force);
-        let mean = before.normal().mean_force(&model.normal, rise / STEP, STEP).expect("within range");
-        bound += coefficient * mean * size(rates) * STEP;
-        scale = scale.max(contact.normal().elastic_energy(&model.normal)).max(bound);
-        let excess = |one: f64, other: f64, size: f64| if one > other { (one - other) / size.max(1e-300) } else { 0.0 };
-        let now = [
-            excess(size(contact.tangential_forces(&model, 0.0)), coefficient * force, limit),
-            excess(work, contact.friction_work(&model), scale),
-            excess(contact.friction_work(&model), bound, scale),
-            excess(contact.stick_radius(&model), contact.contact_radius(&model), contact.contact_radius(&model)),
-        ];
-        found = std::array::from_fn(|index| found[index].max(now[index]));
-        assert!(contact.tangential_energy(&model) >= 0.0);
+/// A ball of 5 mm on mild steel: of steel, or rigid.
+fn bodies(is_rigid: bool) -> [Body; 2] {
+    let steel = Body { radius: 5e-3, youngs_modulus: 206e9, poissons_ratio: 0.3 };
+    let ball = Body { youngs_modulus: if is_rigid { f64::INFINITY } else { steel.youngs_modulus }, ..steel };
+    [ball, Body { radius: f64::INFINITY, ..steel }]
+}
+
+fn frictional(normal: AnyModel, coefficient: f64, is_rigid: bool) -> Model {
+    let [ball, target] = bodies(is_rigid);
+    FrictionalModel { normal, friction: Friction::between(&ball, &target, normal.pair.modulus, coefficient), loss: () }
+}
+
+/// How far a history has broken the bounds.
+#[derive(Default, Debug)]
+struct Broken {
+    /// Tangential force above `mu F`, relative to it.
+    coulomb: f64,
+    /// Fall of the friction work, relative to the largest energy that has been stored.
+    fall: f64,
+    /// Friction work of a step above `mu F` times its way and the stored energy, relative to them.
+    excess: f64,
+    /// Friction work and stored energy above the work of the tangential force, relative to the largest energy that has been
+    /// stored: what the approximate springs of a growing dent store too much for a while.
+    made: f64,
+    /// Stick radius above the contact radius, relative to it.
+    stick: f64,
+}
+
+/// A contact on its way, with its springs in `D` directions.
+struct Run<const D: usize> {
+    contact: Frictional<D, 16, true>,
+    model: Model,
+    /// Largest energy so far [J]: stored, or `mu F` times a way.
+    scale: f64,
+    /// Work of the tangential force so far [J].
+    work: f64,
+    broken: Broken,
+}
+
+fn length<const D: usize>(vector: [f64; D]) -> f64 {
+    vector.iter().map(|part| part * part).sum::<f64>().sqrt()
+}
+
+impl<const D: usize> Run<D> {
+    fn new(model: Model) -> Self {
+        let contact = Frictional::start(&model, 0.0).expect("within range");
+        Run { contact, model, scale: 0.0, work: 0.0, broken: Broken::default() }
     }
-    found
+
+    /// One step with these rates [m/s]; `None` beyond the range of the law.
+    fn step(&mut self, (rate, slip): (f64, [f64; D])) -> Option<()> {
+        let Run { contact, model, scale, work: total, broken } = self;
+        let mu = model.friction.coefficient;
+        let before = (contact.friction_work(model), contact.tangential_energy(model), contact.normal().force());
+        contact.set_tangential_rates(slip);
+        let kept = <Frictional<D, 16, true> as Contact<Model>>::kept(model);
+        contact.step_held(rate, STEP, &kept, || *model).ok()?;
+        let (force, energy) = (contact.normal().force(), contact.tangential_energy(model));
+        assert!(energy >= 0.0, "{energy:e}");
+        let most = mu * before.2.max(force) * length(slip) * STEP + before.1;
+        // the elastic energy of the normal motion bounds what tangential springs can store
+        let normal = mu / model.friction.scale() * contact.normal().elastic_energy(&model.normal);
+        *scale = scale.max(most).max(normal);
+        let work = contact.friction_work(model) - before.0;
+        let means = contact.mean_tangential_forces();
+        *total += means.iter().zip(slip).map(|(mean, slip)| mean * slip * STEP).sum::<f64>();
+        let worse = |worst: &mut f64, excess: f64, size: f64| *worst = worst.max(excess / size.max(f64::MIN_POSITIVE));
+        worse(&mut broken.coulomb, length(contact.tangential_forces(model, 0.0)) - mu * force, mu * force);
+        worse(&mut broken.fall, -work, *scale);
+        worse(&mut broken.excess, work - most, *scale);
+        worse(&mut broken.made, before.0 + work + energy - *total, *scale);
+        let radius = contact.contact_radius(model);
+        worse(&mut broken.stick, contact.stick_radius(model) - radius, radius);
+        Some(())
+    }
+
+    /// Two to fifty steps of any size.
+    fn follow(&mut self, seed: u64) {
+        let mut random = Random(seed);
+        let steps = random.log_uniform(2.0, 50.0) as usize;
+        let top = unit(&self.model.normal.pair).indentation / STEP * random.log_uniform(0.1, 1e3);
+        for _ in 0..steps {
+            let mut rate = any_size(&mut random, top, 10.0);
+            if self.contact.normal().indentation() + rate * STEP < -0.1 * top * STEP || random.next() < 0.1 {
+                rate = rate.abs();
+            }
+            let slip = any_size(&mut random, top, 10.0);
+            if self.step((rate, way_of(slip, &mut random))).is_none() {
+                break;
+            }
+        }
+    }
+
+    /// The bounds hold to rounding, in two directions the springs' share of the work to the error of a cone. What approximate
+    /// springs store too much is the error of their energy.
+    fn assert_bounds(&self, what: &str) {
+        let Broken { coulomb, fall, excess, made, stick } = self.broken;
+        let [least_excess, least_error] = if D == 1 { [1e-14, 0.0] } else { [1e-6, 3e-3] };
+        let keeps = coulomb <= 1e-12 && fall <= 1e-14 && excess <= least_excess && stick <= 1e-12;
+        let errors = [("with luding", 0.1), ("with brinell", 1e-2), ("with walton-braun", 1e-5)];
+        let error = errors.iter().find(|(law, _)| what.contains(law)).map_or(1e-3_f64, |(_, error)| *error);
+        assert!(keeps && made <= error.max(least_error), "{what}, {D} directions: {:?}", self.broken);
+    }
+}
+
+/// Just after yield, the springs on the edge of the old contact end on that of the new one, but for rounding.
+#[test]
+fn a_dent_that_grows_a_little_while_the_ball_slides_keeps_coulombs_bound() {
+    let [ball, target] = bodies(false);
+    let pair = Pair::new(&ball, &target, 300e6).expect("two bodies");
+    let normal = AnyModel { pair, ..model("big-alabo", "contact-radius") }.prepared();
+    let three = [
+        (0.08994791085892065, [0.040061415831334234]),
+        (0.19297829140824185, [0.0013460357514612518]),
+        (0.0005693733771485078, [8.155375791118345]),
+    ];
+    for history in [three.as_slice(), &[(0.265, [0.0]), (0.006, [4.0])]] {
+        let mut run = Run::new(frictional(normal, 0.3, false));
+        history.iter().for_each(|&step| run.step(step).expect("within range"));
+        run.assert_bounds(&format!("{history:?}"));
+        let [force] = run.contact.tangential_forces(&run.model, 0.0);
+        assert!((force / (0.3 * run.contact.normal().force()) - 1.0).abs() < 1e-12, "the ball slides");
+    }
 }
 
 #[test]
-fn friction_in_two_directions_keeps_coulombs_bound_and_its_work_never_falls() {
-    let mut failed = Vec::new();
-    for (name, model) in models() {
-        let all = (0..40).map(|seed| worst(&model, seed));
-        let found = all.fold([0.0_f64; 4], |sum, one| std::array::from_fn(|index| sum[index].max(one[index])));
-        if !(found[0] <= 1e-12 && found[1] <= 1e-15 && found[2] <= 1e-6 && found[3] <= 1e-12) {
-            failed.push(format!("{name}: {found:?}"));
+fn no_history_of_any_pairing_breaks_coulombs_bound_or_makes_energy() {
+    for is_rigid in [false, true] {
+        let [ball, target] = bodies(is_rigid);
+        let pair = Pair::new(&ball, &target, 300e6).expect("two bodies");
+        for (name, law) in some_models(pair).into_iter().filter(has_friction) {
+            // dents that hardly recover, and dents that mostly do
+            for (yield_strength, seeds) in [(300e6, 0..150), (3e4, 200..230), (30e9, 200..230)] {
+                let normal = AnyModel { pair: Pair { yield_strength, ..law.pair }, ..law };
+                for seed in seeds {
+                    let model = frictional(normal, Random(seed).log_uniform(1e-2, 10.0), is_rigid);
+                    let what = format!("{name}, rigid: {is_rigid}, {yield_strength:e} Pa, seed {seed}");
+                    let mut line = Run::<1>::new(model);
+                    line.follow(seed + 1_000_000);
+                    line.assert_bounds(&what);
+                    if seed % 3 == 0 {
+                        let mut plane = Run::<2>::new(model);
+                        plane.follow(seed + 2_000_000);
+                        plane.assert_bounds(&what);
+                    }
+                }
+            }
         }
     }
-    assert!(failed.is_empty(), "above Coulomb, falls, above mu F times the way, stick radius:\n{}", failed.join("\n"));
 }
 
 /// How far two directions are from one direction along the same line, over 2 to 50 steps: force, mean force, impulse, stored
@@ -76,7 +174,7 @@ fn from_one_direction(model: &Model, seed: u64) -> [f64; 5] {
     let mut random = Random(seed);
     let coefficient = 10f64.powf(3.0 * random.next() - 2.0);
     let model = Model { friction: Friction { coefficient, ..model.friction }, ..*model };
-    let unit = model.normal.yield_point().indentation.min(2e-6);
+    let unit = unit(&model.normal.pair).indentation.min(2e-6);
     let deepest = unit * 10f64.powf(2.5 * random.next());
     let angle = [0.0, 0.5 * PI, PI, 0.3, 2.0, 4.0, 5.5, 1e-9][seed as usize % 8];
     let mut plane = PlaneContact::<64>::start(&model, 0.0).expect("within range");

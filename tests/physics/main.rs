@@ -17,7 +17,6 @@ mod friction_growth;
 mod friction_histories;
 mod friction_impact;
 mod friction_measured;
-mod friction_passive;
 mod friction_plastic;
 mod friction_properties;
 mod friction_tables;
