@@ -102,7 +102,11 @@ fn waves_and_plate_take_the_energy_of_their_theories_from_an_elastic_impact() {
         let found = 1.0 - hit(&lossy, speed).restitution.powi(2);
         assert_close(&format!("waves at {speed}"), found, lost, 1.5 * lost);
         let plate = Plate { target: steel(), thickness: 0.2 };
-        let alpha = plate.factor();
+        // the mobility of a wide plate at a point, 1/(8 sqrt(B m)), with its bending stiffness and mass per area
+        let Solid { density, youngs_modulus, poissons_ratio: nu } = plate.target;
+        let bending = youngs_modulus * plate.thickness.powi(3) / (12.0 * (1.0 - nu * nu));
+        let alpha = 1.0 / (8.0 * (bending * density * plate.thickness).sqrt());
+        assert_close("mobility", plate.factor(), alpha, 1e-14);
         let lossy = with(&model("hertz", "contact-radius"), AnyLoss::Plate(plate));
         let lost = lost_in_hertz(speed, |force, _, _| alpha * force * force) / energy;
         let found = 1.0 - hit(&lossy, speed).restitution.powi(2);

@@ -1,5 +1,6 @@
 //! Contacts of every kind whose rate is given: what holds on any history, however time is cut.
 
+use crate::law_materials::random_materials;
 use crate::moved_bodies::{LosingModel, STEEL};
 use crate::physics::{AnyModel, MASS, Random, all_models, is_passive, is_scale_free, mild, some_models, unit};
 use brinell_contact::damped::hunt_crossley::DampingFactor;
@@ -140,6 +141,11 @@ fn work_heat_slopes_and_parts_of_any_elastoplastic_history_agree() {
             let allowed = Allowed { cut: 1e-12, work: 1e-9, heat: heat_of(&model), parts: MANY };
             check::<_, History>(&name, &model, depth, &any_history(&mut random, depth), allowed);
         }
+    }
+    for model in random_materials(60) {
+        let depth = random.log_uniform(1.0, 3000.0) * unit(&model.pair).indentation;
+        let allowed = Allowed { cut: 1e-12, work: 1e-9, heat: 1e-13, parts: MANY };
+        check::<_, History>("brinell of any materials", &model, depth, &any_history(&mut random, depth), allowed);
     }
 }
 

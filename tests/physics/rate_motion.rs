@@ -52,7 +52,11 @@ fn restitution<L: Loading + Copy, U: Unloading + Copy>(model: &Model<L, U>, spee
     let impact = Impact { mass: MASS, speed };
     let found = model.in_impact(&impact).expect("within range");
     assert!(found.steps < 60, "{found:?}");
-    (impact::restitution(&model.at(found.factors), &impact).expect("within range"), found.factors.softer)
+    // Tabor: a fifth of the largest contact radius over that of the ball, in the time that it takes to grow
+    let of = impact::predict(&model.at(found.factors), &impact).expect("within range");
+    let rate = 0.2 * of.max_contact_radius / pair().radius / of.loading_time;
+    assert!((found.strain_rate() / rate - 1.0).abs() < 1e-9, "{} /s, not {rate} /s", found.strain_rate());
+    (of.restitution, found.factors.softer)
 }
 
 #[test]
