@@ -1,8 +1,10 @@
 //! Bodies under a contact with a loss, where the force has a kink, the surface lags behind, or hardly anything moves.
 
-use crate::moved_bodies::{Differences, Losing, LosingModel, Start, pulled_body, with_loss};
-use crate::physics::{AnyModel, Random, all_models, mild, pair_of};
+use crate::moved_bodies::{Differences, Losing, LosingModel, Start, pulled_body, rate_dependent, with_loss};
+use crate::physics::{AnyModel, MASS, Random, all_models, mild, pair_of};
+use crate::prescribed::rate_dependent_laws;
 use brinell_contact::Contact;
+use brinell_contact::impact::Impact;
 use brinell_contact::losses::{AnyLoss, History, RestitutionFitted, follow, impact};
 use brinell_contact::motion::ExternalLoad;
 use brinell_testing::long::some;
@@ -20,26 +22,34 @@ fn fitted(plastic: AnyModel, restitution: f64) -> LosingModel {
 fn the_contact_time_of_a_prediction_is_that_of_the_force() {
     const STEPS: u32 = 400;
     let (mut random, mut cases) = (Random(4407), 0);
+    let mut check = |name: &str, model: LosingModel, it: &Impact| {
+        let Some(found) = impact::predict(&model, it) else { return };
+        // in a target that gives way easily the force fades out
+        let (expected, least) = (found.contact_time(), 1e-12 * found.max_force);
+        let mut group = body(model, it.mass, 0.0, 0.0, it.speed);
+        // to a quarter beyond, so that a force that lasts longer is seen
+        let mut last = 0;
+        for number in 1..=STEPS + STEPS / 4 {
+            group.step(expected / f64::from(STEPS));
+            let force = Contact::<LosingModel>::force(&group.contacts[0], group.rates[0]);
+            last = if force > least { number } else { last };
+        }
+        assert!(STEPS.abs_diff(last) <= 1, "{name}, {model:?}: the force ends after {last} of {STEPS} steps");
+        cases += 1;
+    };
     for (name, law) in some(all_models(mild()), 3) {
         for kind in 0..3 {
             let Some((start, it)) = pulled_body(&mut random, &law) else { continue };
-            let model = with_loss(&mut random, &start.group.models[0], kind, &it);
-            let Some(found) = impact::predict(&model, &it) else { continue };
-            // in a target that gives way easily the force fades out
-            let (expected, least) = (found.contact_time(), 1e-12 * found.max_force);
-            let mut group = body(model, it.mass, 0.0, 0.0, it.speed);
-            // to a quarter beyond, so that a force that lasts longer is seen
-            let mut last = 0;
-            for number in 1..=STEPS + STEPS / 4 {
-                group.step(expected / f64::from(STEPS));
-                let force = Contact::<LosingModel>::force(&group.contacts[0], group.rates[0]);
-                last = if force > least { number } else { last };
-            }
-            assert!(STEPS.abs_diff(last) <= 1, "{name}, {model:?}: the force ends after {last} of {STEPS} steps");
-            cases += 1;
+            check(&name, with_loss(&mut random, &start.group.models[0], kind, &it), &it);
         }
     }
-    assert!(cases > 50, "only {cases} cases");
+    // some of these surfaces grip again
+    for (name, law) in rate_dependent_laws() {
+        for speed in [0.1, 3.0] {
+            check(&name, rate_dependent(law, mild(), MASS), &Impact { mass: MASS, speed });
+        }
+    }
+    assert!(cases > 80, "only {cases} cases");
 }
 
 #[test]

@@ -307,7 +307,7 @@ pub fn with_loss(random: &mut Random, &plastic: &AnyModel, kind: usize, impact: 
 }
 
 /// A contact of these bodies by a rate-dependent `law`.
-fn rate_dependent(law: AnyDamped, pair: Pair, mass: f64) -> LosingModel {
+pub fn rate_dependent(law: AnyDamped, pair: Pair, mass: f64) -> LosingModel {
     let losses::Model { plastic, loss } = law.model(pair, 0.6, mass);
     let (loading, unloading) = (AnyLoading::Elastic(plastic.loading), AnyUnloading::ContactRadius(plastic.unloading));
     let plastic = AnyModel { pair: plastic.pair, loading, unloading, surface: plastic.surface };

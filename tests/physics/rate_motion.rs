@@ -52,11 +52,7 @@ fn restitution<L: Loading + Copy, U: Unloading + Copy>(model: &Model<L, U>, spee
     let impact = Impact { mass: MASS, speed };
     let found = model.in_impact(&impact).expect("within range");
     assert!(found.steps < 60, "{found:?}");
-    // Tabor: a fifth of the largest contact radius over that of the ball, in the time that it takes to grow
-    let of = impact::predict(&model.at(found.factors), &impact).expect("within range");
-    let rate = 0.2 * of.max_contact_radius / pair().radius / of.loading_time;
-    assert!((found.strain_rate() / rate - 1.0).abs() < 1e-9, "{} /s, not {rate} /s", found.strain_rate());
-    (of.restitution, found.factors.softer)
+    (impact::restitution(&model.at(found.factors), &impact).expect("within range"), found.factors.softer)
 }
 
 #[test]
@@ -82,6 +78,48 @@ fn every_impact_has_the_strength_of_its_closing_speed() {
     let any = AnyLoading::PairedBrinell(loading);
     check((any, AnyUnloading::Brinell(unloading)));
     check((loading::Johnson::REFERENCE, unloading::HertzShift));
+}
+
+/// Tabor: a fifth of the largest contact radius over that of the ball, in the time that it takes to grow.
+#[test]
+fn the_strain_rate_under_a_rigid_ball_is_tabors() {
+    let slow = brinell_contact::Model {
+        pair: Pair { modulus: pair().youngs_modulus / 0.91, ..pair() },
+        loading: loading::Johnson::REFERENCE,
+        unloading: unloading::HertzShift,
+        surface: Surface::Dented,
+    };
+    for rate in RATES {
+        for speed in [0.1, 1.0, 10.0] {
+            let (model, impact) = (rate::Model { slow, rate, harder: Rate::NONE }, Impact { mass: MASS, speed });
+            let found = model.in_impact(&impact).expect("within range");
+            let of = impact::predict(&model.at(found.factors), &impact).expect("within range");
+            let expected = 0.2 * of.max_contact_radius / pair().radius / of.loading_time;
+            let found = found.strain_rate();
+            assert!((found / expected - 1.0).abs() < 1e-9, "{found} /s, not {expected} /s");
+        }
+    }
+}
+
+#[test]
+fn the_deepest_indentation_of_a_step_is_that_of_all_its_impacts() {
+    for rate in RATES {
+        let model = model(hardening(), rate, Surface::Fresh);
+        let drive = ExternalLoad { mass: MASS, acceleration: 50.0 };
+        // three impacts, each slower than the one before
+        let deepest = |parts: u32| {
+            let mut history: History = Contact::start(&model, 1e-6).unwrap();
+            let (mut speed, mut deepest) = (0.3, 0.0_f64);
+            for _ in 0..parts {
+                let step = 0.02 / f64::from(parts);
+                let outcome = motion::follow(&mut history, &model, &drive, speed, step).expect("within range");
+                (speed, deepest) = (outcome.speed, deepest.max(outcome.deepest));
+            }
+            deepest
+        };
+        let (whole, parts) = (deepest(1), deepest(1000));
+        assert!((whole / parts - 1.0).abs() < 1e-9, "{whole:e} m, {parts:e} m in parts");
+    }
 }
 
 /// Bodies of nearly the same strength, one of which follows the rate steeply, are the hard ones.
