@@ -4,9 +4,11 @@
 //! cheapest test that must fail is run. If it passes, all other tests that load a library are run, too. A mistake that
 //! no test finds is a failure of this test, and so is one that no longer applies to the sources, or does not compile.
 //!
-//! `cargo test --release --test defects -- --ignored --nocapture` makes all of them;
-//! `BRINELL_DEFECTS=TEXT,TEXT` makes those with one of these texts in their names.
+//! `cargo test --release --test defects find_every -- --ignored --nocapture` makes all of them;
+//! `BRINELL_DEFECTS=TEXT,TEXT` makes those with one of these texts in the name or the file.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
+
+mod matrix;
 
 use brinell_testing::{child, driver, rebuilt, suites, unit};
 use driver::{arguments, has_valgrind, valgrind};
@@ -59,6 +61,14 @@ fn defects() -> Vec<Defect> {
         Defect { name, file, old, new, scene, test }
     };
     list.iter().map(read).collect()
+}
+
+/// Those with one of the texts of `BRINELL_DEFECTS` in the name or the file; all without it.
+fn chosen(all: &[Defect]) -> Vec<&Defect> {
+    let wanted = env::var("BRINELL_DEFECTS").unwrap_or_default();
+    let is_wanted =
+        |defect: &&Defect| wanted.split(',').any(|text| defect.name.contains(text) || defect.file.contains(text));
+    all.iter().filter(is_wanted).collect()
 }
 
 /// The tests.
@@ -166,13 +176,11 @@ fn assert_good_without_a_mistake(tests: &Tests, defects: &[&Defect]) {
 #[test]
 #[ignore = "it builds a library for each mistake: a quarter of an hour"]
 fn the_tests_find_every_deliberate_mistake() {
-    let wanted = env::var("BRINELL_DEFECTS").unwrap_or_default();
     let all = defects();
     let needs_valgrind = |defect: &Defect| ["memcheck", "helgrind"].contains(&&*defect.test);
     let valgrind = has_valgrind();
-    let chosen: Vec<&Defect> =
-        all.iter().filter(|defect| wanted.split(',').any(|text| defect.name.contains(text))).collect();
-    let (made, skipped): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|defect| valgrind || !needs_valgrind(defect));
+    let (made, skipped): (Vec<_>, Vec<_>) =
+        chosen(&all).into_iter().partition(|defect| valgrind || !needs_valgrind(defect));
     let program = driver::compile("driver-for-defects", &[]);
     let plain_program = driver::compile("driver-for-defects-in-valgrind", &["-DNO_COUNTING"]);
     let tests = Tests { suites: Suites::build(), sources: Sources::copied("defects"), program, plain_program };

@@ -3,6 +3,7 @@
 use super::unit;
 use crate::command::settled;
 use crate::places::{program, root, temporary};
+use crate::toolchain::{TestProgram, test_programs};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -156,6 +157,19 @@ impl Sources {
         let library = self.target.join(name).with_extension("so");
         fs::copy(&made, &library).map_err(|error| error.to_string())?;
         Ok(library)
+    }
+
+    /// The test programs `names`, compiled quickly.
+    pub fn test_programs(&self, names: &[&str]) -> Vec<TestProgram> {
+        let mut cargo = self.cargo("");
+        cargo.args(["test", "--profile", "quick", "--locked", "--no-default-features"]);
+        cargo.args(names.iter().flat_map(|name| ["--test", *name]));
+        test_programs(&mut cargo)
+    }
+
+    /// The file `name` beside the sources.
+    pub fn beside(&self, name: &str) -> PathBuf {
+        self.target.with_file_name(name)
     }
 
     /// Runs a test file of the project that needs the library alone.
