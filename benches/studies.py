@@ -1,6 +1,6 @@
 """Speed of studies, and where their time is spent.
 
-    python benches/studies.py [--runs 4000] [--repeat 5] [--skip-dask]
+    python benches/studies.py [--runs 4000] [--repeat 5]
 
 It needs the package `brinell` with the packages for studies, the exporter, and Rust. Times are the best of several repetitions:
 other processes on the machine can make a run longer, but never shorter. The table also shows the processor time (user and
@@ -22,7 +22,7 @@ from pathlib import Path
 
 import brinell
 import numpy as np
-from brinell.studies import impacts, scene, store
+from brinell.studies import impacts, scene
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 CONTACTS = 1000
@@ -83,54 +83,24 @@ def loading(unit: Path, repeat: int) -> None:
     tell("a new interpreter that does so", wall, used)
 
 
-def sizes(unit: Path, rows: np.ndarray, folder: Path, repeat: int) -> None:
-    """The data between processes and to the disk."""
-    table = impacts.run(unit, NAMES, rows)
-    data = pickle.dumps(table)
+def sizes(unit: Path, rows: np.ndarray) -> None:
+    """The data between processes."""
+    data = pickle.dumps(impacts.run(unit, NAMES, rows))
     print(f"{'result of a run, pickled':<58}{len(data) / len(rows):>12.1f} bytes")
-    path = folder / "x.parquet"
-    store.write(path, table)
-    print(f"{'result of a run, Parquet':<58}{path.stat().st_size / len(rows):>12.1f} bytes")
     print(f"{'the unit':<58}{unit.stat().st_size:>12} bytes")
-    hundred = {name: column[:100] for name, column in table.items()}
-    parts = store.Parts(folder / "y.parquet", b"plan", 100)
-    wall, used = best(repeat, lambda: parts.save(0, hundred))
-    tell("saving a part of a hundred runs", wall, used)
-
-    def collect():
-        parts.save(0, pickle.loads(data))
-        store.write(path, store.joined([pickle.loads(data)]))
-
-    wall, used = best(repeat, collect)
-    tell(f"a run in a chunk of {len(rows)}, collected and written twice", wall / len(rows), used / len(rows))
 
 
-def studies(unit: Path, rows: np.ndarray, repeat: int, schedulers: list[str | None]) -> None:
+def studies(unit: Path, rows: np.ndarray, repeat: int) -> None:
     """Complete studies with one and two workers."""
     vary = {"speed": rows[:, 0].tolist(), "target.yield_strength": [300e6]}
-    for scheduler in schedulers:
-        for workers in (1, 2):
-            def work(workers=workers, scheduler=scheduler):
-                brinell.study(
-                    unit, vary, mass=4e-3, workers=workers, scheduler=scheduler, progress=False
-                )
+    for workers in (1, 2):
 
-            wall, used = best(repeat, work)
-            kind = "processes" if scheduler is None else "Dask"
-            name = f"a study of {len(rows)} runs, {kind}, {workers} worker{'s' if workers > 1 else ''}"
-            tell(name, wall / len(rows), used / len(rows), len(rows) / wall)
+        def work(workers=workers):
+            brinell.study(unit, vary, mass=4e-3, workers=workers, progress=False)
 
-
-def tasks(repeat: int, count: int = 2000) -> None:
-    """The overhead of Dask for a task that does nothing."""
-    from dask.distributed import Client
-
-    with Client(n_workers=1, threads_per_worker=1, dashboard_address=None) as client:
-        def work():
-            client.gather(client.map(abs, range(count), pure=False))
-
-        wall, _ = best(repeat, work)
-    tell("a task of Dask that does nothing", wall / count)
+        wall, used = best(repeat, work)
+        name = f"a study of {len(rows)} runs, {workers} worker{'s' if workers > 1 else ''}"
+        tell(name, wall / len(rows), used / len(rows), len(rows) / wall)
 
 
 def vectorised(folder: Path, repeat: int) -> None:
@@ -181,7 +151,6 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=4000)
     parser.add_argument("--repeat", type=int, default=5)
-    parser.add_argument("--skip-dask", action="store_true")
     given = parser.parse_args()
     print(json.dumps({"cores": os.cpu_count(), "python": sys.version.split()[0]}))
     print(f"{'':<58}{'wall [us]':>12}{'used [us]':>12}{'runs/s':>12}")
@@ -191,11 +160,9 @@ def main() -> None:
         unit = scene.unit(SCENES / "mass_known.toml", folder, None)[0]
         one_process(unit, rows, given.repeat)
         loading(unit, given.repeat)
-        sizes(unit, rows, folder, given.repeat)
+        sizes(unit, rows)
         vectorised(folder, given.repeat)
-        studies(unit, rows, given.repeat, [None] if given.skip_dask else [None, "local"])
-        if not given.skip_dask:
-            tasks(given.repeat)
+        studies(unit, rows, given.repeat)
 
 
 if __name__ == "__main__":

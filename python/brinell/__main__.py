@@ -35,47 +35,21 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     it = commands.add_parser("study", help=text, description=text)
     add = it.add_argument
     add("scene", help="the scene file (TOML), or an FMU that knows the mass")
-    add(
-        "--vary",
-        type=command_line.pair,
-        action="append",
-        required=True,
-        metavar="NAME=FROM:TO[:COUNT]",
-        help="speed, mass or a parameter of the FMU, in SI units or with a unit "
-        "('speed=10 mm/s:5 m/s:20'); or NAME=VALUE,VALUE,... Ranges of a decade or more are spaced "
-        "logarithmically, shorter ones linearly; speed=1:20:8log and 0.1:10:8lin say which",
-    )
+    add("--vary", type=command_line.pair, action="append", required=True, metavar="NAME=FROM:TO[:COUNT]",
+        help="speed, mass or a parameter of the FMU, in SI units or with a unit ('speed=10 mm/s:5 m/s:20'); or "
+        "NAME=VALUE,VALUE,... Ranges of a decade or more are spaced logarithmically, shorter ones linearly; "
+        "speed=1:20:8log and 0.1:10:8lin say which")  # fmt: skip
     add("--sample", default="grid", help="grid, sobol:COUNT or lhs:COUNT [default: grid]")
     add("--seed", type=int, default=0, help="seed of the samples [default: 0]")
-    add(
-        "--set",
-        type=command_line.pair,
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="a parameter for all runs",
-    )
-    add(
-        "--uncertain",
-        type=command_line.pair,
-        action="append",
-        default=[],
-        metavar="NAME=SPREAD",
-        help="a standard deviation ('5 %%', '10 MPa'); bands of the results follow",
-    )
+    add("--set", type=command_line.pair, action="append", default=[], metavar="NAME=VALUE",
+        help="a parameter for all runs")  # fmt: skip
+    add("--uncertain", type=command_line.pair, action="append", default=[], metavar="NAME=SPREAD",
+        help="a standard deviation ('5 %%', '10 MPa'); bands of the results follow")  # fmt: skip
     add("--mass", help="effective mass [kg, or with a unit], instead of the scene's")
     add("--speed", help="closing speed [m/s, or with a unit], instead of the scene's")
-    add(
-        "-o",
-        "--output",
-        action="append",
-        default=[],
-        metavar="FILE",
-        help=".parquet, .csv, .svg or .png; can be repeated",
-    )
+    add("-o", "--output", action="append", default=[], metavar="FILE",
+        help=".parquet, .csv, .svg or .png; can be repeated")  # fmt: skip
     add("--workers", type=int, help="processes [default: by the number of runs, at most all cores]")
-    add("--chunk", type=int, help="runs per task of a process")
-    add("--scheduler", metavar="local|ADDRESS", help="use Dask, here or at tcp://HOST:PORT")
     add("--quiet", action="store_true", help="show no progress bar")
     command_line.add_arguments(commands)
     return parser.parse_args(arguments)
@@ -101,16 +75,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
             uncertainty=dict(given.uncertain),
             output=given.output,
             workers=given.workers,
-            chunk=given.chunk,
-            scheduler=given.scheduler,
             progress=not given.quiet,
         )
     except ModuleNotFoundError as error:
-        more = "dask" if error.name in ("dask", "distributed") else given.command
-        print(f"brinell: {error}: pip install 'brinell[{more}]'", file=sys.stderr)
+        print(f"brinell: {error}: pip install 'brinell[{given.command}]'", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("brinell: stopped; if a table is among the outputs, the same call continues from here", file=sys.stderr)
         return 130
     except (ContactError, ProgramError, TypeError, ValueError, OSError) as error:
         print(f"brinell: {error}", file=sys.stderr)

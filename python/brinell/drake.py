@@ -55,18 +55,9 @@ def attach(
     are a sphere and a plane, or two spheres of different bodies: one pair, or several in the order
     of the contacts of the FMU.
 
-    `contact` is the path of an FMU or of a scene, or a `Contact`, which starts anew and is
-    closed with what `attach` returns. Its
-    contacts start at the distances in `simulator`, and have the masses of the plant. `[coupling]` of
-    its scene has
-
-    - `effective_mass`, for one contact, or for several that share no body;
-    - `inverse_masses = "input"`, for contacts that share bodies and for friction; with
-      `parameters_per_contact = ["initial_gap"]` for contacts with a `count`.
-
-    A scene with `[friction]` should have `directions = 2`, unless the bodies can slide in one
-    direction only, which is then that of the friction; otherwise a warning says so. Directions in
-    which they can't move are left out. `parameters` are those of `Contact`.
+    `contact`, the `[coupling]` and `[friction]` of its scene and `parameters` are as those of
+    `brinell.mujoco.attach`: `effective_mass` for contacts that share no body, `inverse_masses =
+    "input"` otherwise.
 
     Drake must not compute the contact of a pair, too: the bodies have no collision geometry, or
     a collision filter excludes the pair. The bodies must be free to follow the impulses but for

@@ -55,3 +55,14 @@ def tell(text: str, category: type[Warning]) -> None:
     while frame.f_back and frame.f_globals.get("__name__", "").startswith(f"{__package__}."):
         level, frame = level + 1, frame.f_back
     warnings.warn(text, category, stacklevel=level)
+
+
+def shortened(text: str, most: int = 80) -> str:
+    """A text that fits into a message."""
+    return text if len(text) <= most else text[:most] + "..."
+
+
+def one_of(names: Iterable[str]) -> str:
+    """`a, b or c`."""
+    *first, last = names
+    return f"{', '.join(first)} or {last}" if first else last

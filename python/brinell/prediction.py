@@ -7,11 +7,11 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from .fits.quantities import GRAVITY
-
 if TYPE_CHECKING:
     from .uncertainty import Bands
 
+GRAVITY = 9.80665
+"""Standard acceleration of free fall [m/s^2]."""
 PREFIXES = {-15: "f", -12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 PREFIXED = ("m", "m/s", "N", "Pa", "s", "m/N", "J", "g")
 """Units that take a prefix."""

@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack, overload
 
 from .errors import ContactError, ProgramError, ProgramWarning, missing, tell
 from .prediction import ObliquePrediction, Prediction
@@ -126,75 +126,60 @@ def export(scene: str | Path, output: str | Path | None = None) -> Path:
     return Path(json.loads(of_scene("export", scene, *more)[0])["fmu"])
 
 
+Number = float | str | None
+"""In SI units, or a text with a unit; what isn't given is the scene's."""
+
+
+class Impact(TypedDict, total=False):
+    """An impact along the normal."""
+
+    mass: Number
+    speed: Number
+    energy: Number
+    drop_height: Number
+
+
+class Oblique(Impact, total=False):
+    """What an oblique impact has besides its angle."""
+
+    spin: Number
+    friction: float | None
+    inertia: Number
+
+
 @overload
 def predict(
     scene: str | Path,
     *,
     laws: None = None,
-    mass: float | str | None = None,
-    speed: float | str | None = None,
-    energy: float | str | None = None,
-    drop_height: float | str | None = None,
     uncertainty: Mapping[str, Spread] | None = None,
+    angle: None = None,
+    **impact: Unpack[Impact],
 ) -> Prediction: ...
-
-
 @overload
 def predict(
-    scene: str | Path,
-    *,
-    laws: Sequence[str],
-    mass: float | str | None = None,
-    speed: float | str | None = None,
-    energy: float | str | None = None,
-    drop_height: float | str | None = None,
+    scene: str | Path, *, laws: Sequence[str], angle: None = None, **impact: Unpack[Impact]
 ) -> list[Prediction]: ...
-
-
 @overload
 def predict(
-    scene: str | Path,
-    *,
-    laws: None = None,
-    mass: float | str | None = None,
-    speed: float | str | None = None,
-    energy: float | str | None = None,
-    drop_height: float | str | None = None,
-    angle: float | str,
-    spin: float | str | None = None,
-    friction: float | None = None,
-    inertia: float | str | None = None,
+    scene: str | Path, *, laws: None = None, angle: float | str, **impact: Unpack[Oblique]
 ) -> ObliquePrediction: ...
-
-
 @overload
 def predict(
-    scene: str | Path,
-    *,
-    laws: Sequence[str],
-    mass: float | str | None = None,
-    speed: float | str | None = None,
-    energy: float | str | None = None,
-    drop_height: float | str | None = None,
-    angle: float | str,
-    spin: float | str | None = None,
-    friction: float | None = None,
-    inertia: float | str | None = None,
+    scene: str | Path, *, laws: Sequence[str], angle: float | str, **impact: Unpack[Oblique]
 ) -> list[ObliquePrediction]: ...
-
-
 def predict(
     scene: str | Path,
     *,
     laws: Sequence[str] | None = None,
-    mass: float | str | None = None,
-    speed: float | str | None = None,
-    energy: float | str | None = None,
-    drop_height: float | str | None = None,
-    angle: float | str | None = None,
-    spin: float | str | None = None,
+    mass: Number = None,
+    speed: Number = None,
+    energy: Number = None,
+    drop_height: Number = None,
+    angle: Number = None,
+    spin: Number = None,
     friction: float | None = None,
-    inertia: float | str | None = None,
+    inertia: Number = None,
     uncertainty: Mapping[str, Spread] | None = None,
 ) -> Prediction | list[Prediction] | ObliquePrediction | list[ObliquePrediction]:
     """Predict an impact on the first contact of a scene file.

@@ -53,7 +53,7 @@ def sweep(
     options = options_of(given, laws)
     if not vary:
         raise ValueError("nothing is varied; for example, vary={'speed': '0.1:10'}")
-    options += [f"--sweep={name}={_range(name, values)}" for name, values in vary.items()]
+    options += [f"--sweep={name}={range_of(name, values)}" for name, values in vary.items()]
     pandas = pandas_of("brinell.sweep")
     return _frame(pandas, of_scene("predict", scene, *options)[0])
 
@@ -78,7 +78,7 @@ def pandas_of(function: str) -> Any:
     return pandas
 
 
-def _range(name: str, values: plan.Varied) -> str:
+def range_of(name: str, values: plan.Varied) -> str:
     """The values as the exporter takes them."""
     if isinstance(values, str):
         return values

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from . import temporary
 from .errors import ContactError
-from .fits.quantities import number_of
 from .library import Library
 from .prediction import quantity
+from .program import in_si
 from .studies import impacts, scene
 from .variables import Variables
 
@@ -79,7 +79,7 @@ def bands(
     and `ContactError` if a draw is outside the range of the law.
     """
     with temporary.folder() as folder:
-        unit, usual = scene.unit(Path(path), Path(folder), mass)
+        unit, usual = scene.unit(Path(path), folder, mass)
         with scene.naming(path, unit.name):
             return _drawn(Library.of(unit), usual, uncertainty, speed, draws, seed)
 
@@ -152,18 +152,14 @@ def _values(name: str, one: Spread, centre: float, places: Numbers) -> Numbers:
 
     if hasattr(one, "ppf"):
         return np.asarray(one.ppf(places), dtype=float)
-    si = _unit(name)
     if isinstance(one, str | int | float) and not isinstance(one, bool):
-        if isinstance(one, str) and one.strip().endswith("%"):
-            deviation = abs(centre) * number_of(one.strip()[:-1].strip(), "", name) / 100.0
-        else:
-            deviation = number_of(one, si, name)
+        is_part = isinstance(one, str) and one.strip().endswith("%")
+        deviation = abs(centre) * float(str(one).strip()[:-1]) / 100.0 if is_part else in_si(name, one)
         if not (deviation > 0.0 and np.isfinite(deviation)):
             raise ValueError(f"{name} = {one!r}: a standard deviation must be positive and finite")
-        found: Numbers = centre + deviation * ndtri(places)
-        return found
+        return np.asarray(centre + deviation * ndtri(places))
     try:
-        low, high = (number_of(it, si, name) for it in cast("Sequence[Any]", one))
+        low, high = (in_si(name, it) for it in cast("Sequence[Any]", one))
     except (TypeError, ValueError) as error:
         raise ValueError(
             f"{name} = {one!r}: a standard deviation ('5 %', '10 MPa'), two ends of a range, or a "
@@ -172,14 +168,6 @@ def _values(name: str, one: Spread, centre: float, places: Numbers) -> Numbers:
     if not low < high:
         raise ValueError(f"{name} = {one!r}: the first end must be below the second")
     return low + places * (high - low)
-
-
-def _unit(name: str) -> str:
-    """The SI unit of an input, by the last word of its name."""
-    last = name.replace(".", "_").rsplit("_", 1)[-1]
-    units = {"speed": "m/s", "mass": "kg", "radius": "m", "strength": "Pa", "modulus": "Pa",
-             "gap": "m", "thickness": "m"}  # fmt: skip
-    return units.get(last, "")
 
 
 def _band(values: Numbers) -> tuple[float, float]:

@@ -21,14 +21,9 @@ VARIABLE = "BRINELL_WORKBOOKS"
 def sheets_of(path: Path) -> dict[str, list[list[Any]]]:
     """The rows of each sheet."""
     try:
-        if path.suffix.lower() in (".xlsx", ".xlsm"):
-            import openpyxl
-
-            book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-            return {it.title: [[*row] for row in it.iter_rows(values_only=True)] for it in book}
         import pandas
 
-        frames = pandas.read_excel(path, sheet_name=None, header=None, dtype=object)
+        frames = pandas.read_excel(path, sheet_name=None, header=None, dtype=object, keep_default_na=False)
         return {str(name): frame.to_numpy().tolist() for name, frame in frames.items()}
     except ImportError as error:
         needs = f"{path}: a workbook needs {error.name or 'openpyxl'} (pip install 'brinell[fit]')"

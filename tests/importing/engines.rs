@@ -316,7 +316,7 @@ fn numbers_for_ode_and_liggghts_do_what_is_promised_in_them() {
 }
 
 #[test]
-fn studies_run_completely_and_are_resumed() {
+fn studies_run_completely() {
     pytest(&["test_study.py", "test_study_command.py"], &["scipy", "pyarrow", "tqdm", "matplotlib"], "studies");
 }
 

@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from brinell.fits import intervals
 from brinell.fits.law import Law
 from brinell.fits.measured import measured
 from brinell.fits.outcome import _drawn
@@ -81,7 +80,7 @@ def simulated(path, case, count):
         problem = Problem(law, own, list(truth))
         near = problem.near(problem.solve(true))
         # without an interval, the fit says that the points determine nothing
-        ends = [intervals.interval(near, it) or (-np.inf, np.inf) for it in range(len(true))]
+        ends = [near.interval(it) or (-np.inf, np.inf) for it in range(len(true))]
         inside["linearised"] += [low <= it <= high for (low, high), it in zip(ends, true, strict=True)]
         if index < BOOTSTRAPS and near.freedom >= 8:
             for place, both in enumerate(_drawn(problem, near, DRAWS, 0, has_trend=False)):

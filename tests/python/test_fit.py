@@ -10,9 +10,7 @@ import brinell
 import matplotlib
 import numpy as np
 import pytest
-from brinell.fits.law import LARGEST_RADIUS_RATIO, Law
-from brinell.fits.measured import measured
-from brinell.pictures import ROOM, ticks
+from brinell.fits.law import LARGEST_RADIUS_RATIO
 
 matplotlib.use("Agg")
 
@@ -62,21 +60,20 @@ def close(found, expected, tolerance):
 # what is found
 
 
-@pytest.mark.parametrize("start", [20e6, 300e6, 5e9])
-def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(scene, start):
-    for strength in (50e6, 300e6, 2e9):
-        found = brinell.fit(scene(start), rebounds(scene(strength)))
-        (estimate,) = found.estimates
-        assert (estimate.name, estimate.unit) == ("target.yield_strength", "Pa")
-        assert (estimate.scene, estimate.doubt) == (start, None)
-        close(estimate.value, strength, 1e-6)
-        low, high = estimate.interval
-        assert low <= strength * (1 + 1e-6) and high >= strength * (1 - 1e-6) and high / low < 1.0001
-        assert found.rms["restitution"] < 1e-9 and found.count == 10
-        assert found.values == {"target.yield_strength": estimate.value}
-        # 8 m/s make too wide a dent in the softest target
-        wide = [note for note in found.notes if "at 1 of 10 points (speeds from 8 m/s" in note]
-        assert (len(found.notes), len(wide)) == ((1, 1) if strength < 100e6 else (0, 0))
+@pytest.mark.parametrize(("start", "strength"), [(20e6, 2e9), (5e9, 50e6), (300e6, 300e6)])
+def test_a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts(scene, start, strength):
+    found = brinell.fit(scene(start), rebounds(scene(strength)))
+    (estimate,) = found.estimates
+    assert (estimate.name, estimate.unit) == ("target.yield_strength", "Pa")
+    assert (estimate.scene, estimate.doubt) == (start, None)
+    close(estimate.value, strength, 1e-6)
+    low, high = estimate.interval
+    assert low <= strength * (1 + 1e-6) and high >= strength * (1 - 1e-6) and high / low < 1.0001
+    assert found.rms["restitution"] < 1e-9 and found.count == 10
+    assert found.values == {"target.yield_strength": estimate.value}
+    # 8 m/s make too wide a dent in the softest target
+    wide = [note for note in found.notes if "at 1 of 10 points (speeds from 8 m/s" in note]
+    assert (len(found.notes), len(wide)) == ((1, 1) if strength < 100e6 else (0, 0))
 
 
 def test_a_fit_finds_the_strength_of_a_loading_curve_and_its_hardening(scene):
@@ -109,18 +106,6 @@ def test_planted_strength_and_rate_are_found_away_from_the_bound(scene):
     found = brinell.fit(scene(200e6, JOHNSON_COOK.format(0.0)), points, ("yield_strength", "rate"))
     close(found.values["target.yield_strength"], 350e6, 1e-3)
     close(found.values["target.rate.c"], 0.03, 1e-2)
-
-
-@pytest.mark.parametrize("model", [JOHNSON_COOK.format(0.02), COWPER_SYMONDS.format(40.4)])
-@pytest.mark.parametrize("name", ["yield_strength", "hardening_modulus"])
-def test_the_unit_and_the_program_give_the_same_numbers(scene, model, name):
-    """With the scene's rate constant the FMU answers, with others the program."""
-    points = measured({"speed": SPEEDS, "restitution": [0.5] * len(SPEEDS)})
-    law = Law(scene(300e6, model), points, None, {"hardening_modulus"})
-    flow = law.given | {name: 2.0 * law.given[name] + 1e8}
-    by_unit = law.values(points, flow)["restitution"]
-    by_program = law._predicted(law._impacts_of(points), tuple(flow.items()))["restitution"]
-    assert law._unit_follows and by_unit == pytest.approx(by_program, rel=1e-10)
 
 
 def test_a_rate_constant_is_fitted_beside_a_power_law_and_beside_a_loss(scene):
@@ -321,19 +306,6 @@ def test_a_result_is_drawn_with_its_differences(scene):
     assert below.get_lines()[0].get_ydata() == pytest.approx(left)
     speeds = brinell.fit(scene(300e6), rebounds(scene(300e6))).plot()
     assert speeds.get_axes()[0].get_xscale() == "log"
-
-
-def test_ticks_of_a_logarithmic_axis_are_round_and_have_room():
-    random = np.random.default_rng(20)
-    for room in ROOM.values():
-        for _ in range(2000):
-            low = 10.0 ** random.uniform(-30.0, 30.0)
-            high = low * 10.0 ** random.uniform(0.1, 20.0)
-            found = np.array(ticks(low, high, room))
-            assert len(found) >= 2
-            assert np.all((low <= found) & (found <= high))
-            assert np.all(found[1:] >= found[:-1] * (high / low) ** room)
-            assert all(len(f"{tick:.6g}") <= 8 and float(f"{tick:.3g}") == tick for tick in found)
 
 
 def test_the_scene_of_a_result_predicts_what_was_fitted(scene, tmp_path):

@@ -3,12 +3,11 @@
 import json
 import os
 import tempfile
-import time
 import zipfile
 from pathlib import Path
 
 import pytest
-from brinell import Contact, ContactError, ProgramError, fit, temporary
+from brinell import Contact, ContactError, ProgramError, fit
 from units import SCENES
 
 HOSTILE = Path(os.environ["BRINELL_TEST_HOSTILE"])
@@ -40,22 +39,3 @@ def test_a_measurement_that_is_too_large_is_refused_before_it_is_read(tmp_path):
             with pytest.raises((ValueError, ProgramError)) as refused:
                 fit(SCENES / "mass_known.toml", path)
             assert said in str(refused.value)
-
-
-@pytest.mark.skipif(os.name != "posix", reason="locks of folders")
-def test_what_a_killed_process_left_is_swept_and_what_is_in_use_stays(tmp_path, monkeypatch):
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-
-    def left(name, age):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "unit.fmu").write_text("x")
-        os.utime(tmp_path / name, (time.time() - age,) * 2)
-        return tmp_path / name
-
-    old, new = left("brinell-abcdefgh.tmp", 60), left("brinell-abcdefgi.tmp", 1)
-    used, own = left("brinell-abcdefgj.tmp", 60), left("brinell-results", 10**6)
-    with temporary.held(used), temporary.folder() as made:
-        assert not old.exists(), "nobody uses it"
-        assert new.exists(), "it may not have its lock yet"
-        assert used.exists() and own.exists() and made.exists()
-    assert not made.exists()

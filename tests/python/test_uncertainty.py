@@ -6,9 +6,9 @@ from pathlib import Path
 
 import brinell
 import numpy as np
+import pandas
 import pytest
 from brinell.program import run
-from brinell.studies import store
 from scipy import stats
 
 SCENE = Path(os.environ["BRINELL_TEST_SCENES"]) / "mass_known.toml"
@@ -54,7 +54,7 @@ def test_a_study_has_bands_beside_its_results(tmp_path):
         found = (table[f"{name}_low"][1], table[f"{name}_high"][1])
         assert found == pytest.approx(one.bands[name], rel=0.02)
         assert found[0] < table[name][1] < found[1]
-    assert store.read(path)["dent_low"] == pytest.approx(table["dent_low"])
+    assert pandas.read_parquet(path).equals(table)
     assert (tmp_path / "x.svg").stat().st_size > 5000
 
 
@@ -68,7 +68,7 @@ def test_a_study_spreads_around_each_value_that_varies():
     ("spread", "error", "words"),
     [
         ({"target.strength": "5 %"}, brinell.UnknownName, "no parameter 'target.strength'"),
-        ({STRENGTH: "5 kg"}, ValueError, "`kg` is no unit of target.yield_strength"),
+        ({STRENGTH: "5 kg"}, brinell.ProgramError, "kg is a mass"),
         ({STRENGTH: -1.0}, ValueError, "must be positive and finite"),
         ({STRENGTH: (3e8, 2e8)}, ValueError, "the first end must be below the second"),
         ({STRENGTH: [1.0, 2.0, 3.0]}, ValueError, "two ends of a range, or a distribution"),

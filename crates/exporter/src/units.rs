@@ -157,7 +157,7 @@ struct Kind {
     usual: &'static [&'static str],
 }
 
-const KINDS: [Kind; 13] = [
+const KINDS: [Kind; 14] = [
     Kind { unit: "m", is: "a length", name: "metres", usual: &["nm", "um", "mm", "cm", "m", "km", "in", "ft"] },
     Kind {
         unit: "Pa",
@@ -190,6 +190,12 @@ const KINDS: [Kind; 13] = [
         usual: &["kg.m^2", "kg.mm^2", "g.cm^2", "g.mm^2"],
     },
     Kind { unit: "deg", is: "an angle", name: "degrees", usual: &["deg", "rad", "mrad"] },
+    Kind {
+        unit: "m/N",
+        is: "a compliance",
+        name: "metres per newton",
+        usual: &["nm/N", "um/N", "mm/N", "mm/kN", "m/N"],
+    },
     Kind { unit: "rad/s", is: "a spin", name: "radians per second", usual: &["rad/s", "deg/s", "rpm"] },
 ];
 

@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
+from ..errors import ProgramError, one_of
+from ..program import in_si
 from .law import Law, strengths_of
-from .measured import Measured, Table, measured
+from .measured import UNITS, Measured, Table, measured
 from .outcome import fitted
 from .parameters import PARAMETERS, parameter
 from .problem import Problem
-from .quantities import number_of, one_of
 from .reading import Decimal
 from .result import Fit
 
@@ -143,7 +144,18 @@ def _check_scene(law: Law, names: Sequence[str]) -> None:
 
 
 def _number(name: str, value: Value, model: str | None) -> float:
-    return number_of(value, parameter(name, model).unit, name)
+    return _in_si(name, parameter(name, model).unit, value)
+
+
+def _in_si(name: str, unit: str, value: Value) -> float:
+    if isinstance(value, bool | bytes):
+        raise TypeError(f"{name} = {value!r}: a number is needed")
+    try:
+        # what has no unit is a number
+        return in_si(unit, value) if unit else float(value)
+    except (ProgramError, ValueError) as error:
+        why = str(error).split(": ", 1)[-1] if unit else "a number is needed"
+        raise ValueError(f"{name} = {value!r}: {why}") from None
 
 
 def _pairs(what: str, pairs: Pairs | None, model: str | None) -> dict[str, tuple[float, float]]:
@@ -161,13 +173,11 @@ def _pairs(what: str, pairs: Pairs | None, model: str | None) -> dict[str, tuple
 
 
 def _accuracy(accuracy: Mapping[str, Value] | None, points: Measured) -> dict[str, float]:
-    from .measured import UNITS
-
     found = {}
     for name, value in (accuracy or {}).items():
         if name not in points.results:
             raise ValueError(f"accuracy: {name!r} was not measured; expected {one_of(points.results)}")
-        found[name] = number_of(value, UNITS[name], name)
+        found[name] = _in_si(name, UNITS[name], value)
         if not found[name] > 0.0:
             raise ValueError(f"accuracy: {name} = {value!r} must be positive")
     return found

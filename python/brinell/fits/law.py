@@ -1,18 +1,17 @@
 """The law of a scene's first contact, with other numbers than the scene's.
 
-Numbers come from an FMU of the scene, whose parameters are set: 20 to 50 us for a point. What an FMU
-has not (the constants of a strain rate, contact times, oblique impacts) the program predicts: some
-5 ms for an impact. Zero point, preload and compliance of a machine are computed here.
+The forces of a record come from an FMU of the scene, whose parameters are set: 20 to 50 us for a
+point. Impacts are predicted by the program, all of them at once. Zero point, preload and compliance of
+a machine are computed here.
 """
 
 from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -23,10 +22,9 @@ from .. import temporary
 from ..contact import Contact
 from ..errors import ContactError, ProgramError
 from ..library import Library
-from ..program import export, of_scene, options_of, predict, run, tables
-from ..studies.impacts import impact
-from ..studies.scene import OUTPUTS, has_bodies, naming, of_impacts, toml
-from ..sweeps import sweep
+from ..program import export, of_scene, options_of, run, tables
+from ..studies.scene import has_bodies, naming, of_impacts, toml
+from ..sweeps import LISTED, range_of
 from .measured import Measured
 from .parameters import DEFAULTS, INSTRUMENT, RATES
 
@@ -41,6 +39,15 @@ UNYIELDING = 1e18
 """Strength [Pa] of a body that is not fitted: the largest of an FMU. The fitted body stays the
 softer one."""
 OBLIQUE = {"tangential_restitution", "rebound_angle"}
+COLUMNS = {
+    "restitution": (("restitution", 1.0),),
+    "dent_depth": (("dent", 1.0),),
+    "dent_diameter": (("largest_contact_radius", 2.0),),
+    "contact_time": (("loading_time", 1.0), ("unloading_time", 1.0)),
+    "largest_force": (("largest_force", 1.0),),
+}
+"""What results along the normal are made of: columns of the program, and their factors."""
+WANTED = sorted({column for parts in COLUMNS.values() for column, _ in parts})
 
 
 class Law:
@@ -73,7 +80,7 @@ class Law:
                 raise ValueError(f"{path}: {body}.radius is a list: fits are those of round contacts")
         data = {**self.scene}
         if loading is not None:
-            data["law"] = _with_loading(data.get("law", {}), loading)
+            data["law"] = with_loading(data.get("law", {}), loading)
         self._friction = {**data.pop("friction", {})}
         if "elastic_restitution" in fitted:
             data["law"] = {"elastic_restitution": DEFAULTS["elastic_restitution"]} | {
@@ -82,8 +89,6 @@ class Law:
                 if key != "elastic_restitution" or not isinstance(it, str)
             }
         self._data = of_impacts(data, self._mass) if self._of_impacts else _slow(data)
-        if self._of_impacts:
-            self._data["fmu"] = {"outputs": [*OUTPUTS, "contact_radius"]}
         losses = {"elastic_restitution"} & {*self._data.get("law", ())}
         self._is_lossy = bool(losses | ({"plate_thickness"} & {*self._data["target"]}))
         self._open()
@@ -105,9 +110,6 @@ class Law:
                 raise ValueError(f"hardening_modulus can't be fitted: {error}") from error
         self.model: str | None = own.get("rate", {}).get("model")
         self.given = self._given()
-        # an FMU finds anew in each impact neither a power law nor a rate beside another loss
-        self._unit_follows = not self.is_power_law and not (self.model and self._is_lossy)
-        self._predicts = lru_cache(maxsize=64)(self._predicted)
 
     # the scene
 
@@ -116,10 +118,10 @@ class Law:
         # with a loss, the FMU would have the strength of the scene's impact
         data = _without_rates(self._data) if self._is_lossy else self._data
         with temporary.folder() as folder:
-            path = Path(folder) / "scene.toml"
+            path = folder / "scene.toml"
             path.write_text(toml(data), encoding="utf-8")
             with naming(self._path, path):
-                library = Library.of(export(path, Path(folder) / "unit.fmu"))
+                library = Library.of(export(path, folder / "unit.fmu"))
         parameters = (one for one in library.variables.values() if one.causality == "parameter")
         self._starts = {one.name: float(one.start) for one in parameters}
         self._contact = Contact(library)
@@ -230,7 +232,7 @@ class Law:
             if points.kind == "record":
                 radii = self._recorded(points, flow)[1]
             else:
-                radii = 0.5 * self._by_unit(points, flow, ("dent_diameter",))["dent_diameter"]
+                radii = self._table(points, flow)["largest_contact_radius"]
         # beyond the range of the law, nothing is known
         return ~(radii <= LARGEST_RADIUS_RATIO * min(self.radius, self.size))
 
@@ -299,40 +301,75 @@ class Law:
         return found
 
     def _impacts(self, points: Measured, flow: Flow) -> dict[str, Numbers]:
-        names = tuple(points.results)
-        oblique = tuple(it for it in names if it in OBLIQUE)
-        normal = tuple(it for it in names if it not in OBLIQUE)
-        found = self._oblique(points, flow, oblique) if oblique else {}
-        if not normal:
-            return found
-        follows = self._unit_follows and flow.get("rate") == self.given.get("rate")
-        if not follows or "contact_time" in normal or (self.model and normal != ("restitution",)):
-            columns = self._predicts(self._impacts_of(points), tuple(sorted(flow.items())))
-            return found | {name: columns[name] for name in normal}
-        return found | self._by_unit(points, flow, normal)
+        found, names = dict[str, Numbers](), set(points.results)
+        if OBLIQUE & names:
+            found |= self._oblique(points, flow)
+        if names - OBLIQUE:
+            table = self._table(points, flow)
+            for name in names - OBLIQUE:
+                found[name] = np.sum([size * table[column] for column, size in COLUMNS[name]], axis=0)
+        return {name: found[name] for name in points.results}
 
-    def _impacts_of(self, points: Measured) -> tuple[tuple[float, float], ...]:
-        masses = points.arguments.get("mass", np.full(points.count, self._mass))
-        # the speed of a sweep over angles is that along the path
+    def _masses(self, points: Measured) -> Numbers:
+        return points.arguments.get("mass", np.full(points.count, self._mass))
+
+    def _table(self, points: Measured, flow: Flow) -> dict[str, Numbers]:
+        """The program's predictions along the normal, for each point."""
         angles = np.radians(points.arguments.get("angle", np.zeros(points.count)))
+        # the speed of oblique impacts is that along the path
         speeds = points.arguments["speed"] * np.cos(angles)
-        return tuple(zip(masses.tolist(), speeds.tolist(), strict=True))
+        # over a speed, a table has the strength of one impact
+        follows = bool(self.model or self.is_power_law)
+        groups = {"mass": self._masses(points)} | ({"speed": speeds} if follows else {})
+        return self._swept(self.changed(flow), "speed", speeds, groups, WANTED)
 
-    def _by_unit(self, points: Measured, flow: Flow, names: tuple[str, ...]) -> dict[str, Numbers]:
-        found = {name: np.full(points.count, np.nan) for name in names}
-        own = self._own(flow)
-        for index, (mass, speed) in enumerate(self._impacts_of(points)):
-            try:
-                results = impact(self._contact, {"speed": speed, "mass": mass, **own})
-                one = {"restitution": results[0], "dent_depth": results[3]}
-                if {"dent_diameter", "largest_force"} & {*names}:
-                    self._contact.reset(initial_gap=-results[2], parameters=own)
-                    one["largest_force"] = self._contact["force"]
-                    one["dent_diameter"] = 2.0 * self._contact["contact_radius"]
-            except ContactError:
-                continue
-            for name in names:
-                found[name][index] = one[name]
+    def _oblique(self, points: Measured, flow: Flow) -> dict[str, Numbers]:
+        data = self.changed(flow) | {"friction": self._friction | {"coefficient": flow["friction"]}}
+        for key in ("coupling", "fmu"):
+            data.pop(key, None)
+        groups = {"speed": points.arguments["speed"], "mass": self._masses(points)}
+        if has_bodies(self.scene):
+            if "mass" in points.arguments:
+                raise ValueError(
+                    f"{self._path}: the masses of oblique impacts are those of its tables [[body]]: "
+                    "leave the column of masses out"
+                )
+            del groups["mass"]
+            first, *others = self.scene["contact"]
+            # what the first contact has of its own is in the tables of all already
+            first = {key: it for key, it in first.items() if key not in ("impactor", "target")}
+            data |= {"body": self.scene["body"], "contact": [first, *others]}
+            if "impact" in data:
+                data["impact"] = {key: it for key, it in data["impact"].items() if key != "mass"}
+        return self._swept(data, "angle", points.arguments["angle"], groups, sorted(OBLIQUE))
+
+    def _swept(
+        self, data: Mapping[str, Any], name: str, values: Numbers, groups: Mapping[str, Numbers], wanted: Sequence[str]
+    ) -> dict[str, Numbers]:
+        """Columns of the program's tables over the quantity `name`, one table for each group of points
+        that agree in the others; NaN beyond the law."""
+        found = {column: np.full(len(values), np.nan) for column in wanted}
+        keys, group_of = np.unique(np.column_stack([*groups.values()]), axis=0, return_inverse=True)
+
+        def one(number: int) -> None:
+            inside = np.flatnonzero(group_of.ravel() == number)
+            different, places = np.unique(values[inside], return_inverse=True)
+            options = options_of(dict(zip(groups, keys[number].tolist(), strict=True)), None)
+            with suppress(ProgramError):
+                parts = []
+                for at in range(0, len(different), LISTED):
+                    axis = range_of(name, different[at : at + LISTED])
+                    said = of_scene("predict", path, f"--sweep={name}={axis}", *options)[0]
+                    parts.append(json.loads(said)["laws"][0])
+                for column in wanted:
+                    # a number that the law doesn't have is null
+                    found[column][inside] = np.array(sum((it[column] for it in parts), []), dtype=float)[places]
+
+        with temporary.folder() as folder, warnings.catch_warnings(), ThreadPoolExecutor() as pool:
+            warnings.simplefilter("ignore")
+            path = folder / "scene.toml"
+            path.write_text(toml(data), encoding="utf-8")
+            list(pool.map(one, range(len(keys))))
         return found
 
     def changed(self, flow: Flow) -> dict[str, Any]:
@@ -353,78 +390,8 @@ class Law:
             data[body] = kept | {"yield_strength": UNYIELDING}
         return data
 
-    def _each(
-        self, data: Mapping[str, Any], one: Callable[[Path, int], list[float]], count: int, width: int
-    ) -> Numbers:
-        """A row of numbers for each impact of a scene, by the program; NaN beyond the law."""
-        with temporary.folder() as folder, warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            path = Path(folder) / "scene.toml"
-            path.write_text(toml(data), encoding="utf-8")
 
-            def row(index: int) -> list[float]:
-                try:
-                    return one(path, index)
-                except ProgramError:
-                    return [np.nan] * width
-
-            with ThreadPoolExecutor() as pool:
-                return np.array(list(pool.map(row, range(count)))).reshape(count, width)
-
-    def _predicted(
-        self, impacts: tuple[tuple[float, float], ...], flow: tuple[tuple[str, float], ...]
-    ) -> dict[str, Numbers]:
-        """The program's predictions, each different impact once."""
-        different = sorted(set(impacts))
-
-        def one(path: Path, index: int) -> list[float]:
-            mass, speed = different[index]
-            it = predict(path, mass=mass, speed=speed)
-            time = it.loading_time + it.unloading_time
-            return [
-                it.restitution, it.dent, 2.0 * it.largest_contact_radius, time, it.largest_force,
-            ]  # fmt: skip
-
-        rows = self._each(self.changed(dict(flow)), one, len(different), 5)
-        places = [different.index(it) for it in impacts]
-        names = ("restitution", "dent_depth", "dent_diameter", "contact_time", "largest_force")
-        return dict(zip(names, rows[places].T, strict=True))
-
-    def _oblique(self, points: Measured, flow: Flow, names: tuple[str, ...]) -> dict[str, Numbers]:
-        masses = points.arguments.get("mass", np.full(points.count, self._mass))
-        speeds, angles = points.arguments["speed"], points.arguments["angle"]
-        data = self.changed(flow) | {"friction": self._friction | {"coefficient": flow["friction"]}}
-        for key in ("coupling", "fmu"):
-            data.pop(key, None)
-        together = has_bodies(self.scene)
-        if together:
-            if "mass" in points.arguments:
-                raise ValueError(
-                    f"{self._path}: the masses of oblique impacts are those of its tables [[body]]: "
-                    "leave the column of masses out"
-                )
-            first, *others = self.scene["contact"]
-            # what the first contact has of its own is in the tables of all already
-            first = {key: it for key, it in first.items() if key not in ("impactor", "target")}
-            data |= {"body": self.scene["body"], "contact": [first, *others]}
-            if "impact" in data:
-                data["impact"] = {key: it for key, it in data["impact"].items() if key != "mass"}
-
-        def one(path: Path, index: int) -> list[float]:
-            table = sweep(
-                path,
-                {"angle": [float(angles[index])]},
-                speed=float(speeds[index]),
-                mass=None if together else float(masses[index]),
-                friction=flow["friction"],
-            )
-            return [float(table[name][0]) for name in names]
-
-        rows = self._each(data, one, points.count, len(names))
-        return dict(zip(names, rows.T, strict=True))
-
-
-def _with_loading(law: Mapping[str, Any], loading: str) -> dict[str, Any]:
+def with_loading(law: Mapping[str, Any], loading: str) -> dict[str, Any]:
     """The table `law` of a scene with another law, and the same losses."""
     first, _, second = loading.partition("/")
     kept = {key: it for key, it in law.items() if key == "elastic_restitution"}
@@ -456,37 +423,21 @@ def _without_rates(data: Mapping[str, Any]) -> dict[str, Any]:
 def strengths_of(readings: tuple[str, ...], path: str | Path, law: Law) -> Numbers:
     """The slow flow stress [Pa] of the softer body at the strain of the scene's impact, for each
     reading of its hardness."""
-    found = dict.fromkeys(readings, np.nan)
     scene = tables(path)
-    own = {
-        key: it
-        for key, it in without_readings(scene[law.body]).items()
-        if key not in ("yield_strength", "power_law", "hardening_modulus", "tangent_modulus")
-    }
+    others = ("yield_strength", "power_law", "hardening_modulus", "tangent_modulus")
+    own = {key: it for key, it in without_readings(scene[law.body]).items() if key not in others}
+    found = dict.fromkeys(readings, np.nan)
     with temporary.folder() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore")
+        one = folder / "scene.toml"
         for reading in found:
-            one = Path(folder) / "scene.toml"
-            data = scene | {law.body: own | {"hardness": reading}}
-            one.write_text(toml(data), encoding="utf-8")
+            one.write_text(toml(scene | {law.body: own | {"hardness": reading}}), encoding="utf-8")
             try:
-                found[reading] = _flow_stress(one)
+                strength = json.loads(run("predict", one)[0])["strength"]
             except ProgramError as error:
                 # nobody wrote that scene
                 raise ValueError(str(error).split(f"{one.name}:")[-1].split(": ", 1)[-1]) from None
+            if strength is None:
+                raise ValueError(f"the program gives no strength for {reading}")
+            found[reading] = float(strength["yield_strength"] / strength["factor"])
     return np.array([found[it] for it in readings])
-
-
-def _flow_stress(path: Path) -> float:
-    strength = _strength(path)
-    if strength is None:
-        raise ProgramError(f"{path}: the program gives no strength for this reading")
-    return float(strength["yield_strength"] / strength["factor"])
-
-
-def _strength(path: str | Path) -> dict[str, Any] | None:
-    """What the program says of the strength in the scene's impact."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        found: dict[str, Any] | None = json.loads(run("predict", path)[0])["strength"]
-    return found

@@ -11,7 +11,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .quantities import GRAVITY, one_of, shortened
+from ..errors import one_of, shortened
+from ..prediction import GRAVITY
 from .reading import Decimal, Rows, rows_of
 
 Kind = Literal["impacts", "record", "hardness"]

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..prediction import quantity
-from . import intervals
-from .intervals import Linear, Numbers
 from .law import LARGEST_RADIUS_RATIO
 from .measured import UNITS
+from .near import Ends, Near, Numbers
 from .parameters import parameter
 from .problem import BEYOND, Problem
 from .result import Estimate, Fit
@@ -54,7 +52,7 @@ def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
     near = problem.near(found)
     trend = _trend(problem, flow)
     drawn = _drawn(problem, near, draws, seed, has_trend=trend is not None)
-    said = _estimates(problem, near, found, drawn)
+    said = _estimates(problem, near, drawn)
     notes = [
         _usual(problem, flow),
         _without_bootstrap(near) if draws > 0 else None,
@@ -75,7 +73,6 @@ def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
         left_out=left_out,
         rms={name: _rms(it) for name, it in left.items()},
         rms_of_scene={name: _rms(it) for name, it in scene.items()},
-        squares=float(np.sum(np.asarray(found.fun) ** 2)),
         notes=tuple(note for note in notes if note),
         columns=problem.points.notes,
         argument=problem.points.argument,
@@ -83,7 +80,6 @@ def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
         | {f"{name}, measured": it for name, it in problem.points.results.items()}
         | {f"{name}, fitted": it for name, it in values.items()}
         | {f"{name}, scene": it + problem.points.results[name] for name, it in scene.items()},
-        curves=_curves(problem, flow),
         data=problem.law.scene,
         body=problem.law.body,
         flow=flow,
@@ -115,55 +111,40 @@ def _rms(differences: Numbers) -> float:
     return float(np.sqrt(np.nanmean(differences**2)))
 
 
-def _without_bootstrap(near: Linear) -> str | None:
+def _without_bootstrap(near: Near) -> str | None:
     """The reason why there is no bootstrap."""
     if near.freedom < FEWEST_FOR_BOOTSTRAP:
         return f"The bootstrap needs {FEWEST_FOR_BOOTSTRAP} points more than parameters."
-    if any(near.reach(it) < NEAR_BOUND for it in range(len(near.at))):
+    if near.reach() < NEAR_BOUND:
         return f"The bootstrap needs parameters that are {NEAR_BOUND:g} standard errors from their bounds."
     return None
 
 
-def _drawn(
-    problem: Problem, near: Linear, draws: int, seed: int, *, has_trend: bool
-) -> list[tuple[float, float] | None]:
+def _drawn(problem: Problem, near: Near, draws: int, seed: int, *, has_trend: bool) -> list[Ends | None]:
     """The intervals of the bootstrap."""
-    errors = near.errors[near.free]
-    usable = _without_bootstrap(near) is None and bool(np.all(errors > 0.0))
-    if draws <= 0 or not usable or not np.all(np.isfinite(errors)):
+    if draws <= 0 or _without_bootstrap(near) or not (near.errors > 0.0).all():
         return [None] * len(near.at)
-
-    def differences(variables: Numbers) -> Numbers:
-        return problem.differences(problem.flow(variables))
-
-    expanded = intervals.expansion(differences, near)
-    if not np.all(np.isfinite(expanded.curvature)):
-        return [None] * len(near.at)
-    # blocks as long as the cube root of the number of points, longer under a trend
+    # longer blocks under a trend
     block = max(1, round(problem.points.count ** (0.5 if has_trend else 0.0)))
-    return intervals.bootstrap(expanded, near, problem.groups(), draws=draws, block=block, seed=seed)
+    return near.bootstrap(problem.groups(), draws, block, seed)
 
 
-def _estimates(
-    problem: Problem, near: Linear, found: Any, drawn: Sequence[tuple[float, float] | None]
-) -> list[Estimate]:
-    effects = np.max(np.abs(np.asarray(found.jac)), axis=0, initial=0.0)
+def _estimates(problem: Problem, near: Near, drawn: Sequence[Ends | None]) -> list[Estimate]:
+    effects = np.max(np.abs(near.jacobian), axis=0, initial=0.0)
     values = problem.values(near.at)
     free = np.flatnonzero(near.free)
     estimates = []
     for index, name in enumerate(problem.names):
-        one = parameter(name, problem.law.model)
-        interval = intervals.interval(near, index)
-        doubt = _doubt(problem, near, index, effects[index], interval)
         others = near.correlation[free == index][:, free != index]
-        same = not bool(np.all(np.abs(others) < SAME))
-        if not effects[index] > NO_EFFECT or same:
+        interval = near.interval(index)
+        doubt = _doubt(problem, near, index, effects[index], interval)
+        if not effects[index] > NO_EFFECT or not bool(np.all(np.abs(others) < SAME)):
             # an interval says nothing where the parameter has no effect
             interval = None
         estimates.append(
             Estimate(
                 problem.law.name(name),
-                one.unit,
+                parameter(name, problem.law.model).unit,
                 problem.given[name],
                 float(values[index]),
                 _of_variables(problem, index, interval),
@@ -174,17 +155,14 @@ def _estimates(
     return estimates
 
 
-def _of_variables(problem: Problem, index: int, ends: tuple[float, float] | None) -> tuple[float, float] | None:
+def _of_variables(problem: Problem, index: int, ends: Ends | None) -> Ends | None:
     if ends is None:
         return None
-    both = [np.where(np.arange(len(problem.names)) == index, end, 0.0) for end in ends]
-    low, high = (float(problem.values(it)[index]) for it in both)
+    low, high = (float(problem.values(np.full(len(problem.names), end))[index]) for end in ends)
     return low, high
 
 
-def _doubt(
-    problem: Problem, near: Linear, index: int, effect: float, interval: tuple[float, float] | None
-) -> str | None:
+def _doubt(problem: Problem, near: Near, index: int, effect: float, interval: Ends | None) -> str | None:
     """The reason why the parameter at `index` is not determined."""
     name = problem.names[index]
     bound = problem.bound[index]
@@ -222,7 +200,7 @@ def _doubt(
     return None
 
 
-def _correlations(problem: Problem, near: Linear, said: Sequence[Estimate]) -> list[str]:
+def _correlations(problem: Problem, near: Near, said: Sequence[Estimate]) -> list[str]:
     """Which parameters the points can't tell apart."""
     free = np.flatnonzero(near.free)
     notes = []
@@ -247,7 +225,7 @@ def _correlations(problem: Problem, near: Linear, said: Sequence[Estimate]) -> l
     return notes
 
 
-def _priors(problem: Problem, near: Linear) -> list[str]:
+def _priors(problem: Problem, near: Near) -> list[str]:
     """Values that are far from what was known of them."""
     flow = problem.flow(near.at)
     notes = []
@@ -304,33 +282,3 @@ def _trend(problem: Problem, flow: Mapping[str, float]) -> str | None:
                 "linearised intervals are too narrow; bootstrap=1000 draws blocks of neighbours."
             )
     return None
-
-
-def _curves(problem: Problem, flow: Mapping[str, float]) -> dict[str, Numbers]:
-    """The law over the range of the measurement, for a picture."""
-    points = problem.points
-    if points.kind == "hardness":
-        return {}
-    if points.kind == "record":
-        return {}
-    argument = points.argument
-    at = points.arguments[argument]
-    first, last = float(at.min()), float(at.max())
-    if argument == "speed" and last >= 10.0 * first:
-        line = np.geomspace(first / 1.5, 1.5 * last, 121)
-    else:
-        line = np.linspace(0.02 * last, 1.1 * last if argument == "speed" else last, 121)
-    if "contact_time" in points.results or problem.law.model or argument == "angle":
-        line = line[::4]
-    arguments = {name: np.full(len(line), np.mean(it)) for name, it in points.arguments.items()}
-    arguments[argument] = line
-    along = replace(
-        points,
-        arguments=arguments,
-        results={name: np.full(len(line), np.nan) for name in points.results},
-        part=np.zeros(len(line), dtype=int),
-    )
-    found = {argument: line}
-    for which, values in (("scene", problem.given), ("fitted", flow)):
-        found |= {f"{name}, {which}": it for name, it in problem.law.values(along, values).items()}
-    return found

@@ -32,12 +32,8 @@ def draw(fit: Fit, path: str | Path | None) -> Any:
     for (above, below), result in zip(axes.T, results, strict=True):
         size, own = _scale(result)
         for name, style in (("scene", "--"), ("fitted", "-")):
-            key = f"{result}, {name}"
-            if key in fit.curves:
-                line = scale * fit.curves[argument]
-                above.plot(line, size * fit.curves[key], style, label=f"law, {name}")
-            elif name == "fitted" or "zero_point" not in str(fit.values):
-                above.plot(at, size * fit.points[key], style, label=f"law, {name}")
+            if name == "fitted" or "zero_point" not in str(fit.values):
+                above.plot(at, size * fit.points[f"{result}, {name}"], style, label=f"law, {name}")
         found, expected = (size * fit.points[f"{result}, {it}"] for it in ("measured", "fitted"))
         marker = 4 if len(at) < 100 else 1.5
         above.plot(at, found, "ok", markersize=marker, label="measured")

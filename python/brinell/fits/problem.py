@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import intervals
-from .intervals import Linear, Numbers
 from .law import Law
 from .measured import Measured
+from .near import Near, Numbers
 from .parameters import parameter
 
-STRENGTHS = np.geomspace(1e-6, 0.5, 61)
+STRENGTHS = np.geomspace(1e-6, 0.5, 31)
 """Yield strengths that the search may start at, relative to the effective modulus: the restitution
 of some laws is not monotone."""
 COMPLIANCES = (0.0, 0.15, 0.5)
@@ -55,12 +54,12 @@ class Problem:
             force = float(np.max(self.points.arguments["force"]))
             scale |= {"zero_point": depth, "preload": force, "compliance": depth / force}
         self.scales = np.array([scale.get(name, 1.0) for name in self.names])
-        low = [max(one.low, self.bounds.get(it, (-np.inf,))[0]) for it, one in zip(self.names, ones, strict=True)]
-        high = [min(one.high, self.bounds.get(it, (0.0, np.inf))[1]) for it, one in zip(self.names, ones, strict=True)]
+        ends = [self.bounds.get(it, (-np.inf, np.inf)) for it in self.names]
+        low = [max(one.low, it[0]) for one, it in zip(ones, ends, strict=True)]
+        high = [min(one.high, it[1]) for one, it in zip(ones, ends, strict=True)]
         # those of a scene are far away, unless the user gives them
-        self.low = np.where(
-            self.logarithmic & (np.array([it not in self.bounds for it in self.names])), -np.inf, self.variables(low)
-        )
+        far = self.logarithmic & np.array([it not in self.bounds for it in self.names])
+        self.low = np.where(far, -np.inf, self.variables(low))
         self.high = np.where(np.array(high) >= 1e18, np.inf, self.variables(high))
         self.ends = np.array(low), np.array(high)
         self.known = {name: np.isfinite(it) for name, it in self.points.results.items()}
@@ -70,23 +69,21 @@ class Problem:
         if name in self.accuracy:
             return self.accuracy[name]
         values = self.points.results[name][self.known[name]]
-        return 1.0 if name.endswith("restitution") else float(np.max(np.abs(values)))
+        return 1.0 if name.endswith("restitution") else float(np.max(np.abs(values), initial=0.0))
 
     # variables
 
     def variables(self, values: Sequence[float]) -> Numbers:
         with np.errstate(divide="ignore", invalid="ignore"):
             given = np.array(values, dtype=float)
-            found: Numbers = np.where(self.logarithmic, np.log(given), given / self.scales)
-        return found
+            return np.asarray(np.where(self.logarithmic, np.log(given), given / self.scales))
 
     def values(self, variables: Numbers) -> Numbers:
         with np.errstate(over="ignore"):
             found = np.where(self.logarithmic, np.exp(variables), variables * self.scales)
         # a bound is what the user gave, to the last bit
         found = np.where(variables == self.low, self.ends[0], found)
-        values: Numbers = np.where(variables == self.high, self.ends[1], found)
-        return values
+        return np.asarray(np.where(variables == self.high, self.ends[1], found))
 
     def flow(self, variables: Numbers) -> dict[str, float]:
         values = [float(it) for it in self.values(variables)]
@@ -94,11 +91,10 @@ class Problem:
 
     # differences
 
-    def of(self, flow: Mapping[str, float], points: Measured | None = None) -> dict[str, Numbers]:
+    def of(self, flow: Mapping[str, float]) -> dict[str, Numbers]:
         """The law's values minus the measured ones, for each kind of result, in SI units."""
-        points = points or self.points
-        values = self.law.values(points, flow)
-        return {name: values[name] - it for name, it in points.results.items()}
+        values = self.law.values(self.points, flow)
+        return {name: values[name] - it for name, it in self.points.results.items()}
 
     def differences(self, flow: Mapping[str, float]) -> Numbers:
         """All differences in units of their sizes, and those from priors."""
@@ -112,32 +108,37 @@ class Problem:
         ends = np.cumsum([0, *(np.count_nonzero(it) for it in self.known.values())])
         return [np.arange(a, b) for a, b in pairwise(ends.tolist())]
 
-    @property
-    def freedom(self) -> int:
-        """Number of differences less that of all parameters."""
-        return sum(map(len, self.groups())) + len(self.priors) - len(self.names)
-
     # optimum
 
-    def starts(self) -> list[list[Numbers]]:
-        """Groups of starts: the scene's values and other strengths, for each of some compliances, with
-        the zero point that belongs to them."""
-        own = np.clip(self.variables([self.given[it] for it in self.names]), self.low, self.high)
+    def starts(self) -> list[Numbers]:
+        """The best start for each of some compliances, by a part of the points: of the scene's values and of
+        other strengths, with the zero point that belongs to them."""
+        own = self.variables([self.given[it] for it in self.names])
         place = {name: index for index, name in enumerate(self.names)}
-        groups = []
+        loading = np.flatnonzero(self.points.part == 0)
+        some = np.ones(self.points.count, dtype=bool)
+        some[loading[:: -(-len(loading) // MOST_FOR_START)]] = False
+        few = self.points if self.points.kind == "hardness" else self.points.without(some)
+        only = replace(self, points=few)
+        only.sizes = self.sizes
+
+        def squares(start: Numbers) -> float:
+            left = only.differences(self.flow(start))
+            return float(left @ left) if np.all(np.isfinite(left)) else np.inf
+
+        found = []
         for part in COMPLIANCES if "compliance" in place else (0.0,):
             group = [own.copy()]
-            if "yield_strength" in place:
-                for strength in STRENGTHS * self.law.modulus:
-                    group.append(own.copy())
-                    group[-1][place["yield_strength"]] = np.log(strength)
+            for strength in STRENGTHS * self.law.modulus if "yield_strength" in place else ():
+                group.append(own.copy())
+                group[-1][place["yield_strength"]] = np.log(strength)
             for start in group:
                 if part > 0.0:
                     start[place["compliance"]] = part
                 if "zero_point" in place:
                     start[place["zero_point"]] = self._zero(start) / self.scales[place["zero_point"]]
-            groups.append([np.clip(it, self.low, self.high) for it in group])
-        return groups
+            found.append(min((np.clip(it, self.low, self.high) for it in group), key=squares))
+        return found
 
     def _zero(self, start: Numbers) -> float:
         """The zero point [m] with which a first loading has the recorded forces, in the median."""
@@ -146,27 +147,11 @@ class Problem:
         deep = self.law.depths(force, flow) + flow["compliance"] * force
         return float(np.median(deep - self.points.arguments["depth"][loading]))
 
-    def start(self) -> list[Numbers]:
-        """The best start of each group, by a part of the points."""
-        loading = np.flatnonzero(self.points.part == 0)
-        step = -(-len(loading) // MOST_FOR_START)
-        some = np.ones(self.points.count, dtype=bool)
-        some[loading[::step]] = False
-        few = self.points if self.points.kind == "hardness" else self.points.without(some)
-
-        def squares(start: Numbers) -> float:
-            found = self.of(self.flow(start), few)
-            sum_ = sum(float(np.nansum((it / self.sizes[name]) ** 2)) for name, it in found.items())
-            bad = any(np.any(np.isnan(it) & np.isfinite(few.results[name])) for name, it in found.items())
-            return np.inf if bad else sum_
-
-        return [min(group, key=squares) for group in self.starts()]
-
     def solve(self, start: Numbers | None = None) -> Any:
         """The optimum within the bounds, by scipy: first with derivatives of one side from each start,
         then of both from the best."""
         try:
-            rough = [self._least("2-point", 1e-6, it) for it in (self.start() if start is None else [start])]
+            rough = [self._least("2-point", 1e-6, it) for it in (self.starts() if start is None else [start])]
             best = min(rough, key=lambda it: float(it.cost))
             found = self._least("3-point", TOLERANCE, self._snapped(best.x))
         except (ValueError, np.linalg.LinAlgError) as error:
@@ -196,8 +181,7 @@ class Problem:
     def _snapped(self, variables: Numbers) -> Numbers:
         """The variables, at a bound where rounding keeps them from it."""
         low = np.where(variables - self.low < AT_BOUND, self.low, variables)
-        found: Numbers = np.where(self.high - low < AT_BOUND, self.high, low)
-        return found
+        return np.asarray(np.where(self.high - low < AT_BOUND, self.high, low))
 
     def weighted(self) -> Any:
         """The optimum, with each kind of result weighted by the scatter that is left of it.
@@ -205,10 +189,9 @@ class Problem:
         One kind without a prior needs no weight. The rounds end as the sizes do not change.
         """
         found = self.solve()
-        settled = {*self.accuracy}
-        if len(self.sizes) - len(settled) + len(self.priors) <= 1 and not self.priors:
+        free = [name for name in self.sizes if name not in self.accuracy]
+        if len(self.sizes) == 1 and not self.priors:
             return found
-        free = [name for name in self.sizes if name not in settled]
         for _ in range(ROUNDS if free else 0):
             total = sum(map(len, self.groups()))
             left = self.of(self.flow(found.x))
@@ -223,15 +206,14 @@ class Problem:
             found = self.solve(found.x)
         return found
 
-    def near(self, found: Any) -> Linear:
+    def near(self, found: Any) -> Near:
         """The neighbourhood of an optimum."""
+        left, jacobian = np.asarray(found.fun), np.asarray(found.jac)
         # at its bound, and held there: a parameter without effect may have started there
-        gradient = np.asarray(found.jac).T @ np.asarray(found.fun)
         side = np.where(found.x == self.low, -1, np.where(found.x == self.high, 1, 0))
-        self.bound = np.where(side * gradient < 0.0, side, 0)
+        self.bound = np.where(side * (jacobian.T @ left) < 0.0, side, 0)
         free = self.bound == 0
         # points that repeat others to the last digit don't tell how much a measurement scatters
         enough = self.points.different + len(self.priors) > np.count_nonzero(free)
-        freedom = len(found.fun) - int(np.count_nonzero(free)) if enough else 0
-        jacobian, left = np.asarray(found.jac), np.asarray(found.fun)
-        return intervals.linear(found.x, jacobian, left, free, freedom, self.low, self.high)
+        freedom = len(left) - int(np.count_nonzero(free)) if enough else 0
+        return Near(found.x, self.low, self.high, jacobian, left, free, freedom)

@@ -14,10 +14,9 @@ from numbers import Real
 from pathlib import Path
 from typing import Any, Literal
 
-from ..errors import missing
+from ..errors import missing, shortened
 from ..program import run
 from ..workbooks import EXCEL, sheets_of
-from .quantities import shortened
 
 MOST = 100_000
 """Largest number of rows of a fit."""
@@ -148,19 +147,15 @@ def _of_table(table: Any, options: list[str], name: str = "the measurement") -> 
             f"a measurement is the path of a file, a DataFrame or a mapping from headings to columns, "
             f"not {type(table).__name__}"
         )
-    heading = [str(it) for it in (table.columns if hasattr(table, "columns") else table)]
-    if hasattr(table, "iloc"):
-        columns = [table.iloc[:, index].tolist() for index in range(len(heading))]
-    else:
-        columns = [list(table[it]) for it in table]
-    lengths = [len(it) for it in columns]
-    for one, length in zip(heading, lengths, strict=True):
-        if length != lengths[0]:
-            raise ValueError(f"{name}: {heading[0]} has {lengths[0]} cells, and {one} {length}")
-    if not lengths or not 0 < lengths[0] <= MOST:
-        count = lengths[0] if lengths else 0
-        raise ValueError(f"{name} has {count} rows; allowed is 1 to {MOST}")
-    text = text_of([heading, *zip(*columns, strict=True)])
+    import pandas
+
+    try:
+        frame = pandas.DataFrame(table)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from error
+    if not 0 < len(frame) <= MOST:
+        raise ValueError(f"{name} has {len(frame)} rows; allowed is 1 to {MOST}")
+    text = text_of([frame.columns, *frame.astype(object).to_numpy().tolist()])
     # rows count from 0, below the heading
     return _read((name, ", row ", 2), [TAB, *options], text)
 

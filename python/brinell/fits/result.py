@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..prediction import quantity
 from ..studies.scene import toml
-from .law import without_readings
+from .law import with_loading, without_readings
 from .measured import UNITS, Kind
 from .parameters import RATES
 
@@ -66,8 +66,6 @@ class Fit:
     """Root mean square of the differences that remain, for each kind of result, in SI units."""
     rms_of_scene: Mapping[str, float]
     """The same with the scene's values."""
-    squares: float = field(repr=False)
-    """The sum of squares that was minimised."""
     notes: tuple[str, ...]
     """Remarks on the quality of the fit."""
     columns: tuple[str, ...]
@@ -76,8 +74,6 @@ class Fit:
     points: Columns = field(repr=False)
     """The points in SI units: arguments, and for each result the values "measured", by the "scene"
     and "fitted": `points["restitution, fitted"]`."""
-    curves: Columns = field(repr=False)
-    """The same over the range of the impacts; NaN beyond the range of the law."""
     data: Mapping[str, Any] = field(repr=False)
     """The tables of the scene that was fitted."""
     body: str = field(repr=False)
@@ -137,9 +133,7 @@ class Fit:
             data[self.body] = self._body(data.get(self.body, {}))
         law = {**data.get("law", {})}
         if self.law != "" and self.laws:
-            loading, _, unloading = self.law.partition("/")
-            law = {key: it for key, it in law.items() if key == "elastic_restitution"}
-            law |= {"loading": loading} | ({"unloading": unloading} if unloading else {})
+            law = with_loading(law, self.law)
         if "law.elastic_restitution" in self.values:
             law["elastic_restitution"] = self.values["law.elastic_restitution"]
         if law:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,10 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import temporary
 from ..contact import Contact
 from ..errors import ContactError, ContactWarning
-from ..library import Library
 
 Table = dict[str, NDArray[Any]]
 """Columns by name: numbers, and strings in `error` and `warning`."""
@@ -34,16 +31,16 @@ LONG = 1.0
 follow, each ten times as long."""
 
 
-def run(unit: Path | bytes, names: Sequence[str], rows: NDArray[np.float64]) -> Table:
+def run(unit: Path, names: Sequence[str], rows: NDArray[np.float64]) -> Table:
     """Run a chunk: one instance for all its impacts, reset between them.
 
     `names` are those of the columns of `rows`: "speed" [m/s], "mass" [kg] and parameters of the
-    FMU, in SI units. An FMU that is passed as bytes needs no file on the machine.
+    FMU, in SI units.
     """
     table: Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
     table |= {name: np.full(len(rows), np.nan) for name in RESULTS}
     table |= {name: np.full(len(rows), "", dtype=object) for name in ("error", "warning")}
-    with warnings.catch_warnings(record=True) as told, Contact(_library(unit)) as contact:
+    with warnings.catch_warnings(record=True) as told, Contact(unit) as contact:
         warnings.simplefilter("always", ContactWarning)
         for index, row in enumerate(rows):
             try:
@@ -74,28 +71,3 @@ def impact(contact: Contact, row: dict[str, float]) -> tuple[float, ...]:
         raise ContactError(f"the impact is not over after {contact.time:g} s")
     names = ("max_indentation", "residual_indentation", "dissipated_energy")
     return -now / speed, -now, *(contact[name] for name in names), impulse
-
-
-@functools.cache
-def _library(unit: Path | bytes) -> Library:
-    """Loaded once per process, not once per chunk."""
-    if isinstance(unit, Path):
-        return Library.of(unit)
-    with temporary.folder() as folder:
-        path = Path(folder) / "unit.fmu"
-        path.write_bytes(unit)
-        return Library.of(path)
-
-
-def failed(names: Sequence[str], rows: NDArray[np.float64], error: str) -> Table:
-    """The table of a chunk that could not be run at all."""
-    table: Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
-    table |= {name: np.full(len(rows), np.nan) for name in RESULTS}
-    table["error"] = np.full(len(rows), error, dtype=object)
-    table["warning"] = np.full(len(rows), "", dtype=object)
-    return table
-
-
-def joined(tables: Sequence[Table]) -> Table:
-    """The chunks, in their order, as one table."""
-    return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}

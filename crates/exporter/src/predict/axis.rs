@@ -155,7 +155,7 @@ fn find(name: &str) -> Result<(&'static str, &'static str), String> {
 }
 
 /// The number in SI units that `words`, NAME=NUMBER, say of a quantity or a parameter of an FMU. In front of the parameter there may
-/// be its contact: `bead[3].initial_gap`.
+/// be its contact: `bead[3].initial_gap`. An SI unit stands for any quantity that has it: `m/N=5 nm/N`.
 ///
 /// # Errors
 /// What is wrong, and what is allowed.
@@ -165,6 +165,7 @@ pub fn in_si(words: &str) -> Result<f64, String> {
     let variable = |own: &str| VARIABLES.iter().find(|variable| variable.name == own);
     let unit = match std::iter::once(name).chain(parts).find_map(variable) {
         Some(variable) => variable.unit.as_deref().unwrap_or(""),
+        None if units::is_unit(name) => name,
         None => find(name)?.1,
     };
     units::number(text, unit).map_err(|why| format!("{name} = {text}: {why}"))
