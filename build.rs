@@ -1,4 +1,5 @@
-//! Generates the C header, and the sources that the program embeds: those of the crates of an FMU, and of `libm`.
+//! Generates the sources that the program embeds: those of the crates of an FMU, and of `libm`. All of it is compiled before the program,
+//! so it takes no other crate.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -8,7 +9,6 @@ fn main() {
 
 #[cfg(feature = "exporter")]
 mod exporter {
-    use serde_json::Value;
     use std::collections::BTreeMap;
     use std::env;
     use std::fmt::Write;
@@ -19,13 +19,9 @@ mod exporter {
     /// The crates of an FMU.
     const CRATES: [&str; 3] = ["contact", "fmu", "unit"];
 
-    /// The file with the exported functions.
-    const INTERFACE: &str = "exports.rs";
-
     pub fn prepare() {
         println!("cargo::rerun-if-changed=Cargo.lock");
         let (root, out) = (folder("CARGO_MANIFEST_DIR"), folder("OUT_DIR"));
-        write_header(&sources("unit").join(INTERFACE), &out.join("brinell.h"));
         let mut text = String::new();
         for name in CRATES {
             text.push_str(&list(name, &sources(name)));
@@ -69,7 +65,7 @@ mod exporter {
         found.unwrap_or_else(|error| panic!("cargo doesn't say where libm {version} is:\n{error}"))
     }
 
-    /// The folder of `libm` according to `cargo metadata` for the package in `folder`.
+    /// The folder of `libm` according to `cargo metadata` for the package in `folder`, which has one other manifest.
     fn metadata(root: &Path, folder: &Path, more: &[&str]) -> Result<PathBuf, String> {
         let mut cargo = Command::new(env::var_os("CARGO").expect("cargo sets it"));
         cargo.args(["metadata", "--format-version=1", "--locked"]).args(more);
@@ -79,29 +75,28 @@ mod exporter {
         if !output.status.success() {
             return Err(String::from_utf8_lossy(&output.stderr).into_owned());
         }
-        let metadata: Value = serde_json::from_slice(&output.stdout).map_err(|error| error.to_string())?;
-        let packages = metadata["packages"].as_array().ok_or("no list of packages")?;
-        let libm = packages.iter().find(|package| package["name"] == "libm").ok_or("no libm among the packages")?;
-        let manifest = Path::new(libm["manifest_path"].as_str().ok_or("libm has no manifest")?);
-        Ok(manifest.parent().ok_or("libm has no folder")?.into())
+        let json = String::from_utf8_lossy(&output.stdout).into_owned();
+        let manifests = json.split("\"manifest_path\":\"").skip(1).map(|rest| PathBuf::from(string(rest)));
+        let mut folders = manifests.filter_map(|manifest| manifest.parent().map(Path::to_path_buf));
+        folders.find(|found| is_libm(found)).ok_or_else(|| format!("no libm in {json}"))
     }
 
-    /// The prototypes of the functions. A C program that includes the standard's header and then this one compiles only if
-    /// every signature agrees; `tests/importing/abi.rs` checks this.
-    fn write_header(interface: &Path, header: &Path) {
-        let config = cbindgen::Config {
-            language: cbindgen::Language::C,
-            style: cbindgen::Style::Type,
-            cpp_compat: true,
-            no_includes: true,
-            usize_is_size_t: true,
-            include_guard: Some("BRINELL_H".into()),
-            header: Some("/* The functions of an exported unit. Include fmi2FunctionTypes.h before. */".into()),
-            export: cbindgen::ExportConfig { item_types: vec![cbindgen::ItemType::Functions], ..Default::default() },
-            ..Default::default()
-        };
-        let builder = cbindgen::Builder::new().with_config(config).with_src(interface);
-        builder.generate().expect("the interface has a C header").write_to_file(header);
+    fn is_libm(folder: &Path) -> bool {
+        fs::read_to_string(folder.join("Cargo.toml")).is_ok_and(|text| text.contains("\nname = \"libm\"\n"))
+    }
+
+    /// A string of JSON, from behind its first quote.
+    fn string(json: &str) -> String {
+        let mut text = String::new();
+        let mut characters = json.chars();
+        while let Some(character) = characters.next() {
+            match character {
+                '"' => break,
+                '\\' => text.extend(characters.next()),
+                other => text.push(other),
+            }
+        }
+        text
     }
 
     /// A constant with the path, in a folder of the name of the crate, and the text of every file of its sources.

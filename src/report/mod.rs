@@ -274,6 +274,7 @@ impl Report {
         environment.add_filter("print", print);
         environment.add_filter("seconds", move |value: f64| print(&quantity(value, "s")));
         environment.add_filter("stiffness", move |value: f64| print(&quantity(value, "N/m")));
+        environment.add_filter("whole", |value: f64| format!("{value:.0}"));
         let template = environment.template_from_named_str("report.html", include_str!("report.html"));
         let context = context! { report => Serde(self), figures => Serde(figures) };
         let filled = template.and_then(|template| template.render(context));
@@ -285,13 +286,15 @@ impl Report {
 
 /// A cell of a table: four digits, with a prefix where there is a unit, and a dash for what doesn't exist.
 fn cell(value: &Value, unit: Option<&str>) -> Value {
-    match f64::try_from(value.clone()) {
-        Ok(number) if number.is_finite() => {
+    let cell = match (value.as_str(), f64::try_from(value.clone())) {
+        (Some(words), _) => format!("<td class=\"words\">{}</td>", prose(words)),
+        (None, Ok(number)) if number.is_finite() => {
             let unit = UNITS.into_iter().find(|known| Some(*known) == unit).unwrap_or("");
-            Value::from_safe_string(prose(&quantity(number, unit)))
+            format!("<td>{}</td>", prose(&quantity(number, unit)))
         }
-        _ => Value::from_safe_string(value.as_str().map_or("-".into(), prose)),
-    }
+        _ => "<td>-</td>".into(),
+    };
+    Value::from_safe_string(cell)
 }
 
 /// The units of tables.

@@ -170,7 +170,7 @@ fn a_scene_may_be_that_of_an_fmu_and_of_a_folder_the_scene_in_it_is_named() {
         // but for how long it took
         let told = |what: &str| {
             let out = call(what).with_status(0).out.replace("ball.fmu", "ball.toml");
-            out.lines().filter(|line| !line.contains("compiled in")).map(String::from).collect::<Vec<_>>()
+            out.lines().filter(|line| !line.contains("  made  ")).map(String::from).collect::<Vec<_>>()
         };
         assert_eq!(told("ball.fmu"), told("ball.toml"), "{:?}", call("x").err);
         let said = call(".").with_status(1).err;

@@ -1,7 +1,6 @@
 //! FMUs with several contacts: the summary of an export, and their check.
 
 use crate::command::{empty_folder, run};
-use crate::prebuilt;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +14,7 @@ const IMPACT: &str = "[impact]\nmass = 4e-3\nspeed = 1.0\n";
 fn exported(scene: &Path) -> (Value, Value) {
     let folder = empty_folder();
     let scene = scene.to_str().unwrap();
-    let export = prebuilt::run(folder.path(), ["export", scene, "-o", "unit.fmu", "--json"]).with_status(0).json();
+    let export = run(folder.path(), ["export", scene, "-o", "unit.fmu", "--json"]).with_status(0).json();
     let check = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(0).json();
     (export, check)
 }
@@ -47,7 +46,7 @@ fn every_group_is_listed_with_its_own_values() {
 #[test]
 fn an_fmu_with_many_contacts_is_summarized_in_few_lines() {
     let folder = empty_folder();
-    let told = prebuilt::run(folder.path(), ["export", scene("many_contacts").to_str().unwrap()]).with_status(0).out;
+    let told = run(folder.path(), ["export", scene("many_contacts").to_str().unwrap()]).with_status(0).out;
     assert!(told.lines().count() < 30 && told.len() < 3000, "{told}");
     for part in ["bead[1..1000]", "1000  as the scene", "impactor.radius = 0.003", "2003: "] {
         assert!(told.contains(part), "nothing of {part:?} in {told}");
@@ -120,8 +119,8 @@ fn contacts_whose_bodies_the_fmu_moves_come_with_a_note_on_shared_bodies() {
     ] {
         std::fs::write(folder.path().join(format!("{name}.toml")), text).unwrap();
         let arguments = ["export", &format!("{name}.toml"), "-o", &format!("{name}.fmu")];
-        let printed = prebuilt::run(folder.path(), arguments).with_status(0).out;
-        let page = prebuilt::run(folder.path(), [&arguments[..], &["--json"]].concat()).with_status(0).json();
+        let printed = run(folder.path(), arguments).with_status(0).out;
+        let page = run(folder.path(), [&arguments[..], &["--json"]].concat()).with_status(0).json();
         assert_eq!(printed.contains("a body that two contacts share"), told, "{printed}");
         assert_eq!(page["shared_bodies"].is_string(), told, "{page}");
     }
@@ -148,7 +147,7 @@ fn values_of_each_contact_are_listed_and_checked() {
     assert_eq!(check["passed"], true, "{check}");
     let forces = [0, 1].map(|index| check["contacts"][index]["rows"][0]["predicted"].as_f64().unwrap());
     assert!(forces[1] < 0.7 * forces[0], "{check}");
-    let told = prebuilt::run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
+    let told = run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
     let words = told.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("effective_mass = 0.004 for each") && told.lines().count() < 45, "{told}");
 }

@@ -1,7 +1,6 @@
 //! Scenes of cylinders: what they need, and FMUs that agree with the predictions.
 
 use crate::command::{empty_folder, run};
-use crate::prebuilt;
 use crate::written::Written;
 use brinell_testing::long::some;
 use std::fs;
@@ -59,7 +58,7 @@ fn an_fmu_of_cylinders_agrees_with_the_prediction() {
     for (impactor, target, more) in some(cases, 2) {
         let impactor = impactor.replace("\"brass\"", "\"cartridge brass C260, half hard\"");
         fs::write(folder.path().join("scene.toml"), scene(&impactor, target, &format!("{more}{OUTPUTS}"))).unwrap();
-        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);
     }
 }

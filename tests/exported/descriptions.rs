@@ -80,9 +80,9 @@ fn a_rate_dependent_fmu_without_derivatives_does_not_mention_them() {
 /// They are a twentieth of the library. The rest of the FMU is the same.
 #[test]
 fn an_fmu_without_input_derivatives_is_smaller_steps_as_others_do_and_names_the_key() {
-    let outputs = "fmu = { outputs = [\"dissipated_energy\", \"residual_indentation\"]";
-    let [with, without] = [("derivatives", ""), ("no_derivatives", ", input_derivatives = false")]
-        .map(|(name, more)| scene(name, &format!("{outputs}{more} }}\n")));
+    let with = unit::scene("steel_ball");
+    let text = fs::read_to_string(&with).expect("a scene file");
+    let without = write_scene("steel_ball", &text.replacen("[fmu]", "[fmu]\ninput_derivatives = false", 1));
     let (xml, page) = texts(&without);
     assert!(
         xml.contains(" canInterpolateInputs=\"false\"") && xml.contains(" maxOutputDerivativeOrder=\"2\""),

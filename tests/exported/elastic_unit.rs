@@ -64,7 +64,7 @@ fn an_elastic_fmu_has_no_constant_of_a_plastic_law() {
         law.fully_plastic,
         law.plastic_slope,
     ];
-    let [plastic, elastic] = [true, false].map(|yields| library(&scene(yields)));
+    let [plastic, elastic] = ["steel_ball", "elastic"].map(|name| library(&unit::scene(name)));
     for number in numbers {
         let bytes = number.to_le_bytes();
         assert!(contains(&plastic, &bytes), "{number} is not to be found where it must be");

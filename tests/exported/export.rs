@@ -1,7 +1,6 @@
 //! The command line from the user's point of view: exit status, results, the FMU and its library.
 
-use crate::command::{assert_same, contents, empty_folder, exported, run, scene};
-use crate::prebuilt;
+use crate::command::{assert_same, compile, contents, empty_folder, exported, run, scene};
 use crate::unit;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -32,7 +31,7 @@ fn help_and_version_go_to_standard_output() {
 #[test]
 fn without_arguments_the_default_scene_is_exported_and_checked() {
     let folder = empty_folder();
-    let first = run(folder.path(), [] as [&str; 0]).with_status(0);
+    let first = compile(folder.path(), [] as [&str; 0]).with_status(0);
     assert_eq!(contents(folder.path()), ["steel_ball.fmu"]);
     for part in ["steel_ball.fmu", "predicted", "simulated", "largest force", "restitution", "agreement within"] {
         assert!(first.out.contains(part), "nothing of {part:?} in {first:#?}");
@@ -57,8 +56,8 @@ fn every_scene_is_exported_and_agrees_with_its_prediction() {
         let folder = empty_folder();
         let arguments = [OsStr::new("--json"), OsStr::new("export"), path.as_os_str()];
         let export = match compiled.contains(&path) {
-            true => run(folder.path(), arguments),
-            false => prebuilt::run(folder.path(), arguments),
+            true => compile(folder.path(), arguments),
+            false => run(folder.path(), arguments),
         };
         let export = export.with_status(0).json();
         let unit = export["fmu"].as_str().expect("the path of the unit");
@@ -92,7 +91,7 @@ fn every_feature_is_listed_as_included_or_omitted() {
         |value: &serde_json::Value| -> BTreeSet<String> { serde_json::from_value(value.clone()).expect("names") };
     let told = |name: &str| {
         let scene = scene(name).display().to_string();
-        run(folder.path(), ["export", &scene, "--json"]).with_status(0).json()
+        compile(folder.path(), ["export", &scene, "--json"]).with_status(0).json()
     };
     let [default, everything, elastic] = ["steel_ball", "everything", "elastic"].map(told);
     let all = |unit: &serde_json::Value| &list(&unit["variables"]) | &list(&unit["left_out"]);
@@ -132,7 +131,8 @@ fn a_description_of_any_other_characters_is_exported_and_checked() {
 fn json_has_the_keys_that_programs_read() {
     let folder = empty_folder();
     let keys = |json: &serde_json::Value| json.as_object().expect("an object").keys().cloned().collect::<BTreeSet<_>>();
-    let export = run(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "--json"]).with_status(0).json();
+    let export =
+        compile(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "--json"]).with_status(0).json();
     let left_out = ["left_out", "left_out_laws", "left_out_features", "absent", "constants"];
     for key in ["fmu", "guid", "size", "library_size", "imports", "variables", "variable_count"].iter().chain(&left_out)
     {
@@ -164,7 +164,7 @@ fn an_fmu_is_written_to_the_requested_path_and_replaces_an_older_one() {
     fs::create_dir(folder.path().join("units")).unwrap();
     fs::write(folder.path().join("units/ball.fmu"), "an older unit").unwrap();
     let source = scene("steel_ball");
-    let run = run(folder.path(), ["export", source.to_str().unwrap(), "-o", "units/ball.fmu"]).with_status(0);
+    let run = compile(folder.path(), ["export", source.to_str().unwrap(), "-o", "units/ball.fmu"]).with_status(0);
     assert!(run.out.starts_with("units/ball.fmu\n"), "{run:#?}");
     assert_eq!(contents(folder.path()), ["units"]);
     assert_eq!(contents(&folder.path().join("units")), ["ball.fmu"]);

@@ -1,7 +1,6 @@
 //! Scenes with a target that hardens or has a Poisson's ratio other than 0.3: the contents of the FMU, and its agreement with the predictions.
 
 use crate::command::{empty_folder, run};
-use crate::prebuilt;
 use crate::written::Written;
 use std::fs;
 use std::path::Path;
@@ -41,7 +40,7 @@ fn an_fmu_that_hardens_agrees_with_the_prediction() {
     ] {
         let outputs = "outputs = [\"work\", \"dissipated_energy\", \"contact_radius\", \"residual_indentation\"]";
         write(folder.path(), &(scene(target, law, outputs) + more));
-        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);
     }
 }
@@ -138,7 +137,7 @@ fn a_power_law_becomes_the_closest_line_over_the_strains_of_the_impact() {
         // an impact from the command line has its own line
         let other = predicted(&text("mass = 4.11e-3\nspeed = 1.0"), &["--speed", speed]);
         assert_eq!(other["laws"][0]["restitution"], answer["laws"][0]["restitution"]);
-        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);
     }
 }

@@ -1,11 +1,10 @@
 //! Passivity of the laws: the table of laws describes it for all bodies that an FMU accepts.
 
 use crate::archive;
-use crate::command::empty_folder;
+use crate::command::{empty_folder, run};
 use crate::physics::{
     self, AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
 };
-use crate::prebuilt;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Model, Pair, Surface};
@@ -142,7 +141,7 @@ fn said(law: &str, parameters: &str) -> String {
          [fmu]\nparameters = {parameters}\n"
     );
     fs::write(folder.path().join("scene.toml"), scene).unwrap();
-    prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+    run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     let page = archive::text(&folder.path().join("unit.fmu"), "documentation/index.html");
     let paragraph = page.split("<p>").find(|paragraph| paragraph.contains("issipated energy"));
     paragraph.unwrap_or_else(|| panic!("nothing of energy in {page}")).split("</p>").next().unwrap().to_string()

@@ -2,7 +2,6 @@
 
 use crate::archive;
 use crate::command::{empty_folder, run};
-use crate::prebuilt;
 use crate::written::Written;
 use brinell_contact::loading::{AnyLoading, Power};
 use brinell_contact::unloading::AnyUnloading;
@@ -142,7 +141,7 @@ fn a_scenes_constants_are_those_of_its_fmu_and_the_fmu_agrees_with_the_predictio
     for constant in [1.6, 2.0, 1.15] {
         assert!(written.has_number(constant), "no {constant} in {}", written.rust);
     }
-    prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+    run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     let checked = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(0).json();
     let row = |quantity: &str| {
         let rows = checked["rows"].as_array().unwrap();
@@ -164,7 +163,7 @@ fn a_scenes_constants_are_those_of_its_fmu_and_the_fmu_agrees_with_the_predictio
 fn page(law: &str) -> String {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
-    prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+    run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     archive::text(&folder.path().join("unit.fmu"), "documentation/index.html")
 }
 

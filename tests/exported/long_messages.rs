@@ -2,7 +2,6 @@
 
 use crate::archive::{self, replaced};
 use crate::command::{Run, empty_folder, run, scene};
-use crate::prebuilt;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -43,8 +42,7 @@ fn a_typo_among_two_thousand_contacts_is_told_with_the_nearest_names() {
 #[test]
 fn a_wrong_connection_among_two_thousand_contacts_is_told_with_the_nearest_names() {
     let folder = two_thousand("");
-    prebuilt::run(folder.path(), ["export", &scene("steel_ball").display().to_string(), "-o", "other.fmu"])
-        .with_status(0);
+    run(folder.path(), ["export", &scene("steel_ball").display().to_string(), "-o", "other.fmu"]).with_status(0);
     let connection = "contact.bead_1234.forse=other.indentation_rate";
     let refused =
         run(folder.path(), ["ssp", "beads.toml", "--with", "other.fmu", "--connect", connection]).with_status(2);
@@ -98,7 +96,7 @@ fn of_many_wrong_start_values_the_first_are_listed() {
          parameters_per_contact = [\"initial_gap\"]\n"
     );
     fs::write(folder.path().join("row.toml"), text).unwrap();
-    prebuilt::run(folder.path(), ["export", "row.toml", "-o", "row.fmu"]).with_status(0);
+    run(folder.path(), ["export", "row.toml", "-o", "row.fmu"]).with_status(0);
     change_starts(folder.path());
     let refused = run(folder.path(), ["check", "wrong.fmu"]).with_status(1);
     assert!(refused.out.len() < 6000, "{} bytes: {}", refused.out.len(), refused.out);

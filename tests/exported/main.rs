@@ -3,8 +3,7 @@
 //! `cargo test --release --test exported every_law` runs one of them.
 
 use brinell_testing::{
-    archive, both_ways, command, courses, hostile, hosts, kinds, loaded, physics, prebuilt, pytest, skips, unit,
-    written,
+    archive, both_ways, command, courses, hostile, hosts, kinds, loaded, physics, prebuilt, skips, unit, written,
 };
 
 /// Cargo builds the program before these tests; without its feature they do not compile.

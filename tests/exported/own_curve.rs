@@ -1,7 +1,6 @@
 //! FMUs of a loading curve of one's own, compiled and prebuilt, that do what is predicted of it.
 
-use crate::command::{empty_folder, run};
-use crate::prebuilt;
+use crate::command::{compile, empty_folder, run};
 use crate::written::Written;
 use std::fs;
 
@@ -36,11 +35,11 @@ fn an_fmu_of_an_own_curve_agrees_with_the_prediction() {
     let coupled = format!("{IMPACT}coupling = {{ effective_mass = 4e-3 }}\n");
     for more in [IMPACT, &coupled, BODIES] {
         fs::write(folder.path().join("scene.toml"), scene(more)).unwrap();
-        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);
     }
     fs::write(folder.path().join("scene.toml"), scene(IMPACT)).unwrap();
-    run(folder.path(), ["export", "scene.toml", "-o", "compiled.fmu"]).with_status(0);
+    compile(folder.path(), ["export", "scene.toml", "-o", "compiled.fmu"]).with_status(0);
     run(folder.path(), ["check", "compiled.fmu"]).with_status(0);
     let said = run(folder.path(), ["predict", "scene.toml"]).with_status(0).out;
     assert!(said.contains("The loading curve of the file: "), "{said}");

@@ -8,7 +8,6 @@ use crate::kinds::{any_scene, of_each_kind, scene};
 use crate::loaded::Unit;
 use crate::physics::Random;
 use crate::prebuilt::{self, export, export_anew, store};
-use crate::pytest;
 use crate::skips;
 use crate::unit;
 use brinell_exporter::scene::Scene;
@@ -25,17 +24,22 @@ fn compare(text: String, random: &mut Random) -> (String, usize) {
     (both.kind, messages)
 }
 
-/// Those of each kind that are chosen, and those of the repository.
+/// Scenes of the repository, whose libraries other tests compile, too; and those of each kind that are chosen, in a usual run of the
+/// kinds that are left.
 #[test]
 fn a_prebuilt_library_gives_the_same_bits_and_messages_as_a_compiled_one() {
     let mut random = Random(14);
     let mut kinds = BTreeSet::new();
     let mut messages = 0;
-    let mut scenes = of_each_kind();
-    if !long::is_asked() {
-        scenes.dedup_by_key(|(kind, _)| *kind);
+    for scene in unit::scenes_to_compile() {
+        let (kind, count) = compare(fs::read_to_string(scene).expect("a scene file"), &mut random);
+        kinds.insert(kind);
+        messages += count;
     }
-    for (expected, text) in scenes {
+    for (expected, text) in of_each_kind() {
+        if kinds.contains(expected) && !long::is_asked() {
+            continue;
+        }
         let (kind, count) = compare(text, &mut random);
         assert_eq!(kind, expected);
         kinds.insert(kind);
@@ -47,7 +51,7 @@ fn a_prebuilt_library_gives_the_same_bits_and_messages_as_a_compiled_one() {
 
 #[test]
 fn any_scene_has_the_same_bits_and_messages_in_both_ways() {
-    let count = if long::is_asked() { 100 } else { 4 };
+    let count = if long::is_asked() { 100 } else { 2 };
     let (mut random, mut done) = (Random(2026), 0);
     let mut kinds = BTreeMap::new();
     while done < count {
@@ -117,34 +121,16 @@ fn a_prebuilt_library_takes_hardly_more_instructions_than_a_compiled_one() {
     assert!(beyond.is_empty(), "{beyond:#?}");
 }
 
-/// Scenes for each kind of library that a plain simulation can run.
-fn plain_scenes() -> impl Iterator<Item = (&'static str, String)> {
-    // a slow constant rate must reach the surface
-    let near = |text: String| text.replace("initial_gap = 1e-6", "initial_gap = 0.0");
-    of_each_kind().into_iter().map(move |(kind, text)| (kind, near(text)))
-}
-
 #[test]
 fn fmus_of_every_kind_pass_the_check_and_are_the_same_bytes_each_time() {
-    for (kind, text) in plain_scenes() {
+    for (kind, text) in of_each_kind() {
+        // a slow constant rate must reach the surface
+        let text = text.replace("initial_gap = 1e-6", "initial_gap = 0.0");
         let (fmu, (again, _)) = (export(&text, Some(store())), export_anew(&text, Some(store())));
         assert_same(&fs::read(&fmu).unwrap(), &fs::read(again).unwrap());
         let check = run(fmu.parent().unwrap(), ["check", "unit.fmu", "--json"]).with_status(0).json();
         assert_eq!(check["passed"], true, "{kind}: {check}");
     }
-}
-
-#[test]
-fn fmpy_accepts_fmus_of_every_kind() {
-    let fmu =
-        |(number, (kind, text)): (usize, (&str, String))| (format!("{kind}-{number}"), export(&text, Some(store())));
-    // tests of compiled FMUs know which variable of the others depends on which, and how far each goes
-    let plain = plain_scenes().filter(|(kind, text)| {
-        ["state", "momentum", "moved"].contains(kind) && !text.contains("[[contact]]") && !text.contains("_modulus = 0")
-    });
-    let fmus = plain.enumerate().map(fmu).collect();
-    let topics = ["model_description_is_valid", "initial_values", "parameters", "state_is_restored", "simulate_fmu"];
-    pytest::pytest(&topics, &fmus);
 }
 
 /// With a compiler the scene is compiled unless the user requests a prebuilt library; without a compiler it is not.

@@ -4,6 +4,7 @@
 
 use crate::command;
 use crate::unit;
+use brinell_testing::long::some;
 use brinell_testing::standalone;
 use libloading::Library;
 use std::cell::{Cell, RefCell};
@@ -18,9 +19,9 @@ fn libraries(scene: &Path) -> [PathBuf; 2] {
     [standalone::scene(scene), scene.into()].map(|scene| unit::library(&unit::compiled(&scene)))
 }
 
-/// One contact, rate-dependent, and everything at once.
+/// One contact and everything at once; in a long run a rate-dependent one, too.
 fn scenes() -> impl Iterator<Item = PathBuf> {
-    ["steel_ball", "damped", "everything"].map(unit::scene).into_iter()
+    some(["steel_ball", "damped", "everything"].map(unit::scene), 2)
 }
 
 #[test]
@@ -40,7 +41,7 @@ fn its_library_has_no_undefined_symbol_and_is_hardly_larger() {
         assert!(size < before + 400, "{}: {size} against {before} bytes", scene.display());
         count += 1;
     }
-    assert_eq!(count, 3);
+    assert!(count >= 2);
 }
 
 #[test]

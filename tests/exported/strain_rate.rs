@@ -1,7 +1,6 @@
 //! Scenes with a target whose strength depends on the strain rate.
 
 use crate::command::{empty_folder, run};
-use crate::prebuilt;
 use crate::written::Written;
 use serde_json::Value;
 use std::fs;
@@ -89,7 +88,7 @@ fn the_fmu_starts_with_the_strength_of_the_impact_and_agrees_with_the_prediction
             let found = numbers.iter().any(is_near) || finds && numbers.contains(&value.round());
             assert!(value == 0.0 || found, "{name} = {value:e} in {}", written.rust);
         }
-        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);
     }
 }
@@ -100,8 +99,7 @@ fn contacts_with_other_bodies_have_their_own_factor() {
                     [[contact]]\nname = \"large\"\ntarget = { yield_strength = 300e6 }\n";
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene(COWPER_SYMONDS, "brinell", contacts)).unwrap();
-    let exported =
-        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+    let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
     let strength = |index: usize| number(&exported["contacts"][index]["own"]["target.yield_strength"]);
     assert!(strength(0) > 1.05 * strength(1) && strength(1) > 2.0 * 300e6, "{exported}");
 }

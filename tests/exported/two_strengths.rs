@@ -3,7 +3,6 @@
 use crate::command::{empty_folder, run};
 use crate::loaded::{Instance, OK, Unit};
 use crate::physics::{Random, brinell};
-use crate::prebuilt;
 use crate::unit;
 use crate::written::Written;
 use brinell_contact::{Body, Loading, OtherBody, Pair, TwoBodies};
@@ -152,7 +151,7 @@ fn the_prediction_is_that_of_exchanged_bodies_and_the_fmu_agrees_with_it() {
         assert!(one["notes"].to_string().contains("the dent is in the impactor"), "{one}");
         assert!(!other["notes"].to_string().contains("the dent is in the impactor"), "{other}");
         fs::write(folder.path().join("scene.toml"), text).unwrap();
-        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
         run(folder.path(), ["check", "unit.fmu"]).with_status(0);
     }
 }

@@ -3,7 +3,6 @@
 use crate::archive;
 use crate::command::{empty_folder, run};
 use crate::physics::{AnyModel, Random, all_models, mild, pair_of};
-use crate::prebuilt;
 use crate::written::Written;
 use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::losses;
@@ -127,11 +126,10 @@ fn export_and_its_page_say_what_predict_says() {
     let folder = empty_folder();
     let law = "speed = 60.0\n[law]\nloading = \"big-alabo\"";
     fs::write(folder.path().join("scene.toml"), SCENE.replace("speed = 1.0", law)).unwrap();
-    let exported =
-        prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+    let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
     let warnings = exported["warnings"].as_array().unwrap();
     assert_eq!(warnings.len(), 2, "{exported}");
-    let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
+    let said = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
     let page = archive::text(&folder.path().join("unit.fmu"), "documentation/index.html");
     for warning in warnings {

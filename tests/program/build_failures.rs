@@ -1,7 +1,7 @@
 //! Exports with missing or broken tools, or without disk space: one line gives the reason and a remedy, and no file changes.
 #![cfg(target_os = "linux")]
 
-use crate::command::{brinell, cache, contents, empty_folder, output, scene, settled};
+use crate::command::{brinell, cache_with, contents, empty_folder, output, scene, settled};
 use brinell_testing::{long, skips};
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
@@ -14,7 +14,7 @@ use tempfile::TempDir;
 fn message(circumstances: impl FnOnce(&mut Command) -> &mut Command) -> String {
     let folder = empty_folder();
     let mut command = brinell(folder.path());
-    let parts = cache_of_parts();
+    let parts = cache_with(".rlib");
     command.env("BRINELL_CACHE", parts.path());
     command.arg("export").arg(scene("steel_ball"));
     circumstances(&mut command);
@@ -138,19 +138,6 @@ fn a_missing_standard_library_is_reported_with_what_to_install() {
         &message,
         &["rustc doesn't build the library", "can't find crate for `core`", "s390x-unknown-linux-gnu", "target"],
     );
-}
-
-/// A cache that has the parts of libraries, but no library, so that an export compiles.
-fn cache_of_parts() -> TempDir {
-    let new = empty_folder();
-    let Ok(known) = fs::read_dir(cache()) else { return new };
-    for part in
-        known.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "rlib"))
-    {
-        // another test may have removed it: then the export makes it
-        let _ = fs::hard_link(&part, new.path().join(part.file_name().expect("a file")));
-    }
-    new
 }
 
 /// The message of an export in a shell after `before`, with its own cache; `None` if there was enough space.

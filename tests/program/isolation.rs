@@ -1,13 +1,11 @@
 //! The same scene gives the same bytes, whatever the environment of the export: settings, other exports, and foreign files.
 #![cfg(unix)]
 
-use crate::command::{assert_same, brinell, cache, contents, empty_folder, exported, output, scene};
-use brinell_testing::places::temporary;
+use crate::command::{assert_same, brinell, cache, cache_with, contents, empty_folder, exported, output, scene};
 use brinell_testing::{long, skips};
 use std::ffi::OsStr;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
 use std::time::{Duration, SystemTime};
 use std::{env, fs, thread};
 use tempfile::TempDir;
@@ -19,37 +17,19 @@ fn forget(cache: &Path) {
     }
 }
 
-/// A cache with the compiled parts of an export and without its library, so that the next export compiles only that.
-fn with_parts() -> TempDir {
-    static PARTS: LazyLock<PathBuf> = LazyLock::new(|| {
-        let folder = temporary().join("parts");
-        let _ = fs::remove_dir_all(&folder);
-        exported(|command| command.env("BRINELL_CACHE", &folder));
-        forget(&folder);
-        folder
-    });
-    let own = empty_folder();
-    for name in contents(&PARTS) {
-        fs::copy(PARTS.join(&name), own.path().join(name)).unwrap();
-    }
-    own
+/// A cache in which an export finds all that it needs.
+fn filled() -> TempDir {
+    exported(|command| command);
+    cache_with("")
 }
 
 #[test]
-fn the_same_scene_gives_the_same_bytes() {
-    let own = with_parts();
-    let export = || exported(|command| command.env("BRINELL_CACHE", own.path()));
-    let (compiled, kept) = (export(), export());
+fn the_same_scene_gives_the_same_bytes_wherever_temporary_files_are() {
+    let (other, own) = (empty_folder(), filled());
+    let export = || exported(|command| command.env("TMPDIR", other.path()).env("BRINELL_CACHE", own.path()));
+    let kept = export();
     forget(own.path());
-    assert_same(&compiled, &kept);
-    assert_same(&compiled, &export());
-}
-
-#[test]
-fn the_folder_of_temporary_files_does_not_affect_the_fmu() {
-    let (other, own) = (empty_folder(), with_parts());
-    let elsewhere = exported(|command| command.env("TMPDIR", other.path()).env("BRINELL_CACHE", own.path()));
-    assert_same(&exported(|command| command), &elsewhere);
+    assert_same(&kept, &export());
     assert!(contents(other.path()).is_empty(), "temporary files were left");
 }
 
@@ -86,7 +66,7 @@ fn no_setting_in_the_environment_affects_the_fmu() {
         ("LC_ALL", "de_DE.UTF-8"),
     ];
     // its own cache, so that files created with these settings affect no other test
-    let own = empty_folder();
+    let own = if long::is_asked() { empty_folder() } else { filled() };
     let exported_with = |settings: &[(&str, &str)]| {
         let settings = settings.iter().copied();
         forget(own.path());
@@ -185,9 +165,9 @@ fn two_exports_of_one_scene_at_the_same_time_do_not_disturb_each_other() {
 /// After a loss of power a file may be empty, or have other bytes.
 #[test]
 fn damaged_files_in_the_cache_are_made_anew() {
-    let own = with_parts();
+    let own = filled();
     let export = || exported(|command| command.env("BRINELL_CACHE", own.path()));
-    let plain = export();
+    let (plain, before) = (export(), contents(own.path()));
     let empty = |_: Vec<u8>| Vec::new();
     let half = |bytes: Vec<u8>| bytes[..bytes.len() / 2].to_vec();
     let changed = |mut bytes: Vec<u8>| {
@@ -196,7 +176,7 @@ fn damaged_files_in_the_cache_are_made_anew() {
         bytes
     };
     let damages = [changed as fn(Vec<u8>) -> Vec<u8>, empty, half];
-    // the library in one way; in a long run in each, and each of its three parts in one
+    // the libraries in one way; in a long run in each, and each of their parts in one
     let turns = if long::is_asked() { &[("library-", 3), ("lib", 1)][..] } else { &[("library-", 1)] };
     for &(prefix, turns) in turns {
         for turn in 0..turns {
@@ -210,7 +190,7 @@ fn damaged_files_in_the_cache_are_made_anew() {
             assert_same(&plain, &export());
         }
     }
-    assert_eq!(contents(own.path()).len(), 4, "one library, and three parts");
+    assert_eq!(contents(own.path()), before);
 }
 
 /// An FMU has some tens of kilobytes, but every change of a parameter creates a new one.
@@ -257,7 +237,9 @@ fn files_that_no_export_uses_any_more_are_removed() {
     if long::leaves_out("old files in the cache") {
         return;
     }
-    let own = with_parts();
+    let own = empty_folder();
+    exported(|command| command.env("BRINELL_CACHE", own.path()));
+    forget(own.path());
     for (name, hours) in [("build-old", 48), ("build-new", 1), ("other", 48)] {
         let path = own.path().join(name);
         fs::create_dir_all(path.join("src")).unwrap();
@@ -311,7 +293,7 @@ fn what_a_killed_command_left_is_swept_by_the_next() {
         fs::File::open(&path).unwrap().set_modified(SystemTime::now() - minute).unwrap();
         path
     };
-    let own = with_parts();
+    let own = filled();
     let all =
         [left(&out, ".brinell-", false), left(&temporary, "brinell-check-", true), left(own.path(), "build-", true)];
     let in_use = left(&out, ".brinell-", false).with_file_name(".brinell-000000000000.tmp");
@@ -388,7 +370,7 @@ fn a_relative_cache_is_relative_to_the_current_folder() {
         return;
     }
     let folder = empty_folder();
-    fs::rename(with_parts().keep(), folder.path().join("own cache")).unwrap();
+    fs::rename(filled().keep(), folder.path().join("own cache")).unwrap();
     let mut command = brinell(folder.path());
     output(command.arg("export").arg(scene("elastic")).env("BRINELL_CACHE", "own cache")).with_status(0);
     assert_eq!(contents(folder.path()), ["elastic.fmu", "own cache"]);

@@ -3,7 +3,7 @@
 
 use crate::archive;
 use crate::command::{assert_same, brinell, empty_folder, output, run};
-use crate::prebuilt;
+use crate::prebuilt::finding_no_compiler;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -216,7 +216,7 @@ fn a_unit_has_the_numbers_of_the_files_beside_the_scene_and_not_the_files() {
             command.env(name, folder.path().join("config"));
         }
         command.env("HOME", folder.path().join("none"));
-        let said = output(&mut command).with_status(0).out;
+        let said = output(finding_no_compiler(&mut command)).with_status(0).out;
         let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
         let from = if place == "one" {
             "materials.toml beside the scene"
@@ -293,7 +293,7 @@ fn a_contact_has_a_hardness_a_tensile_test_or_a_material_of_its_own() {
         );
         let folder = folder_with(&[("alone.toml", &alone), ("own.toml", &own)]);
         let value = |scene: &str, name: &str| {
-            let text = prebuilt::run(folder.path(), ["export", scene, "--output", "unit.fmu"]).with_status(0);
+            let text = run(folder.path(), ["export", scene, "--output", "unit.fmu"]).with_status(0);
             let xml = archive::text(&folder.path().join("unit.fmu"), "modelDescription.xml");
             let (_, rest) =
                 xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name}: {text:?}"));
@@ -310,7 +310,7 @@ fn a_contact_has_a_hardness_a_tensile_test_or_a_material_of_its_own() {
         "{BALL}[target]\n{STEEL}yield_strength = 9e8\n[[contact]]\nname = \"a\"\nimpactor = {{ material = \"mild steel\", hardness = \"150 HV10\" }}\n"
     );
     let folder = folder_with(&[("scene.toml", &impactor)]);
-    let said = prebuilt::run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
+    let said = run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(said.contains("a: impactor: 150 HV10 is a flow stress of"), "{said}");
 }
@@ -322,7 +322,7 @@ fn a_contact_whose_own_strength_has_no_hardening_doesnt_harden_as_the_others_do(
         "{BALL}[target]\n{STEEL}{test}\n[[contact]]\nname = \"a\"\ntarget = {{ hardness = \"300 HV10\" }}\n[[contact]]\nname = \"b\"\n"
     );
     let folder = folder_with(&[("scene.toml", &scene)]);
-    prebuilt::run(folder.path(), ["export", "scene.toml", "--output", "unit.fmu"]).with_status(0);
+    run(folder.path(), ["export", "scene.toml", "--output", "unit.fmu"]).with_status(0);
     let xml = archive::text(&folder.path().join("unit.fmu"), "modelDescription.xml");
     let start = |name: &str| {
         let (_, rest) = xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name} in {xml}"));

@@ -2,7 +2,6 @@
 
 use crate::archive;
 use crate::command::{empty_folder, run};
-use crate::prebuilt;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, History, Model, Pair, Surface};
@@ -323,10 +322,9 @@ fn export_and_its_page_say_what_predict_says_of_rods() {
     for (radius, expected) in [(1e3, "the wave in a rod limits"), (0.05, "The wave in a rod limits")] {
         let case = Case { impactor: STEEL, target: None, radius, yield_strength: None, speed: 8.0 };
         fs::write(folder.path().join("scene.toml"), case.text()).unwrap();
-        let exported =
-            prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
         assert_eq!(exported["rods"], case.predicted()["rods"]);
-        let said = prebuilt::run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
+        let said = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
         assert!(said.contains(expected), "{said}");
         let page = archive::text(&folder.path().join("unit.fmu"), "documentation/index.html");
         assert!(page.contains(expected), "{page}");

@@ -1,7 +1,7 @@
 //! What the program writes, and where: links, devices, protected files, full disks, closed pipes, and unusual paths.
 #![cfg(target_os = "linux")]
 
-use crate::command::{brinell, contents, empty_folder, output, run, scene, settled};
+use crate::command::{brinell, compile, contents, empty_folder, output, run, scene, settled};
 use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
@@ -191,7 +191,7 @@ fn an_fmu_on_standard_output_is_followed_by_nothing() {
     let piped = command.stdin(Stdio::null()).output().expect("the program");
     assert!(piped.status.success(), "{piped:?}");
     fs::write(&goal, &piped.stdout).unwrap();
-    run(folder.path(), ["export", &scene("steel_ball").display().to_string()]).with_status(0);
+    compile(folder.path(), ["export", &scene("steel_ball").display().to_string()]).with_status(0);
     assert!(fs::read(&goal).unwrap() == fs::read(folder.path().join("steel_ball.fmu")).unwrap());
 }
 

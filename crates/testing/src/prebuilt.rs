@@ -5,7 +5,7 @@ use crate::places::{build, program, temporary, test_name};
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap};
 use std::env;
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -82,12 +82,6 @@ pub fn path_without_rust() -> OsString {
     let has = |folder: &Path, name: &str| folder.join(name).is_file();
     let folders = env::split_paths(&path).filter(|folder| !has(folder, "rustc") || has(folder, "sh"));
     env::join_paths(folders).expect("they came from a search path")
-}
-
-/// Runs the program in `folder` without a compiler, with the libraries of the shared store.
-#[track_caller]
-pub fn run<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A>) -> Run {
-    output(without_compiler(folder, store()).args(arguments))
 }
 
 /// The FMU of the scene `text`, compiled or with the libraries in `store`.

@@ -2,6 +2,7 @@
 //! again when that file changes.
 
 use crate::command::settled;
+use crate::long;
 use crate::places::{root, temporary};
 use std::fs::{self, File};
 use std::io::Write;
@@ -33,9 +34,23 @@ pub fn python() -> PathBuf {
 pub fn engines(large: bool) -> PathBuf {
     static ENVIRONMENTS: [OnceLock<PathBuf>; 2] = [const { OnceLock::new() }; 2];
     let name = if large { "engines-large" } else { "engines" };
-    let file = root().join(format!("tests/requirements-{name}.txt"));
-    let made = || environment_beside(&format!("{name}-venv"), &file, None).unwrap_or_else(|why| panic!("{why}"));
+    let list = |name: &str| root().join(format!("tests/requirements-{name}.txt"));
+    let made = || {
+        let file = match (large, long::is_asked()) {
+            (false, true) => joined(&[list("engines"), list("engines-long")]),
+            _ => list(name),
+        };
+        environment_beside(&format!("{name}-venv"), &file, None).unwrap_or_else(|why| panic!("{why}"))
+    };
     ENVIRONMENTS[usize::from(large)].get_or_init(made).clone()
+}
+
+/// A file in the target folder with the lines of these.
+fn joined(files: &[PathBuf]) -> PathBuf {
+    let joined = temporary().join("requirements.txt");
+    let texts: Vec<_> = files.iter().map(|file| read(file).unwrap_or_else(|why| panic!("{why}"))).collect();
+    fs::write(&joined, texts.concat()).expect("the target folder can be written to");
+    joined
 }
 
 /// `command` of Python, which keeps compiled modules in the target folder: the source tree stays clean, and no process
@@ -70,7 +85,10 @@ pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String
     environment(name, &read(requirements)?, &[], |interpreter| {
         let hint =
             format!("{} can't be installed; the first run needs the Python Package Index", requirements.display());
-        succeed(pip(interpreter, interpreter).arg("-r").arg(requirements), &hint).map(|_| true)
+        let mut command = pip(interpreter, interpreter);
+        // the list is complete
+        command.args((name == COMMON).then_some("--no-deps")).arg("-r").arg(requirements);
+        succeed(&mut command, &hint).map(|_| true)
     })
 }
 
