@@ -30,7 +30,7 @@ pub struct Arguments {
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
     /// Largest indentation [m] [default: that of the scene's impact]
-    #[arg(long, allow_hyphen_values = true, value_parser = units::lengths)]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::numbers_in("m"))]
     pub to: Option<f64>,
 }
 

@@ -27,7 +27,7 @@ pub struct Arguments {
     #[arg(long, allow_hyphen_values = true, group = "size", value_parser = units::loads)]
     pub load: Option<f64>,
     /// Test load [N]
-    #[arg(long, allow_hyphen_values = true, group = "size", value_parser = units::forces)]
+    #[arg(long, allow_hyphen_values = true, group = "size", value_parser = units::numbers_in("N"))]
     pub force: Option<f64>,
     /// A measured Brinell hardness (HBW): print the yield strength of the target instead
     #[arg(long, allow_hyphen_values = true, value_name = "HBW")]
@@ -133,44 +133,45 @@ fn by_finite_elements(scene: &Scene, hardness: Option<f64>, test: (f64, f64)) ->
     Some((number, stress, strain))
 }
 
-/// A doubt about a dent.
+/// A warning about a dent.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Doubt {
+enum DentWarning {
     NoDent,
     WiderThanBall,
     BeyondLaw,
     Small,
 }
 
-impl Doubt {
-    const ALL: [Doubt; 4] = [Doubt::NoDent, Doubt::WiderThanBall, Doubt::BeyondLaw, Doubt::Small];
+impl DentWarning {
+    const ALL: [DentWarning; 4] =
+        [DentWarning::NoDent, DentWarning::WiderThanBall, DentWarning::BeyondLaw, DentWarning::Small];
 
     fn is_about(self, dent: &Dent) -> bool {
         let dented = dent.meyer.is_some();
         match self {
-            Doubt::NoDent => !dented,
-            Doubt::WiderThanBall => dented && dent.brinell.is_none(),
-            Doubt::BeyondLaw => dent.is_beyond_law(),
-            Doubt::Small => dented && dent.radius_ratio < ADMITTED.0,
+            DentWarning::NoDent => !dented,
+            DentWarning::WiderThanBall => dented && dent.brinell.is_none(),
+            DentWarning::BeyondLaw => dent.is_beyond_law(),
+            DentWarning::Small => dented && dent.radius_ratio < ADMITTED.0,
         }
     }
 
-    /// The doubt in words. `ratio` is the `a/R` of one dent; `None` for several dents.
+    /// The warning in words. `ratio` is the `a/R` of one dent; `None` for several dents.
     fn words(self, ratio: Option<f64>) -> String {
         let ratio = ratio.map_or(String::new(), |ratio| format!(" = {}", significant(ratio, 3)));
         let (least, most) = ADMITTED;
         match self {
-            Doubt::NoDent => {
+            DentWarning::NoDent => {
                 "the load doesn't reach the yield point: it leaves no dent, and there is no hardness".into()
             }
-            Doubt::WiderThanBall => "the dent is wider than the ball: there is no Brinell hardness".into(),
-            Doubt::BeyondLaw => format!(
+            DentWarning::WiderThanBall => "the dent is wider than the ball: there is no Brinell hardness".into(),
+            DentWarning::BeyondLaw => format!(
                 "a/R{ratio} is beyond the validity of the laws, which ends at {LARGEST_RADIUS_RATIO}: a sphere is no longer a \
                  paraboloid there, and strains are large. Standard Brinell tests, with dents of {least} to {most} ball diameters, \
                  are mostly beyond it. Only brinell is corrected for large strain: up to 0.36 its hardness is within 1.5 % of finite \
                  elements with large deformation, up to 0.5 if E*/S is 100"
             ),
-            Doubt::Small => format!(
+            DentWarning::Small => format!(
                 "a/R{ratio}: the dent is smaller than ISO 6506-1 admits, which is {least} to {most} ball diameters"
             ),
         }
@@ -180,18 +181,18 @@ impl Doubt {
 /// The warnings about the dent with one law.
 fn warnings(answer: &HardnessAnswer) -> Vec<String> {
     let dent = &answer.dent;
-    let doubts = Doubt::ALL.into_iter().filter(|doubt| doubt.is_about(dent));
-    doubts.map(|doubt| doubt.words(Some(dent.radius_ratio))).collect()
+    let warnings = DentWarning::ALL.into_iter().filter(|warning| warning.is_about(dent));
+    warnings.map(|warning| warning.words(Some(dent.radius_ratio))).collect()
 }
 
 /// The warnings about the dents with several laws. Each names its laws.
 fn warnings_of_all(answers: &[HardnessAnswer]) -> Vec<String> {
-    let warning = |doubt: Doubt| {
-        let laws = answers.iter().filter(|answer| doubt.is_about(&answer.dent)).map(|answer| answer.laws.as_str());
+    let of_all = |warning: DentWarning| {
+        let laws = answers.iter().filter(|answer| warning.is_about(&answer.dent)).map(|answer| answer.laws.as_str());
         let laws: Vec<_> = laws.collect();
-        (!laws.is_empty()).then(|| format!("{}. Laws: {}", doubt.words(None), laws.join(", ")))
+        (!laws.is_empty()).then(|| format!("{}. Laws: {}", warning.words(None), laws.join(", ")))
     };
-    Doubt::ALL.into_iter().filter_map(warning).collect()
+    DentWarning::ALL.into_iter().filter_map(of_all).collect()
 }
 
 /// The results as text.

@@ -5,7 +5,7 @@ use crate::importer::{self, ImportError};
 use crate::messages::warn;
 use brinell_exporter::layout::shown;
 use brinell_exporter::mistake::{self, SceneError};
-use brinell_exporter::scene::{self, Beside, MaterialTable, Scene};
+use brinell_exporter::scene::{self, MaterialTable, ReferencedFiles, Scene};
 use std::collections::BTreeMap;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -37,7 +37,7 @@ pub fn default_scene() -> Result<Scene, SceneError> {
 /// # Errors
 /// [`SceneError`] with line and column of the first error, and what is allowed there.
 pub fn read(path: &Path) -> Result<Scene, SceneError> {
-    Ok(read_with_doubts(path)?.0)
+    Ok(read_with_warnings(path)?.0)
 }
 
 /// The same, with plausibility warnings on standard error.
@@ -45,14 +45,14 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
 /// # Errors
 /// As for [`read`].
 pub fn read_aloud(path: &Path) -> Result<Scene, SceneError> {
-    let (scene, doubts) = read_with_doubts(path)?;
-    doubts.iter().for_each(|doubt| warn(&doubt.to_string()));
+    let (scene, warnings) = read_with_warnings(path)?;
+    warnings.iter().for_each(|warning| warn(&warning.to_string()));
     Ok(scene)
 }
 
-fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<SceneError>), SceneError> {
+fn read_with_warnings(path: &Path) -> Result<(Scene, Vec<SceneError>), SceneError> {
     let source = Source::read(path)?;
-    Scene::parse_beside(&source.text, &source.path, &source.beside()?)
+    Scene::parse_with_files(&source.text, &source.path, &source.referenced_files()?)
 }
 
 /// A scene's text, and where it is from.
@@ -83,8 +83,8 @@ impl Source {
         Ok(Source { text, path: path.join(importer::SCENE), is_alone: true })
     }
 
-    fn beside(&self) -> Result<Beside, SceneError> {
-        if self.is_alone { Ok(Beside::default()) } else { beside(&self.text, &self.path) }
+    fn referenced_files(&self) -> Result<ReferencedFiles, SceneError> {
+        if self.is_alone { Ok(ReferencedFiles::default()) } else { referenced_files(&self.text, &self.path) }
     }
 }
 
@@ -92,7 +92,7 @@ impl Source {
 const ARCHIVE: &[u8] = b"PK\x03\x04";
 
 /// What lies beside the scene with this `text` at `path`.
-fn beside(text: &str, path: &Path) -> Result<Beside, SceneError> {
+fn referenced_files(text: &str, path: &Path) -> Result<ReferencedFiles, SceneError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let workbooks: BTreeMap<String, PathBuf> =
         std::env::var(WORKBOOKS).map_or(BTreeMap::new(), |texts| serde_json::from_str(&texts).unwrap_or_default());
@@ -105,7 +105,7 @@ fn beside(text: &str, path: &Path) -> Result<Beside, SceneError> {
         (name, found)
     };
     let files = scene::files_named(text).into_iter().map(read).collect();
-    Ok(Beside { files, materials: materials(folder)? })
+    Ok(ReferencedFiles { files, materials: materials(folder)? })
 }
 
 /// The tables of materials of one's own: that in the `folder` of a scene, then that of the user.
@@ -129,7 +129,7 @@ pub fn materials(folder: &Path) -> Result<Vec<MaterialTable>, SceneError> {
 /// As for [`read`].
 pub fn in_si(path: &Path) -> Result<String, SceneError> {
     let source = Source::read(path)?;
-    scene::in_si(&source.text, &source.path, &source.beside()?)
+    scene::in_si(&source.text, &source.path, &source.referenced_files()?)
 }
 
 /// The contents of the table at `path`, or of standard input.

@@ -119,8 +119,11 @@ impl Summary<'_> {
         let line = |heading: &str, text: &str| print!("{}", paragraph(&format!("  {heading:<11}"), text));
         for Packed { platform, size, imports } in &exported.libraries {
             let from = if platform.starts_with("win") { "kernel32" } else { "the process" };
-            let taken = if imports.is_empty() { "nothing".into() } else { imports.join(", ") };
-            print!("{}", paragraph(&format!("  {platform:<15}"), &format!("{size} bytes; takes {taken} from {from}")));
+            let imported = if imports.is_empty() { "nothing".into() } else { imports.join(", ") };
+            print!(
+                "{}",
+                paragraph(&format!("  {platform:<15}"), &format!("{size} bytes; takes {imported} from {from}"))
+            );
         }
         if let Some(origin) = &exported.origin {
             line("made", &origin.words());

@@ -20,7 +20,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     pub speed: Option<String>,
     /// Step of the tool [s] [default: a hundredth of the contact time, or less]
-    #[arg(long, allow_hyphen_values = true, value_parser = units::times)]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::numbers_in("s"))]
     pub step: Option<f64>,
     /// System of units of the block: si, or mm-t-s where the tool has a choice
     #[arg(long, value_name = "UNITS", value_parser = ["si", "mm-t-s"], default_value = "si")]

@@ -1,7 +1,7 @@
 //! The process that loads the library of an FMU. If it crashes, hangs or exits, the check fails.
 
-use super::CheckError;
 use super::bounded_output::output_within;
+use super::error::CheckError;
 use crate::files::write_whole;
 use crate::temporary::PrivateFolder;
 use brinell_exporter::layout::without_middle;

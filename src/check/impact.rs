@@ -7,6 +7,33 @@ use brinell_exporter::master::{
     Body, Coupled, CouplingMethod, JACOBI_MASS, LEAP_FROG, LEAP_FROG_FOLLOWED, MASS_KNOWN, Requirements,
 };
 use brinell_exporter::scene::Scene;
+use serde::Serialize;
+use std::borrow::Cow;
+
+/// One quantity, predicted and from the co-simulation. Those of an oblique impact are predicted by the springs of the
+/// library.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    pub quantity: Cow<'static, str>,
+    pub unit: &'static str,
+    pub predicted: f64,
+    pub simulated: f64,
+    /// Difference relative to the predicted value or to `scale`.
+    pub difference: f64,
+}
+
+impl Row {
+    /// A row whose difference is relative to `scale`.
+    pub fn new(
+        quantity: impl Into<Cow<'static, str>>,
+        unit: &'static str,
+        predicted: f64,
+        simulated: f64,
+        scale: f64,
+    ) -> Row {
+        Row { quantity: quantity.into(), unit, predicted, simulated, difference: (simulated - predicted) / scale }
+    }
+}
 
 /// Results of an explicit co-simulation.
 pub struct Simulated {

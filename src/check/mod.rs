@@ -2,51 +2,26 @@
 
 mod apart;
 mod bounded_output;
+mod error;
 mod impact;
 mod oblique;
 mod together;
 mod trial;
 
-use crate::files::FileError;
 use crate::importer::{Archive, Description, ImportError, Instance};
 use apart::Found;
 use brinell_exporter::layout::{harmless, json_line, paragraph, shown, without_middle};
-use brinell_exporter::mistake::SceneError;
 use brinell_exporter::numbers::quantity;
 use brinell_exporter::scene::Scene;
+use error::CheckError;
 use impact::STEPS_PER_CONTACT;
 use serde::Serialize;
-use std::borrow::Cow;
-use std::fmt::Formatter;
-use std::io;
 use std::path::{Path, PathBuf};
-use std::process::ExitStatus;
 use std::time::Duration;
-use trial::Trial;
+use trial::{Trial, write_some};
 
 /// Largest allowed relative difference between prediction and simulation.
 const TOLERANCE: f64 = 1e-3;
-
-/// An FMU that could not be checked.
-#[derive(Debug, thiserror::Error)]
-pub enum CheckError {
-    #[error("{}: {source}", shown(path))]
-    Import { path: PathBuf, source: ImportError },
-    #[error("{}: there is no resources/scene.toml: brinell has not made this FMU, and there is no impact to run", shown(.0))]
-    NoScene(PathBuf),
-    #[error("{}: its scene can't be read: {source}", shown(path))]
-    Scene { path: PathBuf, source: SceneError },
-    #[error("{0}")]
-    File(#[from] FileError),
-    #[error("the process that loads FMUs can't be started: {0}")]
-    NoProcess(io::Error),
-    #[error("{}: the FMU ended the process that loaded it ({status}){said}", shown(path))]
-    Ended { path: PathBuf, status: ExitStatus, said: String },
-    #[error("{}: no answer within {limit} s (--time-limit)", shown(path))]
-    Hangs { path: PathBuf, limit: u64 },
-    #[error("{0}")]
-    Said(String),
-}
 
 /// The default time limit of a check [s]. A check of 100,000 contacts takes a tenth of it.
 const TIME_LIMIT: u64 = 600;
@@ -130,31 +105,6 @@ pub struct ImpactNumbers {
     pub speed: f64,
 }
 
-/// One quantity, predicted and from the co-simulation. Those of an oblique impact are predicted by the springs of the
-/// library.
-#[derive(Debug, Serialize)]
-pub struct Row {
-    pub quantity: Cow<'static, str>,
-    pub unit: &'static str,
-    pub predicted: f64,
-    pub simulated: f64,
-    /// Difference relative to the predicted value or to `scale`.
-    pub difference: f64,
-}
-
-impl Row {
-    /// A row whose difference is relative to `scale`.
-    fn new(
-        quantity: impl Into<Cow<'static, str>>,
-        unit: &'static str,
-        predicted: f64,
-        simulated: f64,
-        scale: f64,
-    ) -> Row {
-        Row { quantity: quantity.into(), unit, predicted, simulated, difference: (simulated - predicted) / scale }
-    }
-}
-
 /// Loads the FMU at `path` and runs the impact of its scene.
 ///
 /// # Errors
@@ -218,20 +168,8 @@ impl Outcome {
     }
 }
 
-/// Writes a line for each of the first `items`, and the number of the others: an FMU may have a hundred thousand contacts.
-fn write_some(f: &mut Formatter<'_>, items: &[String], line: impl Fn(&str) -> String) -> std::fmt::Result {
-    const SHOWN: usize = 20;
-    for item in items.iter().take(SHOWN) {
-        writeln!(f, "  {}", line(item))?;
-    }
-    if items.len() > SHOWN {
-        writeln!(f, "  and {} more (--json lists all)", items.len() - SHOWN)?;
-    }
-    Ok(())
-}
-
 impl std::fmt::Display for Outcome {
-    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let ImpactNumbers { mass, speed } = self.impact;
         let assumption = format!(" (the scene names no impact: {})", self.assumption);
         let assumed = if self.impact_is_assumed { assumption.as_str() } else { "" };

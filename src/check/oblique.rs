@@ -1,7 +1,6 @@
 //! The oblique impact of a ball on a contact with friction: the FMU compared with the springs of the library.
 
-use super::Row;
-use super::impact::MOST_STEPS;
+use super::impact::{MOST_STEPS, Row};
 use crate::importer::ImportError;
 use crate::master;
 use brinell_contact::Contact;

@@ -1,6 +1,7 @@
 //! The impact of a scene on one of several contacts that share bodies: all of them move. The library's own motion is the prediction.
 
-use super::{Row, oblique};
+use super::impact::Row;
+use super::oblique;
 use crate::importer::{Archive, ImportError, Unit};
 use brinell_contact::losses::{self, AnyLoss};
 use brinell_contact::rate;

@@ -1,7 +1,7 @@
 //! The impact of a scene on one contact of its FMU, compared with the prediction.
 
-use super::impact::{STEPS_PER_CONTACT, Simulated, simulate, way_of};
-use super::{Row, oblique, together};
+use super::impact::{Row, STEPS_PER_CONTACT, Simulated, simulate, way_of};
+use super::{oblique, together};
 use crate::importer::{Archive, Description, ImportError, Unit};
 use crate::master::Contact;
 use brinell_contact::impact::Prediction;
@@ -143,6 +143,22 @@ impl std::fmt::Display for Trial {
         }
         write!(f, "\n{}", table(&rows, 1, 2))?;
         let line = |other: &str| format!("{other} has changed although its contact was at rest");
-        super::write_some(f, &self.disturbed, line)
+        write_some(f, &self.disturbed, line)
     }
+}
+
+/// Writes a line for each of the first `items`, and the number of the others: an FMU may have a hundred thousand contacts.
+pub fn write_some(
+    f: &mut std::fmt::Formatter<'_>,
+    items: &[String],
+    line: impl Fn(&str) -> String,
+) -> std::fmt::Result {
+    const SHOWN: usize = 20;
+    for item in items.iter().take(SHOWN) {
+        writeln!(f, "  {}", line(item))?;
+    }
+    if items.len() > SHOWN {
+        writeln!(f, "  and {} more (--json lists all)", items.len() - SHOWN)?;
+    }
+    Ok(())
 }

@@ -1,43 +1,11 @@
 //! Reads untrusted archives by rules that are checked before anything is unpacked, and while it is.
 
-use super::ImportError;
+use super::error::{ImportError, LARGEST, MOST_FILES, allowed};
 use brinell_exporter::layout::shortened;
 use std::fs::{self, File};
 use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 use zip::ZipArchive;
-
-/// What any archive may take when it is unpacked [bytes].
-const FREE: u64 = 64_000_000;
-
-/// How many times its size in the archive a file may take beyond that. XML of 100,000 contacts takes 41 times its size; a file of zeros
-/// would take 1032 times, the most that deflate has (zlib, technical details).
-const RATIO: u64 = 200;
-
-/// The largest size of an archive, and of an unpacked one [bytes]. An FMU of 100,000 contacts with ten outputs takes a quarter of it.
-pub const LARGEST: u64 = 2_000_000_000;
-
-/// The largest number of files. Each takes a place in the file system, whatever its size.
-pub const MOST_FILES: usize = 100_000;
-
-/// What so many bytes of an archive may take when they are unpacked [bytes].
-fn allowed(packed: u64) -> u64 {
-    RATIO.saturating_mul(packed).saturating_add(FREE).min(LARGEST)
-}
-
-/// The rule of [`allowed`], in words.
-pub fn rule() -> String {
-    format!("{} and {RATIO} times what it takes in the archive, up to {}", size(FREE), size(LARGEST))
-}
-
-/// A number of bytes for people.
-pub fn size(bytes: u64) -> String {
-    match bytes {
-        0..10_000 => format!("{bytes} bytes"),
-        10_000..10_000_000 => format!("{} kB", bytes / 1000),
-        _ => format!("{} MB", bytes / 1_000_000),
-    }
-}
 
 /// An archive that keeps the rules: each file has a plain path as its name, each path is there once, no file is a link, and none, nor all
 /// together, is too large. Other names, and links, mean another file to each tool that unpacks them.

@@ -1,6 +1,6 @@
 //! The contents of a model description.
 
-use super::ImportError;
+use super::error::ImportError;
 use brinell_exporter::layout::{shortened, without_middle};
 use brinell_exporter::numbers::in_words;
 use brinell_exporter::xml;

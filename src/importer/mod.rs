@@ -4,94 +4,23 @@
 
 mod bounded;
 mod description;
+mod error;
 mod unit;
 
 use crate::files::{self, FMU};
 use crate::temporary::PrivateFolder;
 use brinell_exporter::layout::{shortened, without_middle};
-use brinell_exporter::numbers::in_message;
-use brinell_exporter::platform::{self, NoPlatform, Platform};
+use brinell_exporter::platform::{self, Platform};
 use std::collections::BTreeSet;
-use std::ffi::c_int;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::{env, io};
 
-pub use bounded::{BoundedArchive, size};
+pub use bounded::BoundedArchive;
 pub use description::{Base, Causality, Description, VariableUnit};
+pub use error::{ImportError, size};
 pub use unit::{Instance, Unit};
-
-/// An FMU that cannot be loaded, or a call that failed.
-#[derive(Debug, thiserror::Error)]
-pub enum ImportError {
-    #[error("{0}")]
-    Unreadable(io::Error),
-    #[error("it is no file: an archive is read from its end, which a pipe or a device doesn't show")]
-    NoFile,
-    #[error("{name:?} in it can't be unpacked: {source}")]
-    Entry { name: String, source: io::Error },
-    #[error("it has {}; allowed for an FMU is {}", bounded::size(*.0), bounded::size(bounded::LARGEST))]
-    LargeFile(u64),
-    #[error("it has more than {} files, which no FMU needs", bounded::MOST_FILES)]
-    TooMany,
-    #[error("{name:?} in it has {} when unpacked; allowed is {}: {}", bounded::size(*size), bounded::size(*allowed), bounded::rule())]
-    LargePart { name: String, size: u64, allowed: u64 },
-    #[error("it has {} when unpacked; allowed is {}: {}", bounded::size(*size), bounded::size(*allowed), bounded::rule())]
-    TooLarge { size: u64, allowed: u64 },
-    #[error("{name:?} in it has more than the {} that the archive declares", bounded::size(*declared))]
-    Undeclared { name: String, declared: u64 },
-    #[error("{0:?} in it is a symbolic link, which tools unpack differently; put the file itself there")]
-    Link(String),
-    #[error("modelDescription.xml is not of FMI 2.0 (fmiVersion is {0:?})")]
-    Version(String),
-    #[error("modelDescription.xml has no element CoSimulation with a modelIdentifier: it is no FMU for co-simulation")]
-    NoCoSimulation,
-    #[error("modelDescription.xml has modelIdentifier = {0:?}, which is no name of a library")]
-    Identifier(String),
-    #[error("binaries/{platform} has no {library}, which modelDescription.xml names")]
-    OtherLibrary { platform: &'static str, library: String },
-    #[error("{name} is missing or can't be read: {source}")]
-    Part { name: &'static str, source: io::Error },
-    #[error("it can't be unpacked: {0}")]
-    Unpack(io::Error),
-    #[error("it is no zip archive, as every FMU is, or an incomplete one; `brinell export` makes the FMU of a scene")]
-    NoArchive,
-    #[error("its zip archive is damaged: {0}")]
-    Zip(#[from] zip::result::ZipError),
-    #[error("the name {0:?} in it is no plain path inside the archive")]
-    Path(String),
-    #[error("two files in it have the same name")]
-    Twice,
-    #[error("modelDescription.xml can't be read: {0}")]
-    Xml(String),
-    #[error("there is no binary for this platform ({wanted}), {present}")]
-    Binary { wanted: String, present: String },
-    #[error("{0}")]
-    Platform(#[from] NoPlatform),
-    // Windows says what is wrong, but not with which file
-    #[error("the library {name} can't be loaded: {}", chain(.source))]
-    Library { name: String, source: libloading::Error },
-    #[error("the library has no function {name}: {}", chain(.source))]
-    Function { name: &'static str, source: libloading::Error },
-    #[error("fmi2Instantiate gave no instance: {0}")]
-    Instantiate(String),
-    #[error("{function} returned status {status}: {message}")]
-    Call { function: &'static str, status: c_int, message: String },
-    #[error("there is no variable {0}")]
-    Variable(String),
-    #[error("the force is {} after {} s", in_message(*.force), in_message(*.time))]
-    Force { force: f64, time: f64 },
-    #[error("the impact hasn't ended after {steps} steps")]
-    Endless { steps: u32 },
-}
-
-impl ImportError {
-    /// Whether the FMU has refused a step.
-    pub fn is_refused_step(&self) -> bool {
-        matches!(self, ImportError::Call { function: "fmi2DoStep", .. })
-    }
-}
 
 /// The scene of an FMU that this program has made.
 pub const SCENE: &str = "resources/scene.toml";
@@ -142,14 +71,6 @@ fn scene_of(archive: &mut BoundedArchive<impl io::Read + io::Seek>) -> Result<Op
     let Some(bytes) = archive.read(SCENE, LARGEST_SCENE)? else { return Ok(None) };
     let wrong = |_| ImportError::Part { name: SCENE, source: io::Error::other("it isn't UTF-8") };
     String::from_utf8(bytes).map(Some).map_err(wrong)
-}
-
-/// An error with its causes.
-fn chain(error: &dyn std::error::Error) -> String {
-    match error.source() {
-        Some(source) => format!("{error}: {}", chain(source)),
-        None => error.to_string(),
-    }
 }
 
 /// An unpacked archive.

@@ -2,7 +2,7 @@
 //!
 //! It uses `unsafe` like any importer: it relies on the library to have the standard's signatures, which is what `check` tests.
 
-use super::ImportError;
+use super::error::ImportError;
 use std::collections::HashMap;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::Path;

@@ -3,9 +3,10 @@
 //! A dent grows with the speed and falls with the strength: one of each explains it. Restitution is not monotone: a rebound may
 //! have several explanations or none, and the search finds all of them within a range.
 
-use super::Question;
+use super::question::Question;
 use crate::messages::WrongCall;
 use brinell_contact::impact::Impact;
+use brinell_exporter::bisection::border;
 use brinell_exporter::laws::Choice;
 use brinell_exporter::layout::{json_line, paragraph};
 use brinell_exporter::numbers::{quantity, significant};
@@ -26,7 +27,7 @@ impl Question<'_> {
         for choice in choices {
             let speed = speed_of_dent(choice, impact.mass, dent)?;
             let strength = strength_of_dent(choice, &impact, dent)?;
-            self.doubt(choice, &[speed], &[strength]);
+            self.warn(choice, &[speed], &[strength]);
             if as_json {
                 answers.push(json!({ "law": choice.laws, "speed": speed, "yield_strength": strength }));
                 continue;
@@ -60,7 +61,7 @@ impl Question<'_> {
         }
         let rebounds = explain(choices, &impact, goal)?;
         for (choice, ExplainedRebound { speeds, strengths, .. }) in choices.iter().zip(&rebounds) {
-            self.doubt(choice, &speeds.numbers(), &strengths.numbers());
+            self.warn(choice, &speeds.numbers(), &strengths.numbers());
         }
         match as_json {
             true => print!("{}", json_line(&json(&rebounds, &impact, goal))),
@@ -70,7 +71,7 @@ impl Question<'_> {
     }
 
     /// Warns about answers that are outside the validity of the law.
-    fn doubt(&self, choice: &Choice, speeds: &[f64], strengths: &[f64]) {
+    fn warn(&self, choice: &Choice, speeds: &[f64], strengths: &[f64]) {
         let Question { scene, impact, .. } = *self;
         let at = |speed: &f64| Some((choice.clone(), Impact { speed: *speed, ..impact }, quantity(*speed, "m/s")));
         let with = |strength: &f64| {
@@ -106,7 +107,7 @@ fn strength_of_dent(choice: &Choice, impact: &Impact, dent: f64) -> Result<f64, 
     root(("yield strength", "Pa"), (1e-7 * modulus, modulus), ("dent", -dent), depth)
 }
 
-/// The argument at which the increasing function `of` has the value `goal`, by bisection of its logarithm to rounding.
+/// The argument at which the increasing function `of` has the value `goal`.
 fn root(
     (what, unit): (&'static str, &'static str),
     (low, high): (f64, f64),
@@ -114,16 +115,11 @@ fn root(
     of: impl Fn(f64) -> f64,
 ) -> Result<f64, PredictError> {
     let none = PredictError::NoSolution { what, unit, low, high, name, value: goal.abs(), of: "m" };
-    let (mut below, mut above) = (low, high);
     let exceeds = |argument: f64| of(argument) >= goal;
-    if exceeds(below) || !exceeds(above) {
+    if exceeds(low) || !exceeds(high) {
         return Err(none);
     }
-    while above > below.next_up() {
-        let middle = (below * above).sqrt().clamp(below.next_up(), above.next_down());
-        *(if exceeds(middle) { &mut above } else { &mut below }) = middle;
-    }
-    Ok(above)
+    Ok(border((low, high), exceeds))
 }
 
 /// Range of the search over speeds [m/s].
@@ -269,17 +265,6 @@ fn solutions(points: &[(f64, f64)], value: impl Fn(f64) -> f64) -> Vec<Solution>
 /// solution.
 fn plateau(begin: f64, end: f64) -> Solution {
     if end - begin <= 1e-9 * end { Solution::At(0.5 * (begin + end)) } else { Solution::Between(begin, end) }
-}
-
-/// The first number from `outside` to `inside` that satisfies `holds`, by bisection to rounding.
-fn border((mut outside, mut inside): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
-    loop {
-        let middle = 0.5 * (outside + inside);
-        if middle == outside || middle == inside {
-            return inside;
-        }
-        *(if holds(middle) { &mut inside } else { &mut outside }) = middle;
-    }
 }
 
 impl Search {

@@ -1,6 +1,6 @@
 //! An oblique impact: its arguments, and its rebound as text for people and as JSON for programs.
 
-use super::Arguments;
+use super::question::Arguments;
 use crate::messages::WrongCall;
 use brinell_contact::impact::Impact;
 use brinell_exporter::laws::Choice;

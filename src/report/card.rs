@@ -1,6 +1,6 @@
 //! The card at the top of a report: the scene, the outcome of its impact, and two pictures of it.
 
-use super::Figure;
+use super::runs::Figure;
 use brinell_contact::impact::Prediction;
 use brinell_exporter::numbers::{cell, percent, quantity, significant, with_band};
 use brinell_exporter::plot::{Picture, Series, View};

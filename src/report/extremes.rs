@@ -1,6 +1,6 @@
 //! Stiff and extreme cases, each judged: impacts far from the scene's, and extreme prescribed motions.
 
-use super::Progress;
+use super::runs::Progress;
 use super::units::first_contact;
 use crate::importer::ImportError;
 use crate::master::Contact;

@@ -5,48 +5,33 @@ pub mod card;
 mod choice;
 mod extremes;
 mod precision;
+mod runs;
 mod stability;
 mod units;
 
 use crate::files::{self, FileError, write_whole};
-use crate::importer::ImportError;
 use crate::master::Contact;
-use crate::messages::tell;
-use crate::package::ExportError;
 use crate::scene_file;
-use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use brinell_exporter::accuracy::accuracy;
 use brinell_exporter::html::prose;
 use brinell_exporter::layout::{json_line, paragraph, shown};
-use brinell_exporter::master::{COUPLING_METHODS, CouplingMethod, Rebound, Requirements};
+use brinell_exporter::master::{COUPLING_METHODS, Requirements};
 use brinell_exporter::model::AnyModel;
 use brinell_exporter::numbers::{quantity, significant};
-use brinell_exporter::plot::{Picture, View};
 use brinell_exporter::predict::{beyond, spread};
 use brinell_exporter::scene::Scene;
 use brinell_exporter::validity;
 use card::Fact;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, context};
+use runs::{Figure, Progress, ReportError, Runs};
 use serde::Serialize;
 use serde_json::json;
 use stability::Stability;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
-
-/// An error of making a report.
-#[derive(Debug, thiserror::Error)]
-pub enum ReportError {
-    #[error("the unit of the report: {0}")]
-    Export(#[from] ExportError),
-    #[error("the unit of the report: {0}")]
-    Import(#[from] ImportError),
-    #[error("{0}")]
-    File(#[from] FileError),
-}
 
 /// The arguments of `brinell report`.
 #[derive(clap::Args)]
@@ -99,38 +84,6 @@ struct Report {
     extremes: Vec<extremes::Case>,
 }
 
-/// The impact of the runs, and how it is run.
-struct Runs<'a> {
-    impact: Impact,
-    prediction: Prediction,
-    /// The largest stiffness of the impact: that of the unloading at the largest indentation [N/m].
-    stiffness: f64,
-    /// Largest number of steps per contact.
-    most: u32,
-    /// Number of phases: places within a step where the bodies touch.
-    phases: u32,
-    /// Whether the force follows the rate.
-    follows_rate: bool,
-    progress: &'a Progress,
-}
-
-impl Runs<'_> {
-    /// `sqrt(K/m)` for the largest stiffness `K` [1/s].
-    fn frequency(&self) -> f64 {
-        (self.stiffness / self.impact.mass).sqrt()
-    }
-
-    /// The rebound with steps of `step` \[s\]. Steps that are much too long may throw a body so deep that the FMU refuses to go on: it
-    /// then has no speed, as if the impact did not end.
-    fn rebound(&self, way: &CouplingMethod, contact: &mut Contact, step: f64) -> Result<Rebound, ImportError> {
-        let refused = |error: ImportError| {
-            let none = Rebound { speed: f64::NAN, max_force: f64::NAN };
-            if error.is_refused_step() { Ok(none) } else { Err(error) }
-        };
-        way.impact(contact, self.impact.mass, self.impact.speed, step).or_else(refused)
-    }
-}
-
 /// The findings in words.
 #[derive(Serialize)]
 struct Summary {
@@ -142,23 +95,6 @@ struct Summary {
     /// The recommended coupling.
     coupling: Vec<String>,
     extremes: String,
-}
-
-/// A picture of the page; each section has some.
-#[derive(Serialize)]
-pub struct Figure {
-    /// Name of its file.
-    name: &'static str,
-    caption: String,
-    svg: String,
-    /// Whether it is initially hidden.
-    folded: bool,
-}
-
-impl Figure {
-    fn new(name: &'static str, caption: &str, picture: &Picture, view: &View) -> Figure {
-        Figure { name, caption: caption.into(), svg: picture.seen(560, 350, view), folded: false }
-    }
 }
 
 /// The figures of the page by its sections.
@@ -304,19 +240,3 @@ const UNITS: [&str; 3] = ["m", "s", "N"];
 const NOT_FOR_SEVERAL: &str = "The scene has several contacts: this page measures the first contact, by itself. If contacts share a \
      body, an FMU that knows one mass of each is wrong while two of them are closed; one of a scene with tables [[body]] moves all of \
      them.";
-
-/// What the report does, line by line, with the time since it began.
-struct Progress {
-    began: Instant,
-}
-
-impl Progress {
-    fn new() -> Progress {
-        Progress { began: Instant::now() }
-    }
-
-    /// Shows the current activity.
-    fn say(&self, what: &str) {
-        tell(&format!("{:5.1} s  {what} ...", self.began.elapsed().as_secs_f64()));
-    }
-}

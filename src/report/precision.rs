@@ -1,6 +1,6 @@
 //! Error against run time: every way to couple, for different numbers of steps per contact.
 
-use super::{Figure, Runs};
+use super::runs::{Figure, Runs};
 use crate::importer::ImportError;
 use crate::master::Contact;
 use brinell_exporter::master::{CouplingMethod, gaps};

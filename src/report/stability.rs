@@ -1,7 +1,7 @@
 //! Stability: the energy gain of rebounds with large steps, and the largest step that keeps a pressed body at rest.
 //! Steps are `h sqrt(K/m)`, with the largest stiffness `K` of the impact: that of the unloading at the largest indentation.
 
-use super::{Figure, Runs};
+use super::runs::{Figure, Runs};
 use crate::importer::ImportError;
 use crate::master::Contact;
 use brinell_contact::impact::Impact;

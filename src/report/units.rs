@@ -1,6 +1,6 @@
 //! The FMUs of a report: the scene's first contact, once for each kind of coupling, with only the features that its ways need.
 
-use super::{Progress, ReportError};
+use super::runs::{Progress, ReportError};
 use crate::importer::{Archive, ImportError, Unit};
 use crate::temporary::PrivateFolder;
 use crate::{package, parallel};

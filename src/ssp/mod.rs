@@ -3,6 +3,7 @@
 //! Reference: *System Structure and Parameterization*, version 1.0 (Modelica Association, 2019). SystemStructure.ssd is the
 //! system, a `.ssv` file contains the values of its parameters, and `resources/` contains the files that both refer to.
 
+mod document;
 mod structure;
 mod values;
 mod wiring;
@@ -18,21 +19,11 @@ use brinell_exporter::layout::{json_line, paragraph, shown};
 use brinell_exporter::package::archive;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::table::Causality;
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, Event};
+use document::{COMPONENT, Files, document, of_kind};
 use serde_json::json;
 use std::error::Error;
-use std::io::{self, Cursor};
 use std::path::Path;
 use wiring::Wiring;
-
-type Xml = Writer<Cursor<Vec<u8>>>;
-
-const TOOL: &str = concat!("Brinell ", env!("CARGO_PKG_VERSION"));
-const COMMON: (&str, &str) = ("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon");
-
-/// The name of the FMU in the system.
-const COMPONENT: &str = "contact";
 
 /// The command: writes the system of a scene to the user's file or to the current folder.
 ///
@@ -76,19 +67,6 @@ pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>
     Ok(())
 }
 
-/// The names of the other files of the package.
-struct Files {
-    unit: String,
-    values: String,
-}
-
-impl Files {
-    fn of(plan: &Plan) -> Files {
-        let name = &plan.scene.name;
-        Files { unit: format!("resources/{name}.fmu"), values: format!("resources/{name}.ssv") }
-    }
-}
-
 fn tell(plan: &Plan, files: &Files, system: Exported, as_json: bool) {
     let Exported { path, size, guid, .. } = system;
     let labels = |causality| -> Vec<_> { of_kind(plan, causality).map(Entry::label).collect() };
@@ -107,19 +85,4 @@ fn tell(plan: &Plan, files: &Files, system: Exported, as_json: bool) {
     for (heading, names) in [("inputs", inputs), ("outputs", outputs), ("parameters", parameters)] {
         print!("{}", paragraph(&format!("  {heading:<12}"), &names.join(", ")));
     }
-}
-
-/// The variables of one kind.
-fn of_kind<'a>(plan: &'a Plan, causality: Causality) -> impl Iterator<Item = &'a Entry<'a>> {
-    plan.variables.iter().filter(move |entry| entry.variable.causality == causality)
-}
-
-/// An XML file with this content.
-fn document(content: impl FnOnce(&mut Xml) -> io::Result<()>) -> String {
-    let mut xml = Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2);
-    let written = xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)));
-    written.and_then(|()| content(&mut xml)).expect("memory takes everything");
-    let mut text = String::from_utf8(xml.into_inner().into_inner()).expect("XML is written as UTF-8");
-    text.push('\n');
-    text
 }

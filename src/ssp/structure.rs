@@ -1,7 +1,8 @@
 //! `SystemStructure.ssd`: the components of a system, their connectors and their connections.
 
+use super::document::{COMMON, COMPONENT, Files, TOOL, Xml, of_kind};
+use super::values;
 use super::wiring::{End, Peer, Wiring};
-use super::{COMMON, COMPONENT, Files, TOOL, Xml, of_kind, values};
 use crate::importer::VariableUnit;
 use brinell_exporter::interface::Entry;
 use brinell_exporter::model_description::number;

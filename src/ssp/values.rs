@@ -1,6 +1,6 @@
 //! The `.ssv` file: the values of the parameters.
 
-use super::{COMMON, COMPONENT, TOOL, Xml, of_kind};
+use super::document::{COMMON, COMPONENT, TOOL, Xml, of_kind};
 use crate::importer::Base;
 use brinell_exporter::interface::Entry;
 use brinell_exporter::model_description::number;

@@ -1,7 +1,7 @@
 //! The other FMUs of a system, and their connections.
 
+use super::document::{COMPONENT, of_kind};
 use super::values::{base_of, units_of};
-use super::{COMPONENT, of_kind};
 use crate::importer::{self, Base, ImportError, VariableUnit};
 use brinell_exporter::layout::{shortened, shown};
 use brinell_exporter::nearest::nearest_first;
@@ -114,7 +114,7 @@ impl Wiring {
         }
         for text in connect {
             let (from, to) = connection(text, &units)?;
-            if wiring.connections.iter().any(|(_, taken)| *taken == to) {
+            if wiring.connections.iter().any(|(_, connected)| *connected == to) {
                 return Err(WiringError::Taken { connection: text.clone(), input: to.to_string() });
             }
             let ends = [(&from, false), (&to, true)].map(|(end, is_input)| {

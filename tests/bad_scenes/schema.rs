@@ -52,7 +52,6 @@ const OF_NO_SCHEMA: &[(&str, &str)] = &[
     ("is no copy of that of the first contact", "it compares two contacts"),
     ("allowed is 0 to below youngs_modulus", "it compares two numbers"),
     ("needs reference_rate", "beside a hardness it needs none"),
-    ("target.rate has no effect: the law has no yield strength", "which laws have one is in no schema"),
     ("under a slow load the impactor is the softer body", "it is computed"),
     ("it can't be computed with", "it is computed"),
     ("with these parameters the", "it is computed"),

@@ -1,6 +1,7 @@
 //! Tables of the guide generated from `modelDescription/`, and the keys of a scene.
 
 use crate::{is_writing, read, root};
+use brinell_exporter::scene::rules;
 use brinell_testing::command;
 use serde_json::Value as Json;
 use std::fs;
@@ -117,6 +118,27 @@ fn tools() -> String {
     table
 }
 
+/// What keys of a scene forbid and need of others, and what is said of it.
+fn rules() -> String {
+    let mut table = heading(&["rule", "message"]);
+    for (heads, message) in rules::written_rules().iter().filter(|(_, message)| !message.is_empty()) {
+        let is_list = |word: &str| word.len() > 2 && word.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+        let names =
+            |word: &str, between: &str| if is_list(word) { rules::list(word).join(between) } else { word.into() };
+        let of_word = |word: &str| word.split('.').map(|part| names(part, " or ")).collect::<Vec<_>>().join(".");
+        let of_head = |head: &str| head.split(' ').map(of_word).collect::<Vec<_>>().join(" ");
+        let code = |head: &&str| format!("`{}`", of_head(head.split(", at ").next().unwrap_or_default()));
+        let filled = message.split(['{', '}']).enumerate().map(|(place, part)| match place % 2 {
+            0 => part.to_string(),
+            _ if ["MATERIALS", "NO_FRICTION"].contains(&part) || !is_list(part) => "…".into(),
+            _ => names(part, "\", \""),
+        });
+        let message = format!("`` {} ``", filled.collect::<String>());
+        table += &row(&[&heads.iter().map(code).collect::<Vec<_>>().join("<br>"), &message]);
+    }
+    table
+}
+
 /// Compares the text between the comments of the table `name` in `page` with `table`, or writes it.
 pub fn shows(page: &str, name: &str, table: &str) {
     let path = Path::new("docs/guide").join(page);
@@ -139,6 +161,7 @@ fn tables_are_those_of_the_model_description() {
     shows("variables.md", "regimes", &regimes());
     shows("variables.md", "parameters", &variables("parameter"));
     shows("scenes.md", "materials", &materials());
+    shows("scene-rules.md", "rules of scenes", &rules());
     shows("translate.md", "tools", &tools());
     shows("all-laws.md", "loading laws", &laws("loading"));
     shows("all-laws.md", "unloading laws", &laws("unloading"));

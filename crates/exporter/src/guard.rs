@@ -1,5 +1,6 @@
 //! The ranges in which the passivity guard of a scene acts, found by evaluation.
 
+use crate::bisection::border;
 use crate::scene::Scene;
 use brinell_contact::Loading;
 
@@ -63,14 +64,6 @@ fn ranges_of(scene: &Scene, group: usize) -> Ranges {
     let model = scene.model_of(group);
     let d_y = model.loading.yield_point(&model.pair).indentation;
     let acts = |x: f64| model.is_held_back_at(x * d_y);
-    // the guard acts at the second depth but not at the first: find the boundary to some digits
-    let border = |(mut outside, mut inside): (f64, f64)| {
-        for _ in 0..40 {
-            let middle = 0.5 * (outside + inside);
-            *(if acts(middle) { &mut inside } else { &mut outside }) = middle;
-        }
-        inside
-    };
     let steps = DEPTHS_PER_DECADE * DECADES;
     let depth = |step| libm::pow(DEEPEST, f64::from(step) / f64::from(steps));
     let mut ranges = Ranges::new();
@@ -78,8 +71,8 @@ fn ranges_of(scene: &Scene, group: usize) -> Ranges {
     for step in 0..=steps {
         let now = (depth(step), acts(depth(step)));
         match (before.1, now.1) {
-            (false, true) => ranges.push((border((before.0, now.0)), now.0)),
-            (true, false) => ranges.last_mut().expect("a range has begun").1 = border((now.0, before.0)),
+            (false, true) => ranges.push((border((before.0, now.0), acts), now.0)),
+            (true, false) => ranges.last_mut().expect("a range has begun").1 = border((now.0, before.0), acts),
             (true, true) => ranges.last_mut().expect("a range has begun").1 = now.0,
             (false, false) => {}
         }

@@ -3,6 +3,7 @@
 //! Reference: ISO 6506-1, *Metallic materials - Brinell hardness test - Part 1: Test method*; E. Meyer, *Zeitschrift des
 //! Vereines deutscher Ingenieure* 52 (1908); D. Tabor, *The Hardness of Metals*, Oxford 1951.
 
+use crate::bisection::border;
 use crate::laws::Choice;
 use crate::measured::MeasuredStrength;
 use crate::model::AnyModel;
@@ -100,21 +101,10 @@ fn test(model: &Model<AnyLoading, AnyUnloading>, load: f64, ball: f64) -> Option
 /// The smallest indentation \[m\] at which the force reaches `force` \[N\].
 fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option<f64> {
     let at = |depth: f64| model.loading.segment(&model.pair, depth).force(depth);
-    // the bits of positive f64 numbers, read as integers, keep their order
-    let (mut low, mut high) = (0, LARGEST_INDENTATION.to_bits());
     let reaches = |depth: f64| at(depth) >= force;
-    if !reaches(LARGEST_INDENTATION) {
-        // a fitted law may not be finite there
-        high = (model.pair.radius * 1e3).to_bits();
-        if !reaches(f64::from_bits(high)) {
-            return None;
-        }
-    }
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        *(if reaches(f64::from_bits(middle)) { &mut high } else { &mut low }) = middle;
-    }
-    Some(f64::from_bits(high))
+    // a fitted law may not be finite at the largest indentation
+    let high = [LARGEST_INDENTATION, model.pair.radius * 1e3].into_iter().find(|depth| reaches(*depth))?;
+    Some(border((0.0, high), reaches))
 }
 
 /// The test with the laws of `choice`. A target of these bodies whose strength was `measured` has that of the strain of this test.
@@ -184,11 +174,7 @@ pub fn strength_of(choice: &Choice, load: f64, ball: f64, hardness: f64) -> Resu
     let strength = |step: u32| modulus * STRENGTHS.0 * libm::pow(ratio, f64::from(step) / f64::from(STEPS));
     let harder: Vec<bool> = (0..=STEPS).map(|step| is_harder(strength(step))).collect();
     let up = harder.windows(2).position(|pair| pair == [false, true]).ok_or_else(none)? as u32;
-    let (mut soft, mut hard) = (strength(up), strength(up + 1));
-    while hard > soft.next_up() {
-        let middle = (soft * hard).sqrt().clamp(soft.next_up(), hard.next_down());
-        *(if is_harder(middle) { &mut hard } else { &mut soft }) = middle;
-    }
+    let hard = border((strength(up), strength(up + 1)), is_harder);
     let dent = with(hard).ok_or_else(none)?;
     // at the end of the dent, the hardness has no value
     match dent.brinell {

@@ -2,8 +2,8 @@
 
 use crate::model::{AnyModel, Dampings, RateLaw, paired};
 use crate::nearest::unknown;
-use crate::pairing::{self, unloading_of};
-use crate::scene::{LINE, Scene, SceneLaws, TABLE};
+use crate::pairing::{self, LINE, TABLE, unloading_of};
+use crate::scene::{Scene, SceneLaws};
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;

@@ -2,7 +2,7 @@
 //!
 //! | module | what it has |
 //! |---|---|
-//! | [`numbers`], [`layout`], [`columns`], [`nearest`], [`mistake`], [`units`], [`xml`], [`html`], [`plot`] | words, tables and pictures; mistakes with their place in a file |
+//! | [`bisection`], [`numbers`], [`layout`], [`columns`], [`nearest`], [`mistake`], [`units`], [`xml`], [`html`], [`plot`] | words, tables and pictures; mistakes with their place in a file |
 //! | [`table`], [`regime`] | variables, units, materials and laws, from the folder `modelDescription` |
 //! | [`body`] | the two bodies of a contact |
 //! | [`model`], [`parameters`], [`pairing`], [`law_check`], [`law_text`], [`validity`] | laws by name: their constants, which go together, where they hold |
@@ -46,6 +46,7 @@
 #![forbid(unsafe_code)]
 
 pub mod accuracy;
+pub mod bisection;
 pub mod bodies;
 pub mod body;
 pub mod c_source;

@@ -3,6 +3,7 @@
 //! A perfectly plastic law has one strength, the flow stress at the strain of its own dent, `0.2 a/R` (Tabor 1951). A hardness test makes
 //! a deeper dent than an impact, so its flow stress is taken along the hardening `sigma ~ eps^n` to the strain of the impact.
 
+use crate::bisection::border;
 use crate::model::{AnyModel, paired};
 use crate::numbers::{cell, in_message, quantity};
 use crate::pairing::{published, unloading_of};
@@ -420,15 +421,11 @@ pub fn brinell_of(flow_stress: impl Fn(f64) -> f64, (ball, load): (f64, f64), me
         by_brinell(number, Some((ball, load)), metal).map(|(stress, strain)| stress - flow_stress(strain))
     };
     // the last digits of the ends of the table
-    let (mut low, mut high) = (1.000_001 * number(0.6), (0.999_999 * number(0.15)).min(650.0));
+    let (low, high) = (1.000_001 * number(0.6), (0.999_999 * number(0.15)).min(650.0));
     if !(over(low).is_ok_and(|over| over <= 0.0) && over(high).is_ok_and(|over| over >= 0.0)) {
         return None;
     }
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        *(if over(middle).ok()? < 0.0 { &mut low } else { &mut high }) = middle;
-    }
-    Some(high)
+    Some(border((low, high), |number| over(number).is_ok_and(|over| over >= 0.0)))
 }
 
 /// Flow stress \[Pa\] at a strain of 8 % from a Vickers hardness. Pyramid and ball are compared at HBW = 0.95 HV.
@@ -475,14 +472,11 @@ fn by_rebound(number: f64, metal: &Metal) -> Result<(f64, f64), String> {
     };
     let predict = |strength: f64| AnyModel::Elastoplastic(model(strength)?).predict(&DEVICE_IMPACT);
     let restitution = |strength: f64| predict(strength).map_or(0.0, |prediction| prediction.restitution);
-    let (mut soft, mut hard) = (1e-5 * youngs_modulus, 0.1 * youngs_modulus);
+    let (soft, hard) = (1e-5 * youngs_modulus, 0.1 * youngs_modulus);
     if !(restitution(soft) < 1e-3 * number && 1e-3 * number < restitution(hard)) {
         return Err(none());
     }
-    for _ in 0..60 {
-        let middle = (soft * hard).sqrt();
-        *(if restitution(middle) < 1e-3 * number { &mut soft } else { &mut hard }) = middle;
-    }
+    let hard = border((soft, hard), |strength| restitution(strength) >= 1e-3 * number);
     let (model, prediction) = model(hard).zip(predict(hard)).ok_or_else(none)?;
     Ok((hard, rate::strains(&model, &prediction).softer))
 }

@@ -38,6 +38,19 @@ pub fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> f64 {
     format!("{mantissa}e{exponent}").parse().unwrap_or(value)
 }
 
+/// A `number` of units of this `size`: where that is a power of ten, the number with the same digits.
+pub fn of_size(number: f64, size: f64) -> f64 {
+    let power = libm::log10(size).round();
+    let written = format!("{number:e}");
+    match written.split_once('e') {
+        Some((digits, exponent)) if format!("1e{power}").parse() == Ok(size) => {
+            let exponent: f64 = exponent.parse().expect("an exponent");
+            format!("{digits}e{}", exponent + power).parse().expect("a number")
+        }
+        _ => size * number,
+    }
+}
+
 /// The SI prefixes, with their powers of ten.
 const PREFIXES: [(&str, i32); 10] =
     [("f", -15), ("p", -12), ("n", -9), ("u", -6), ("m", -3), ("", 0), ("k", 3), ("M", 6), ("G", 9), ("T", 12)];

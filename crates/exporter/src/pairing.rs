@@ -9,6 +9,12 @@ use brinell_contact::unloading::AnyUnloading;
 /// The loading law of a scene that names none. A contact in which nothing yields is elastic: "hertz".
 pub const DEFAULT_LOADING: &str = "brinell";
 
+/// The law of line contacts.
+pub const LINE: &str = "line";
+
+/// The law of a curve of one's own, and its key that may be the name of a file.
+pub const TABLE: &str = "table";
+
 /// The unloading law for a loading law that is named alone: the one with which it was published, otherwise "contact-radius".
 pub fn default_unloading(loading: &str) -> &'static str {
     table::loading_law(loading).unloading.as_deref().unwrap_or("contact-radius")

@@ -4,9 +4,9 @@
 mod rules;
 
 use crate::model::Dampings;
+use crate::pairing::TABLE;
 use crate::parameters::{self, LawConstant};
 use crate::reading;
-use crate::scene::TABLE;
 use crate::scene::{
     FLAT, IDENTIFIER, INPUTS, OF_ALL_CONTACTS, PRODUCT, RATE_MODELS, SceneFile, WAVES, is_no_name, quantity_of,
 };

@@ -61,8 +61,8 @@ fn test(measured: &MeasuredStrength, is_softer: bool, found: &InImpact) -> Optio
     let mut series = vec![Series { label: "test".into(), points, dots: true }, Series::line("power law", law)];
     if is_softer {
         let line = measured.hardening(strain);
-        let taken = along(strain).map(|at| (at, 1e-6 * (line.yield_strength + line.hardening_modulus * at)));
-        series.push(Series::line("taken", taken));
+        let approximation = along(strain).map(|at| (at, 1e-6 * (line.yield_strength + line.hardening_modulus * at)));
+        series.push(Series::line("taken", approximation));
     }
     Some(Picture::new(("plastic strain", "true stress [MPa]"), (false, false), series))
 }

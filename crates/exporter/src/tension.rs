@@ -1,6 +1,7 @@
 //! Tensile tests: the table that a testing machine writes, and the power law `sigma = K eps^n` through it, or through proof stress and
 //! tensile strength.
 
+use crate::bisection::border;
 use crate::layout::shortened;
 use crate::measurement::{self, Choices, MeasuredColumn, Measurement};
 use crate::nearest::one_of;
@@ -68,12 +69,7 @@ pub fn through_two(proof_stress: f64, tensile_strength: f64, youngs_modulus: f64
             cell(least, 1.0)
         ));
     }
-    let (mut low, mut high) = (first, LARGEST_EXPONENT);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        *(if over(middle) > 0.0 { &mut low } else { &mut high }) = middle;
-    }
-    let n = high;
+    let n = border((first, LARGEST_EXPONENT), |n| over(n) <= 0.0);
     let law = PowerLaw { coefficient: tensile_strength * libm::pow(std::f64::consts::E / n, n), exponent: n };
     let true_strength = tensile_strength * libm::exp(n);
     Ok(Tension {

@@ -426,49 +426,9 @@ pub fn number(text: &str, unit: &str) -> Result<f64, String> {
     with_unit(text, unit).unwrap_or_else(|| Err(expected()))
 }
 
-/// A mass \[kg\] on the command line.
-pub fn masses(text: &str) -> Result<f64, String> {
-    number(text, "kg")
-}
-
-/// A speed \[m/s\] on the command line.
-pub fn speeds(text: &str) -> Result<f64, String> {
-    number(text, "m/s")
-}
-
-/// An energy \[J\] on the command line.
-pub fn energies(text: &str) -> Result<f64, String> {
-    number(text, "J")
-}
-
-/// A time \[s\] on the command line.
-pub fn times(text: &str) -> Result<f64, String> {
-    number(text, "s")
-}
-
-/// A length \[m\] on the command line.
-pub fn lengths(text: &str) -> Result<f64, String> {
-    number(text, "m")
-}
-
-/// A force \[N\] on the command line.
-pub fn forces(text: &str) -> Result<f64, String> {
-    number(text, "N")
-}
-
-/// An angle in degrees on the command line.
-pub fn angles(text: &str) -> Result<f64, String> {
-    number(text, "deg")
-}
-
-/// A spin \[rad/s\] on the command line.
-pub fn spins(text: &str) -> Result<f64, String> {
-    number(text, "rad/s")
-}
-
-/// A moment of inertia \[kg m^2\] on the command line.
-pub fn inertias(text: &str) -> Result<f64, String> {
-    number(text, "kg.m^2")
+/// Reads numbers on the command line, with a unit or in this SI `unit`.
+pub fn numbers_in(unit: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| number(text, unit)
 }
 
 /// A load with its unit on the command line, in newtons: `29.4kN`, `3000kgf`.

@@ -194,7 +194,7 @@ pub struct Translating {
 pub fn translation(asked: &Translating) -> Result<Value, Refused> {
     let (scene, _) = scene(&asked.text)?;
     let speeds = asked.speeds.as_deref().map(speeds).transpose()?;
-    let step = asked.step.as_deref().map(units::times).transpose()?;
+    let step = asked.step.as_deref().map(units::numbers_in("s")).transpose()?;
     let request = Request { tool: &asked.tool, speeds, step, millimetres: asked.units == "mm-t-s" };
     let translation = translate(&scene, &request)?;
     let data: Value = serde_json::from_str(&translate::json(&translation))?;

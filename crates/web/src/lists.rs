@@ -8,6 +8,7 @@ use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::law_text::{self, LawText};
 use brinell_exporter::pairing::DEFAULT_LOADING;
 use brinell_exporter::platform::{Platform, Target};
+use brinell_exporter::scene::rules;
 use brinell_exporter::table::{Causality, Law, MATERIALS, VARIABLES};
 use brinell_exporter::translate::tools::TOOLS;
 use brinell_exporter::{pairing, regime, units};
@@ -24,7 +25,7 @@ pub fn about() -> Value {
         "laws": {
             "loading": AnyLoading::of_balls().map(|(name, it)| loading(&law_text::loading(name, &it))).collect::<Value>(),
             "unloading": AnyUnloading::ALL.iter().map(|(name, it)| law(&law_text::unloading(name, it))).collect::<Value>(),
-            "damped": AnyDamped::ALL.iter().map(|(name, it)| law(&law_text::damped(name, it))).collect::<Value>(),
+            "damped": AnyDamped::ALL.iter().map(|(name, it)| of_scene(&law_text::damped(name, it))).collect::<Value>(),
         },
         "materials": *MATERIALS,
         "outputs": variables(Causality::Output),
@@ -44,9 +45,17 @@ fn law(text: &LawText) -> Value {
     })
 }
 
+/// A law by which a scene can load, with the keys of its table that don't go with it, and those that it needs.
+fn of_scene(text: &LawText) -> Value {
+    let [closes, needs] = rules::of_law(&text.law.name);
+    let mut value = law(text);
+    (value["closes"], value["needs"]) = (json!(closes), json!(needs));
+    value
+}
+
 fn loading(text: &LawText) -> Value {
     let name = text.law.name.as_str();
-    let mut value = law(text);
+    let mut value = of_scene(text);
     value["recommended"] = json!(name == DEFAULT_LOADING);
     value["needs_yield"] = json!(name != "hertz");
     value["unloading"] = json!(pairing::unloading_of(name).0);

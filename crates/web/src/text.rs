@@ -3,7 +3,8 @@
 use crate::Refused;
 use brinell_exporter::mistake::SceneError;
 use brinell_exporter::own_curve::{self, Rows};
-use brinell_exporter::scene::{self, Beside, Scene, quantity_of};
+use brinell_exporter::pairing::DEFAULT_LOADING;
+use brinell_exporter::scene::{self, ReferencedFiles, Scene, quantity_of};
 use brinell_exporter::tension::{self, Curve, Specimen};
 use brinell_exporter::{reading, units};
 use serde::Deserialize;
@@ -23,12 +24,12 @@ pub struct Asked {
     pub text: String,
 }
 
-/// The scene with this `text`, and doubts about its numbers. No file lies beside it.
+/// The scene with this `text`, and warnings about its numbers. No file lies beside it.
 ///
 /// # Errors
 /// [`Refused`] with the place of the mistake.
 pub fn scene(text: &str) -> Result<(Scene, Vec<SceneError>), Refused> {
-    Scene::parse_beside(text, Path::new(PATH), &Beside::default())
+    Scene::parse_with_files(text, Path::new(PATH), &ReferencedFiles::default())
         .map_err(|error| Refused { message: error.to_string(), mistakes: placed(text, &error) })
 }
 
@@ -41,18 +42,21 @@ fn placed(text: &str, error: &SceneError) -> Vec<Value> {
     ]
 }
 
-/// The values of the scene, its mistakes, and doubts about its numbers.
+/// The values of the scene, its mistakes, warnings about its numbers, and what it can't have beside what it has.
 pub fn check(asked: &Asked) -> Value {
     let text = &asked.text;
     let values = text.parse::<toml::Table>().ok().map(|table| json_of(&toml::Value::Table(table)));
-    let (mistakes, doubts) = match scene(text) {
-        Ok((_, doubts)) => (Vec::new(), doubts.iter().flat_map(|doubt| placed(text, doubt)).collect()),
-        Err(refused) => (refused.mistakes, Vec::new()),
+    let (mistakes, warnings, loading) = match scene(text) {
+        Ok((scene, warnings)) => {
+            (Vec::new(), warnings.iter().flat_map(|warning| placed(text, warning)).collect(), scene.laws.name())
+        }
+        Err(refused) => (refused.mistakes, Vec::new(), DEFAULT_LOADING),
     };
     let mut quantities = Map::new();
     values.iter().for_each(|values| find_quantities(("", ""), "", values, &mut quantities));
     json!({
-        "values": values, "quantities": quantities, "mistakes": mistakes, "doubts": doubts, "files": scene::files_named(text),
+        "values": values, "quantities": quantities, "mistakes": mistakes, "warnings": warnings, "files": scene::files_named(text),
+        "closed": scene::closed(text, loading),
     })
 }
 

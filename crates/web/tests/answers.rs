@@ -363,3 +363,88 @@ fn contacts_with_masses_of_their_own_rebound_as_predicted_in_every_right_way() {
         }
     }
 }
+
+/// Scenes that close something, and a part of what each closes.
+const CLOSING: [(&str, &[&str]); 5] = [
+    ("[friction]\ncoefficient = 0.3", &["coupling.effective_mass", "law.loading=tsuji", "law.passivity_guard=true"]),
+    (
+        "[law]\nloading = \"tsuji\"\nrestitution = 0.7",
+        &["law.unloading", "law.elastic_restitution", "friction", "fmu.input_derivatives=true"],
+    ),
+    ("[law]\nloading = \"hertz\"", &["law.unloading", "law.restitution", "target.hardening_modulus", "target.rate"]),
+    ("[coupling]\neffective_mass = \"4.11 g\"", &["friction", "fmu.input_derivatives=false"]),
+    (
+        "",
+        &[
+            "fmu.outputs=closing_speed",
+            "fmu.outputs=impulse_moment",
+            "target.thickness",
+            "law.loading=line",
+            "law.damping",
+        ],
+    ),
+];
+
+/// A value of a key that is right by itself.
+fn right_value(key: &str) -> Value {
+    match key.rsplit('.').next().unwrap() {
+        "friction" => json!({ "coefficient": 0.3 }),
+        "coupling" => json!({ "effective_mass": "4.11 g" }),
+        "rate" => json!({ "model": "cowper-symonds", "d": 40.4, "q": 5 }),
+        "power_law" => json!({ "coefficient": "600 MPa", "exponent": 0.2 }),
+        "tensile_test" => json!({ "proof_stress": "240 MPa", "tensile_strength": "480 MPa" }),
+        "unloading_parameters" | "loading_parameters" => json!({}),
+        "hardness" => json!("200 HBW 10/3000"),
+        "unloading" => json!("thornton"),
+        "damping" => json!("viscous"),
+        "shape" => json!("ball"),
+        "base" => json!("bonded"),
+        "inverse_masses" => json!("input"),
+        "body" => json!([{ "name": "a", "mass": 1.0 }]),
+        "contact" => json!([{ "name": "a" }]),
+        "tangent_modulus" | "hardening_modulus" => json!("2 GPa"),
+        "tensile_strength" | "yield_strength" => json!("500 MPa"),
+        "size_constant" => json!(10),
+        _ => json!(0.3),
+    }
+}
+
+#[test]
+fn what_the_page_closes_is_refused_for_the_reason_that_it_gives() {
+    for (more, named) in CLOSING {
+        let text = format!("{BALL}{more}\n");
+        let check = ask(&json!({ "method": "check", "text": text })).unwrap();
+        assert_eq!(check["mistakes"], json!([]), "{text}");
+        let closed = check["closed"].as_object().unwrap();
+        for name in named {
+            assert!(closed.contains_key(*name), "{text}: {name} isn't among {:?}", closed.keys());
+        }
+        for (name, why) in closed {
+            let (key, value) = name.split_once('=').map_or((name.as_str(), None), |(key, value)| (key, Some(value)));
+            let value = match (key, value) {
+                (_, None) => right_value(key),
+                ("fmu.outputs" | "coupling.inputs", Some(value)) => json!([value]),
+                (_, Some(value)) => value.parse().map_or(json!(value), Value::Bool),
+            };
+            let wrong = edited(&text, &json!(key.split('.').collect::<Vec<_>>()), &value);
+            let said = ask(&json!({ "method": "check", "text": wrong })).unwrap();
+            let message = said["mistakes"][0]["message"].as_str().unwrap_or_default();
+            assert!(!message.is_empty(), "{wrong}{name} is closed, since {why}");
+        }
+    }
+}
+
+#[test]
+fn what_a_law_closes_and_needs_is_that_of_the_rules() {
+    let about = ask(&json!({ "method": "about" })).unwrap();
+    let law = |kind: &str, name: &str| {
+        let laws = about["laws"][kind].as_array().unwrap();
+        laws.iter().find(|law| law["name"] == name).unwrap_or_else(|| panic!("no {name}")).clone()
+    };
+    let has = |list: &Value, name: &str| list.as_array().unwrap().iter().any(|one| one == name);
+    let (damped, own) = (law("damped", "tsuji"), law("damped", "kuwabara-kono"));
+    assert!(has(&damped["needs"], "restitution") && has(&damped["closes"], "unloading"), "{damped}");
+    assert!(has(&own["closes"], "restitution") && !has(&own["needs"], "restitution"), "{own}");
+    let plastic = law("loading", "brinell");
+    assert!(has(&plastic["closes"], "damping") && !has(&plastic["closes"], "unloading"), "{plastic}");
+}

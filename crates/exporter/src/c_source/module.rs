@@ -219,11 +219,11 @@ fn called(line: &str) -> impl Iterator<Item = &str> {
 
 /// What a function does with the stack \[bytes\].
 fn frame(body: &[&str]) -> u64 {
-    let taken = body.windows(3).find_map(|lines| {
+    let frame = body.windows(3).find_map(|lines| {
         let is_taken = lines[0].ends_with(" = instance->w2c___stack_pointer;") && lines[2].contains(" -= ");
         if is_taken { leading(lines[1].split_once(" = ")?.1) } else { None }
     });
-    taken.unwrap_or(0).into()
+    frame.unwrap_or(0).into()
 }
 
 /// The calls in a module.

@@ -13,7 +13,7 @@ pub use headings::{ColumnKind, asked};
 
 use crate::layout::shortened;
 use crate::nearest::one_of;
-use crate::numbers::significant;
+use crate::numbers::{of_size, significant};
 use crate::reading;
 use dialect::{Body, Line, MOST_BEFORE, Separator, body_of, decimal_of, is_number, lines_of, number, text_of};
 use headings::{Heading, heading, is_known, is_unit, nearest_name, none_known, usual};
@@ -216,7 +216,7 @@ fn value_above(line: &Line, separator: Separator, decimal: char) -> Option<(&'st
             .map_or((value.as_str(), more.first().map(String::as_str)), |(digits, unit)| (digits, Some(unit)));
         let Heading { kind, size, unit } = heading(name, unit).ok()??;
         let number = number(digits, decimal).filter(|number| *number > 0.0 && unit.is_some())?;
-        Some((kind, size * number))
+        Some((kind, of_size(number, size)))
     })
 }
 
@@ -258,7 +258,7 @@ impl Measurement {
         let number = |(line, row): &(usize, Vec<String>)| {
             let cell = &row[column.index];
             let found = number(cell, self.decimal).filter(|number| number.is_finite());
-            found.map(|number| column.size * number).ok_or_else(|| Wrong {
+            found.map(|number| of_size(number, column.size)).ok_or_else(|| Wrong {
                 line: Some(*line),
                 column: Some(column.index + 1),
                 why: format!("{} = `{}` is no number", column.name, shortened(cell)),

@@ -33,7 +33,8 @@ pub struct PrebuiltUnit {
     pub library: Library,
     block: Block,
     /// Its name, and the number of its variables.
-    face: (String, usize),
+    name: String,
+    variable_count: usize,
 }
 
 impl PrebuiltUnit {
@@ -52,8 +53,8 @@ impl PrebuiltUnit {
         let guid = guid_of(plan, sources);
         let SceneData { data, lists } = SceneData::of(plan, &guid);
         let block = Block::filled(identity_of(&made_from), data, &lists).ok_or_else(|| too_long(scene, &lists))?;
-        let face = (scene.name.clone(), plan.variables.iter().map(|entry| entry.count).sum());
-        Ok(PrebuiltUnit { guid, library, block, face })
+        let variable_count = plan.variables.iter().map(|entry| entry.count).sum();
+        Ok(PrebuiltUnit { guid, library, block, name: scene.name.clone(), variable_count })
     }
 
     /// Its data for the library with this `identity`.
@@ -74,8 +75,7 @@ impl PrebuiltUnit {
     /// # Errors
     /// [`FillError::NoSource`]
     pub fn fill_source(&self, library: &[u8]) -> Result<Vec<u8>, FillError> {
-        let (name, variables) = &self.face;
-        c_source::with_scene(library, &self.block, name, *variables).ok_or(FillError::NoSource)
+        c_source::with_scene(library, &self.block, &self.name, self.variable_count).ok_or(FillError::NoSource)
     }
 }
 

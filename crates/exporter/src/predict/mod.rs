@@ -9,6 +9,7 @@ pub mod spread;
 pub mod sweep;
 pub mod time_history;
 
+use crate::bisection::border;
 use crate::laws::{self, Choice};
 use crate::layout;
 pub use crate::model::{GRAVITY, speed_of_height};
@@ -190,25 +191,13 @@ pub fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
     let (mut below, mut corner) = (0.0, law.next_corner(&pair, 0.0));
     while corner < brinell_contact::LARGEST_INDENTATION {
         while at(corner) != at(below) {
-            below = end_of_regime(at, below, corner);
+            let regime = at(below);
+            below = border((below, corner), |indentation| at(indentation) != regime);
             onsets.push((at(below), (2.0 * law.work(&pair, below) / mass).sqrt()));
         }
         (below, corner) = (corner, law.next_corner(&pair, corner));
     }
     onsets
-}
-
-/// The indentation in `below..=above` at which the regime of `below` ends: `above`, a corner of the law, or by bisection the first one
-/// before it.
-fn end_of_regime(at: impl Fn(f64) -> Regime, below: f64, above: f64) -> f64 {
-    let regime = at(below);
-    let (mut within, mut beyond) = (below, above);
-    let mut middle = above.next_down();
-    while within < middle && middle < beyond {
-        *(if at(middle) == regime { &mut within } else { &mut beyond }) = middle;
-        middle = 0.5 * (within + beyond);
-    }
-    beyond
 }
 
 /// The method of the predictions for these laws, in words.

@@ -310,7 +310,7 @@ impl Outcome {
             .filter(|[_, other]| other.mass < f64::INFINITY)
             .map(|[_, other]| Struck { speeds: met.impulses.map(|impulse| impulse / other.mass), spin: spun(other) });
         let rates = [self.rates[0], met.rates];
-        let taken = |row: usize| 0.5 * met.impulses[row] * (rates[0][row] + rates[1][row]);
+        let lost = |row: usize| 0.5 * met.impulses[row] * (rates[0][row] + rates[1][row]);
         let rebound = Rebound {
             ball,
             friction_work: met.friction_work,
@@ -318,7 +318,7 @@ impl Outcome {
             sliding_part: met.sliding_part,
             contact_time: met.contact_time,
         };
-        Outcome { rebound, rates, energy_lost: taken(0) + taken(1), struck, ..self }
+        Outcome { rebound, rates, energy_lost: lost(0) + lost(1), struck, ..self }
     }
 
     /// Restitution along the normal.

@@ -1,17 +1,16 @@
 //! Checks a scene: from the contents of the file to a scene that can be built.
 
-use super::beside::{self, Beside};
 use super::bodies;
 use super::checked::{Coupling, Group, Parameter, Scene, SceneLaws};
-use super::contacts::Contacts;
+use super::contacts::{self, Contacts};
 use super::cylinders::{self, Cylinders};
 use super::ellipses::Elliptic;
 use super::file::{BodyTable, ImpactTable, NamesName, Radius, SceneFile};
 use super::fmu::{self, check_outputs, check_text, choose_settable};
-use super::friction;
 use super::laws;
 use super::losses::Loss;
 use super::names::check_name;
+use super::own_materials::{self, ReferencedFiles};
 use super::plausible::{self, STEEL};
 use super::quantities::check_quantity;
 use super::shared_bodies;
@@ -36,22 +35,26 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
-        Ok(Scene::parse_beside(&text, path, &Beside::default())?.0)
+        Ok(Scene::parse_with_files(&text, path, &ReferencedFiles::default())?.0)
     }
 
-    /// The scene with this `text`, with what lies `beside` it, and the numbers in it that are implausible.
+    /// The scene with this `text`, with the files `referenced` by it, and the numbers in it that are implausible.
     ///
     /// # Errors
     /// As for [`Scene::parse`].
-    pub fn parse_beside(text: &str, path: &Path, beside: &Beside) -> Result<(Scene, Vec<SceneError>), SceneError> {
-        let checked = SceneFile::read(text, beside).and_then(|mut file| {
-            let doubts = plausible::doubts(&file);
+    pub fn parse_with_files(
+        text: &str,
+        path: &Path,
+        referenced: &ReferencedFiles,
+    ) -> Result<(Scene, Vec<SceneError>), SceneError> {
+        let checked = SceneFile::read(text, referenced).and_then(|mut file| {
+            let warnings = plausible::warnings(&file);
             let alone = std::mem::take(&mut file.alone);
-            Ok((Scene { text: alone, ..check(file, &doubts)? }, doubts))
+            Ok((Scene { text: alone, ..check(file, &warnings)? }, warnings))
         });
         let placed = |mistake: Mistake| mistake.in_file(text, path);
-        let (scene, doubts) = checked.map_err(placed)?;
-        Ok((scene, doubts.into_iter().map(placed).collect()))
+        let (scene, warnings) = checked.map_err(placed)?;
+        Ok((scene, warnings.into_iter().map(placed).collect()))
     }
 }
 
@@ -59,7 +62,7 @@ impl Scene {
 ///
 /// # Errors
 /// The first mistake.
-fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
+fn check(mut file: SceneFile, warnings: &[Mistake]) -> Result<Scene, Mistake> {
     let name = check_name(&file.name)?;
     let description = check_text("description", file.description.as_ref())?;
     let author = check_text("author", file.author.as_ref())?;
@@ -68,10 +71,11 @@ fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     }
     let (step_size, stop_time) = fmu::check_experiment(&file.fmu)?;
     let mut contacts = Contacts::of(&file)?;
+    let broken = file.broken_by_laws[usize::from(contacts.any_yields())].take();
     let no_table = BodyTable::default();
     let cylinders = Cylinders::of(&file, &no_table, &contacts)?;
     let loss = Loss::of(&file)?;
-    let laws = laws::of(&file.law, &contacts, loss, cylinders.is_some())?;
+    let laws = laws::of(&file.law, &contacts, loss, cylinders.is_some(), broken)?;
     if laws.loading().1.takes_both_bodies() {
         contacts.let_both_yield();
     }
@@ -80,7 +84,7 @@ fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
         contacts.forget_strength();
     }
     let damps_by_mass = matches!(laws, SceneLaws::Damped(_, law) if law.needs_mass());
-    let directions = friction::check(file.friction.as_ref(), laws.unloading().map(|(name, _)| name))?;
+    let directions = file.friction.as_ref().map_or(Ok(0), |friction| contacts::check_directions(friction.get_ref()))?;
     let friction = directions > 0;
     let inverse_masses = shared_bodies::check(&file, directions)?;
     let shared = inverse_masses.is_some();
@@ -144,7 +148,7 @@ fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
         stop_time,
         standalone: file.fmu.standalone == Some(true),
         impact_is_assumed: file.impact.is_none(),
-        materials: beside::words(file.materials_used(), &file.own),
+        materials: own_materials::words(file.materials_used(), &file.own),
         text: String::new(),
     };
     choose_settable(&mut scene, file.fmu.parameters.as_deref())?;
@@ -159,11 +163,11 @@ fn check(mut file: SceneFile, doubts: &[Mistake]) -> Result<Scene, Mistake> {
     }
     tabulated::settle(&mut scene, &file, &contacts)?;
     // an impact that can't be may be one in a wrong unit
-    let doubted = |Mistake(span, message)| {
-        let doubts = doubts.iter().map(|Mistake(_, doubt)| format!("; {doubt}"));
-        Mistake(span, message + &doubts.collect::<String>())
+    let with_warnings = |Mistake(span, message)| {
+        let warnings = warnings.iter().map(|Mistake(_, warning)| format!("; {warning}"));
+        Mistake(span, message + &warnings.collect::<String>())
     };
-    settle(scene, &contacts, &impact_span).map_err(doubted)
+    settle(scene, &contacts, &impact_span).map_err(with_warnings)
 }
 
 /// The parameters of all contacts, also those of the loss and the `numbers` that the scene gives for all, and the groups with their

@@ -1,9 +1,9 @@
 //! The contacts: the numbers that a scene gives for all of them, and those that one gives for itself, directly or by a material.
 
-use super::beside::{self, OwnMaterial};
 use super::checked::{Flows, Group, Parameter};
-use super::file::{BodyTable, ContactTable, Impactor, LawTable, MOST_CONTACTS, Radius, SceneFile};
+use super::file::{BodyTable, ContactTable, FrictionTable, Impactor, LawTable, MOST_CONTACTS, Radius, SceneFile};
 use super::names::check_identifier;
+use super::own_materials::{self, OwnMaterial};
 use super::quantities::check_quantity;
 use super::strength::{self, Elastic, Flow, Rate};
 use crate::body::{Body, Both, Rod};
@@ -96,7 +96,7 @@ struct Above<'a> {
 
 impl<'a> Above<'a> {
     fn material<'b>(&'b self, table: &'b BodyTable) -> Result<Option<(&'b table::Material, Range<usize>)>, Mistake> {
-        let of = |name: &'b Spanned<String>| Ok((beside::find(name, self.materials)?, name.span()));
+        let of = |name: &'b Spanned<String>| Ok((own_materials::find(name, self.materials)?, name.span()));
         table.material.as_ref().map(of).transpose()
     }
 
@@ -226,18 +226,18 @@ fn flows_of(bodies: &Both<&BodyTable>, own: &Numbers, above: &Above) -> Result<F
 }
 
 /// The beginnings of the names of variables.
-pub fn taken_names() -> Vec<&'static str> {
-    let mut taken: Vec<_> = VARIABLES.iter().filter_map(|variable| variable.name.split('.').next()).collect();
-    taken.dedup();
-    taken
+pub fn reserved_names() -> Vec<&'static str> {
+    let mut reserved: Vec<_> = VARIABLES.iter().filter_map(|variable| variable.name.split('.').next()).collect();
+    reserved.dedup();
+    reserved
 }
 
 /// The name of a contact, which must not be the beginning of the name of another variable.
 fn check_contact_name(name: &Spanned<String>) -> Result<String, Mistake> {
     let text = check_identifier(name)?;
-    let taken = taken_names();
-    if taken.contains(&text.as_str()) {
-        let message = format!("name = {text:?} belongs to a variable of the FMU, as do `{}`", taken.join("`, `"));
+    let reserved = reserved_names();
+    if reserved.contains(&text.as_str()) {
+        let message = format!("name = {text:?} belongs to a variable of the FMU, as do `{}`", reserved.join("`, `"));
         return Err(Mistake(name.span(), message));
     }
     Ok(text)
@@ -250,6 +250,21 @@ fn check_count(count: &Spanned<i64>) -> Result<i64, Mistake> {
     }
     let message = format!("count = {number} is out of range: allowed is 1 to {MOST_CONTACTS}");
     Err(Mistake(count.span(), message))
+}
+
+/// The number of tangential directions of all contacts.
+pub fn check_directions(friction: &FrictionTable) -> Result<usize, Mistake> {
+    let Some(directions) = &friction.directions else { return Ok(1) };
+    match *directions.get_ref() {
+        number @ (1 | 2) => Ok(number as usize),
+        number => {
+            let message = format!(
+                "friction.directions = {number} is out of range: allowed are 1, one tangential direction along which the \
+                 bodies move to and fro, and 2, two directions across each other"
+            );
+            Err(Mistake(directions.span(), message))
+        }
+    }
 }
 
 /// The contacts of a scene.
@@ -392,35 +407,6 @@ impl Contacts {
         let Some(index) = (0..self.all.len()).find(elastic) else { return Ok(()) };
         let message = format!("law.loading = \"{law}\" needs target.yield_strength (or a material) for every contact");
         Err(self.wrong(index, self.all[index].span.clone(), &message))
-    }
-
-    /// Rejects a strain rate for a law without strength.
-    pub fn check_rate(&self, has_no_strength: bool) -> Result<(), Mistake> {
-        let of = |body| {
-            let rate = self.rates.of(body).as_ref()?;
-            // that of a measured strength is assumed
-            let is_measured = self.flow(0, body).is_some_and(|flow| flow.measured().is_some());
-            Some((body, rate)).filter(|_| !is_measured || *rate.get_ref() != STEEL_RATE)
-        };
-        let given = Body::ALL.into_iter().find_map(of);
-        let Some((body, rate)) = given.filter(|_| has_no_strength) else { return Ok(()) };
-        Err(Mistake(rate.span(), format!("{}.rate has no effect: the law has no yield strength", body.name())))
-    }
-
-    /// Rejects a hardening body for the law `name`, if the law has no form for it.
-    pub fn check_hardening(&self, name: &str, hardens: bool) -> Result<(), Mistake> {
-        let of = |body: Body| {
-            (0..self.all.len()).find_map(|index| Some((body, index, self.number(index, body.hardening_modulus())?)))
-        };
-        let given = [Body::Target, Body::Impactor].into_iter().find_map(of);
-        let Some((body, index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
-        let laws = AnyLoading::ALL.iter().filter(|(_, law)| law.takes_both_bodies());
-        let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
-        let message = format!(
-            "the hardening of the {} has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"",
-            body.name()
-        );
-        Err(self.wrong(index, modulus.span(), &message))
     }
 
     /// For a law that has no yield strength.

@@ -7,13 +7,11 @@ use super::fmu;
 use crate::body::{Body, Both};
 use crate::mistake::{Mistake, Spanned};
 use crate::numbers::{quantity, significant};
+use crate::pairing::LINE;
 use brinell_contact::loading::{AnyLoading, Line, line::ROLLER};
 use brinell_contact::unloading::{self, AnyUnloading};
 use std::f64::consts::PI;
 use std::ops::Range;
-
-/// The law of line contacts.
-pub const LINE: &str = "line";
 
 /// The sideways tension of a solid roller, `c` of `c F'/(pi R)`.
 const ROLLER_TENSION: f64 = 1.0;

@@ -1,13 +1,14 @@
 //! The contents of a scene file: tables and keys, without interpretation.
 
-use super::beside::{self, Beside, MaterialTable, OwnMaterial};
+use super::own_materials::{self, MaterialTable, OwnMaterial, ReferencedFiles};
 use super::parser_words;
 use super::quantities::{Quantity, quantity_of};
-use super::rules;
+use super::rules::{self, Closed};
 use crate::layout::shortened;
 use crate::mistake::{Mistake, SceneError, Spanned};
 use crate::numbers::out_of_range;
 use crate::own_curve::{self, Rows};
+use crate::pairing::{DEFAULT_LOADING, LINE, TABLE};
 use crate::parameters::ConstantTable;
 use crate::table::{MATERIALS, Material};
 use crate::tension::{self, Specimen};
@@ -68,6 +69,9 @@ pub struct SceneFile {
     /// The first mistake by what its keys say of each other, and of their own numbers.
     #[serde(skip)]
     pub(super) broken: Option<Mistake>,
+    /// The same of the laws, once these are chosen: if nothing yields, and if a body does.
+    #[serde(skip)]
+    pub(super) broken_by_laws: [Option<Mistake>; 2],
 }
 
 /// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
@@ -87,7 +91,8 @@ impl MaterialTable {
     /// # Errors
     /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn parse(text: &str, path: &Path, place: &'static str) -> Result<MaterialTable, SceneError> {
-        let checked = deserialized(text, &BTreeMap::new()).and_then(|file: MaterialsFile| beside::check(file.material));
+        let checked =
+            deserialized(text, &BTreeMap::new()).and_then(|file: MaterialsFile| own_materials::check(file.material));
         let materials = checked.map_err(|mistake| mistake.in_file(text, path))?;
         Ok(MaterialTable { place, materials })
     }
@@ -315,7 +320,7 @@ pub struct TensileTestTable {
     pub section: Option<Spanned<f64>>,
     /// Initial gauge length of the specimen, for a file with its change of length.
     pub gauge_length: Option<Spanned<f64>>,
-    /// Whether the compliance of the machine is taken off the strain, so that the curve begins with Young's modulus.
+    /// Whether the compliance of the machine is added off the strain, so that the curve begins with Young's modulus.
     #[schemars(extend("default" = false))]
     pub compliance_correction: Option<Spanned<bool>>,
 }
@@ -591,29 +596,32 @@ pub struct ContactTable {
 }
 
 impl SceneFile {
-    /// Reads the `text` of a scene, with what lies `beside` it.
+    /// Reads the `text` of a scene, with the files `referenced` by it.
     ///
     /// # Errors
     /// Text that is not TOML, has a wrong type, or is unknown, with its place.
-    pub fn read(text: &str, beside: &Beside) -> Result<SceneFile, Mistake> {
-        let (mut file, taken) = with_tree(text, &beside.files, |tree| {
+    pub fn read(text: &str, referenced: &ReferencedFiles) -> Result<SceneFile, Mistake> {
+        let (mut file, added) = with_tree(text, &referenced.files, |tree| {
             let mut file: SceneFile = of_tree(text, tree)?;
-            let own = beside::check(file.material.take().unwrap_or_default())?;
+            let own = own_materials::check(file.material.take().unwrap_or_default())?;
             file.own = own.into_iter().map(OwnMaterial::of_scene).collect();
             let used: Vec<_> = file.materials_used().cloned().collect();
-            let taken = beside::take_in(&used, &mut file.own, &beside.materials);
+            let added = own_materials::take_in(&used, &mut file.own, &referenced.materials);
             let own = file.own.iter().map(|own| own.material.name.as_str());
             let materials: Vec<_> = own.chain(MATERIALS.iter().map(|material| material.name.as_str())).collect();
             file.broken = rules::check(tree.get_ref(), &materials).err();
-            Ok((file, taken))
+            let yielding = if file.is_line() { LINE } else { DEFAULT_LOADING };
+            let of_laws = |loading| rules::check_chosen(tree.get_ref(), loading).err();
+            file.broken_by_laws = ["hertz", yielding].map(of_laws);
+            Ok((file, added))
         })?;
-        file.alone = with_curves(text, &beside.files)?;
+        file.alone = with_curves(text, &referenced.files)?;
         // beside the FMU there is no schema
         if file.alone.starts_with("#:schema ") {
             file.alone.drain(..file.alone.find('\n').map_or(0, |end| end + 1));
         }
-        if !taken.is_empty() {
-            file.alone = format!("{}\n{taken}", file.alone.trim_end());
+        if !added.is_empty() {
+            file.alone = format!("{}\n{added}", file.alone.trim_end());
             // a list in the text can't go on in tables
             deserialized::<SceneFile>(&file.alone, &BTreeMap::new()).map_err(|_| {
                 let message = "the scene has `material` in another form than tables [[material]], to which those of materials.toml can't be added";
@@ -672,6 +680,12 @@ fn name_own_curve(tree: &mut DeTable) {
     law.insert(toml::Spanned::new(span, "loading table".into()), curve);
 }
 
+/// What the scene with this `text` can't have beside what it has, by key or `key=value`; its loading law is `loading` if it names none.
+/// Nothing, if it is no TOML.
+pub fn closed(text: &str, loading: &str) -> BTreeMap<String, Closed> {
+    with_tree(text, &BTreeMap::new(), |tree| Ok(rules::closed(tree.get_ref(), loading))).unwrap_or_default()
+}
+
 /// The bytes of files by the name that a scene gives them.
 type Files = BTreeMap<String, Result<Vec<u8>, String>>;
 
@@ -682,10 +696,7 @@ const CURVE: &str = "curve";
 /// In place of one of two radii.
 pub const FLAT: &str = "flat";
 
-/// The law of a curve of one's own, and its key that may be the name of a file.
-pub const TABLE: &str = "table";
-
-/// The names of files in the `text` of a scene. None, if it is no TOML.
+/// The names of the files in the `text` of a scene, relative to it: [`ReferencedFiles`] takes their bytes. None, if it is no TOML.
 pub fn files_named(text: &str) -> Vec<String> {
     fn named(value: &DeValue, key: &str, found: &mut Vec<String>) {
         match value {

@@ -2,37 +2,41 @@
 
 use super::checked::{HERTZ, Scene, SceneLaws};
 use super::contacts::Contacts;
-use super::cylinders::LINE;
-use super::file::{LawTable, TABLE};
+use super::file::LawTable;
 use super::losses::Loss;
-use super::tabulated;
 use crate::law_check;
 use crate::mistake::Mistake;
 use crate::mistake::Spanned;
 use crate::model::Dampings;
 use crate::nearest::unknown;
-use crate::pairing;
+use crate::pairing::{self, LINE, TABLE};
 use crate::parameters;
 use crate::table;
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 
-/// The laws of the table `law`, which suit the `contacts`, and each other, with a `loss`.
-pub fn of(law: &LawTable, contacts: &Contacts, loss: Option<Loss>, is_line: bool) -> Result<SceneLaws, Mistake> {
+/// The laws of the table `law`, which suit the `contacts`, and each other, with a `loss`. `broken` is the first rule about them that the
+/// scene breaks.
+pub fn of(
+    law: &LawTable,
+    contacts: &Contacts,
+    loss: Option<Loss>,
+    is_line: bool,
+    broken: Option<Mistake>,
+) -> Result<SceneLaws, Mistake> {
     let damped = find_damped(law)?;
     let loading = match damped {
         Some(_) => HERTZ,
         None => check_loading(law, contacts, is_line)?,
     };
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
-    let has_no_strength = elastic || loading.1.table().is_some();
-    let hardens = damped.is_none() && loading.1.takes_both_bodies();
-    contacts.check_rate(has_no_strength)?;
-    contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
-    let unloading = check_unloading(law, loading.0, elastic)?;
+    if let Some(mistake) = broken {
+        return Err(mistake);
+    }
+    let unloading = if elastic { None } else { Some(check_unloading(law, loading.0)?) };
     check_parameters(law, &loading, unloading.as_ref())?;
-    let passivity_guard = check_guard(law.passivity_guard.as_ref(), unloading)?;
+    let passivity_guard = law.passivity_guard.as_ref().is_some_and(|asked| *asked.get_ref());
     Ok(match (damped, unloading) {
         (Some((name, damped)), _) => SceneLaws::Damped(name, damped),
         (None, Some(unloading)) => SceneLaws::Plastic { loading, unloading, passivity_guard, loss },
@@ -76,8 +80,8 @@ fn check_loading(given: &LawTable, contacts: &Contacts, is_line: bool) -> Result
         let names = names.chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
         Mistake(span.clone(), unknown("law.loading", asked, names))
     })?;
-    if law.1.table().is_some() && !tabulated::is_own(given) {
-        let message = "law.loading = \"table\" needs the file: law = { loading = { table = \"file.csv\" } }";
+    if law.1.table().is_some() && given.own_curve.is_none() {
+        let message = "law.loading = \"table\" needs the file, as in law.loading.table = \"file.csv\"";
         return Err(Mistake(span, message.into()));
     }
     let needs_strength = law.0 != "hertz" && law.0 != TABLE;
@@ -93,33 +97,18 @@ fn check_loading(given: &LawTable, contacts: &Contacts, is_line: bool) -> Result
     Ok((law.0, parameters::apply(law.1, "law.loading", parameters, table::loading_law(law.0))?))
 }
 
-/// The unloading law; `None` if the contact is `elastic`.
-fn check_unloading(
-    given: &LawTable,
-    loading: &str,
-    elastic: bool,
-) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+/// The unloading law of a contact that yields.
+fn check_unloading(given: &LawTable, loading: &str) -> Result<(&'static str, AnyUnloading), Mistake> {
     let name = given.unloading.as_ref();
     let parameters = given.unloading_parameters.as_ref();
     let span = name.map_or(0..0, Spanned::span);
     let asked = name.map_or(pairing::default_unloading(loading), |name| name.get_ref().as_str());
-    if elastic {
-        let message = format!("law.unloading = \"{asked}\" has no effect: hertz unloads along the loading curve");
-        return match (name, parameters) {
-            (Some(_), _) => Err(Mistake(span, message)),
-            (None, Some(parameters)) => {
-                let message = "law.unloading_parameters has no effect: hertz unloads along the loading curve";
-                Err(Mistake(parameters.span(), message.into()))
-            }
-            (None, None) => Ok(None),
-        };
-    }
     let law = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
         let names = AnyUnloading::ALL.iter().map(|(name, _)| *name);
         Mistake(span.clone(), unknown("law.unloading", asked, names))
     })?;
     pairing::check(loading, asked).map_err(|message| Mistake(span, message))?;
-    Ok(Some((law.0, parameters::apply(law.1, "law.unloading", parameters, table::unloading_law(law.0))?)))
+    Ok((law.0, parameters::apply(law.1, "law.unloading", parameters, table::unloading_law(law.0))?))
 }
 
 /// The place of the constants that the scene gives to its laws, if any.
@@ -145,20 +134,4 @@ pub fn check_curves(given: &LawTable, scene: &Scene, group: usize) -> Result<(),
     law_check::check_loading(&model, pairing::published(scene.laws.name()))
         .map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
     law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
-}
-
-/// Whether the scene requests the guard. The unloading law must have a guarded form.
-fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUnloading)>) -> Result<bool, Mistake> {
-    let Some(asked) = asked.filter(|asked| *asked.get_ref()) else { return Ok(false) };
-    let Some((name, law)) = unloading else {
-        let message = "law.passivity_guard has no effect: hertz gives back exactly what was put in";
-        return Err(Mistake(asked.span(), message.into()));
-    };
-    if law.guarded().is_some() {
-        return Ok(true);
-    }
-    let guarded = AnyUnloading::ALL.iter().filter(|(_, law)| law.guarded().is_some()).map(|(name, _)| *name);
-    let names = guarded.collect::<Vec<_>>().join("`, `");
-    let message = format!("law.unloading = \"{name}\" has no passivity guard; these laws have one: `{names}`");
-    Err(Mistake(asked.span(), message))
 }

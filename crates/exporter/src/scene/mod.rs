@@ -1,6 +1,5 @@
 //! The scene file: the contacts, their laws, and the variables that the FMU has.
 
-mod beside;
 pub mod bodies;
 mod checked;
 mod checks;
@@ -9,12 +8,12 @@ mod cylinders;
 pub mod ellipses;
 mod file;
 mod fmu;
-mod friction;
 mod in_impact;
 mod inverse_masses;
 mod laws;
 mod losses;
 pub mod names;
+mod own_materials;
 mod parser_words;
 pub mod plausible;
 mod quantities;
@@ -27,18 +26,17 @@ use crate::mistake::{Mistake, SceneError, Spanned};
 use std::path::Path;
 
 pub use crate::body::{Body, Both};
-pub use beside::{Beside, MaterialTable, OwnMaterial};
 pub use checked::{Coupling, Group, Masses, Parameter, Scene, SceneLaws};
-pub use contacts::taken_names;
-pub use cylinders::LINE;
-pub use file::{FLAT, SceneFile, TABLE};
+pub use contacts::reserved_names;
+pub use file::{FLAT, SceneFile, closed, files_named};
 pub use fmu::INPUTS;
 pub use in_impact::InImpact;
 pub use inverse_masses::{InverseMasses, Meeting, place};
 pub use losses::{Loss, WAVES};
 pub use names::{IDENTIFIER, is_no_name};
+pub use own_materials::{MaterialTable, OwnMaterial, ReferencedFiles};
 pub use quantities::{PRODUCT, quantity_of};
-pub use rules::OF_ALL_CONTACTS;
+pub use rules::{Closed, OF_ALL_CONTACTS};
 pub use shared_bodies::GROUND;
 pub use strength::{Flow, MODELS as RATE_MODELS, PowerLaw, Rate};
 
@@ -55,19 +53,14 @@ pub fn new_scene(name: &str) -> String {
     include_str!("new_scene.toml").replace("NAME", name)
 }
 
-/// The names of the files in the `text` of a scene, relative to it: [`Beside`] takes their bytes. None, if it is no TOML.
-pub fn files_named(text: &str) -> Vec<String> {
-    file::files_named(text)
-}
-
 /// The `text` of the scene file at `path` with all numbers in SI units, for readers of TOML that know no other, and with what it uses
-/// of the files `beside` it.
+/// of the files `referenced` by it.
 ///
 /// # Errors
 /// As for [`Scene::parse`], of text that is not TOML, and of wrong units.
-pub fn in_si(text: &str, path: &Path, beside: &Beside) -> Result<String, SceneError> {
-    let alone = file::SceneFile::read(text, beside).map(|file| file.alone);
+pub fn in_si(text: &str, path: &Path, referenced: &ReferencedFiles) -> Result<String, SceneError> {
+    let alone = file::SceneFile::read(text, referenced).map(|file| file.alone);
     // what is no scene may have numbers, too
     let alone = alone.unwrap_or_else(|_| text.into());
-    file::in_si(&alone, &beside.files).map_err(|mistake| mistake.in_file(text, path))
+    file::in_si(&alone, &referenced.files).map_err(|mistake| mistake.in_file(text, path))
 }

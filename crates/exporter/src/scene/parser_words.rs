@@ -21,55 +21,54 @@ const UNSUPPORTED: [(&[&str], &str); 7] = [
     (&["temperature", "creep"], "yield strength doesn't depend on temperature"),
 ];
 
-/// Keys that belong to another table.
-const ELSEWHERE: [(&str, &str); 46] = [
-    ("mass", "[impact] has a mass, the bodies have none"),
-    ("speed", "[impact] has a speed"),
-    ("hb", HARDNESS),
-    ("hbw", HARDNESS),
-    ("hv", HARDNESS),
-    ("hv10", HARDNESS),
-    ("hv30", HARDNESS),
-    ("hrc", HARDNESS),
-    ("hrb", HARDNESS),
-    ("hld", HARDNESS),
-    ("brinell_hardness", HARDNESS),
-    ("vickers_hardness", HARDNESS),
-    ("rockwell_hardness", HARDNESS),
-    ("leeb_hardness", HARDNESS),
-    ("hardness", HARDNESS),
-    ("rm", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
-    ("uts", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
-    ("ultimate_strength", "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
-    ("rp02", PROOF_STRESS),
-    // Rp0.2 without quotes
-    ("rp0", PROOF_STRESS),
-    ("proof_stress", PROOF_STRESS),
-    ("re", PROOF_STRESS),
-    ("stress_strain_curve", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
-    ("stress_strain", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
-    ("curve", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
-    ("tensile_curve", "it is called tensile_test, as in tensile_test = \"curve.csv\""),
-    ("sigma_y", "it is called yield_strength"),
-    ("velocity", "it is called speed, in [impact]"),
-    ("v", "it is called speed, in [impact]"),
-    ("drop_height", "[impact] has a drop_height"),
-    ("height", "[impact] has a drop_height"),
-    ("thickness", "[target] has a thickness under a cylinder, and a plate_thickness for a plate that gives way"),
-    ("e", "it is called youngs_modulus"),
-    ("nu", "it is called poissons_ratio"),
-    ("rho", "it is called density"),
-    ("strain_rate", "give rate = { model = \"johnson-cook\", c = ..., reference_rate = ... } of the body"),
-    ("diameter", "give the radius"),
-    ("surface", "[target] has a surface"),
-    ("external_acceleration", GRAVITY),
-    ("gravity", GRAVITY),
-    ("g", GRAVITY),
-    ("elasticity", "give youngs_modulus"),
-    ("poisson_ratio", "it is called poissons_ratio"),
-    ("friction", FRICTION),
-    ("friction_coefficient", FRICTION),
-    ("mu", FRICTION),
+/// Keys that belong to another table, or have another name.
+const ELSEWHERE: [(&[&str], &str); 19] = [
+    (&["mass"], "[impact] has a mass, the bodies have none"),
+    (&["speed"], "[impact] has a speed"),
+    (&["velocity", "v"], "it is called speed, in [impact]"),
+    (&["drop_height", "height"], "[impact] has a drop_height"),
+    (
+        &[
+            "hb",
+            "hbw",
+            "hv",
+            "hv10",
+            "hv30",
+            "hrc",
+            "hrb",
+            "hld",
+            "brinell_hardness",
+            "vickers_hardness",
+            "rockwell_hardness",
+            "leeb_hardness",
+            "hardness",
+        ],
+        HARDNESS,
+    ),
+    (&["rm", "uts", "ultimate_strength"], "it is called tensile_strength, as in tensile_strength = \"655 MPa\""),
+    // `rp0` is Rp0.2 without quotes
+    (
+        &["rp02", "rp0", "proof_stress", "re"],
+        "it is called yield_strength, or with the tensile strength tensile_test = { proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }",
+    ),
+    (
+        &["stress_strain_curve", "stress_strain", "curve", "tensile_curve"],
+        "it is called tensile_test, as in tensile_test = \"curve.csv\"",
+    ),
+    (&["sigma_y"], "it is called yield_strength"),
+    (&["e"], "it is called youngs_modulus"),
+    (&["elasticity"], "give youngs_modulus"),
+    (&["nu", "poisson_ratio"], "it is called poissons_ratio"),
+    (&["rho"], "it is called density"),
+    (&["strain_rate"], "give rate = { model = \"johnson-cook\", c = ..., reference_rate = ... } of the body"),
+    (&["diameter"], "give the radius"),
+    (&["surface"], "[target] has a surface"),
+    (&["thickness"], "[target] has a thickness under a cylinder, and a plate_thickness for a plate that gives way"),
+    (
+        &["external_acceleration", "gravity", "g"],
+        "it is an input of the FMU with inputs = [\"external_acceleration\"] in [coupling]",
+    ),
+    (&["friction", "friction_coefficient", "mu"], "a table [friction] with a `coefficient` gives it for all contacts"),
 ];
 
 /// Stands for [`hardness`] in the table.
@@ -80,37 +79,18 @@ fn hardness() -> String {
     format!("a body has hardness = {SCALES}")
 }
 
-/// Where a proof stress is given.
-const PROOF_STRESS: &str = "it is called yield_strength, or with the tensile strength tensile_test = { proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }";
-
-/// How an FMU gets gravity.
-const GRAVITY: &str = "it is an input of the FMU with inputs = [\"external_acceleration\"] in [coupling]";
-
-/// Where friction is given.
-const FRICTION: &str = "a table [friction] with a `coefficient` gives it for all contacts";
-
-/// What word processors and pages of the web put in place of a character of TOML: the character, its name, and what to type.
-const TYPOGRAPHIC: [(char, &str, &str); 20] = [
-    ('\u{201c}', "a quotation mark of a word processor", "\""),
-    ('\u{201d}', "a quotation mark of a word processor", "\""),
-    ('\u{201e}', "a quotation mark of a word processor", "\""),
-    ('\u{201f}', "a quotation mark of a word processor", "\""),
-    ('\u{2033}', "a quotation mark of a word processor", "\""),
-    ('\u{00ab}', "a quotation mark of a word processor", "\""),
-    ('\u{00bb}', "a quotation mark of a word processor", "\""),
-    ('\u{ff02}', "a quotation mark of a word processor", "\""),
-    ('\u{2018}', "a quotation mark of a word processor", "\""),
-    ('\u{2019}', "a quotation mark of a word processor", "\""),
-    ('\u{201a}', "a quotation mark of a word processor", "\""),
-    ('\u{2032}', "a quotation mark of a word processor", "\""),
-    ('\u{00b4}', "an accent", "\""),
-    ('`', "an accent", "\""),
-    ('\u{2212}', "a minus sign of a word processor", "-"),
-    ('\u{2013}', "a dash of a word processor", "-"),
-    ('\u{2014}', "a dash of a word processor", "-"),
-    ('\u{00a0}', "a space of a page of the web", "a space"),
-    ('\u{202f}', "a space of a page of the web", "a space"),
-    ('\u{ff1d}', "an equals sign of another script", "="),
+/// What word processors and pages of the web put in place of a character of TOML: the characters, their name, and what to type.
+const TYPOGRAPHIC: [(&str, &str, &str); 6] = [
+    (
+        "\u{201c}\u{201d}\u{201e}\u{201f}\u{2033}\u{ab}\u{bb}\u{ff02}\u{2018}\u{2019}\u{201a}\u{2032}",
+        "a quotation mark of a word processor",
+        "\"",
+    ),
+    ("\u{b4}`", "an accent", "\""),
+    ("\u{2212}", "a minus sign of a word processor", "-"),
+    ("\u{2013}\u{2014}", "a dash of a word processor", "-"),
+    ("\u{a0}\u{202f}", "a space of a page of the web", "a space"),
+    ("\u{ff1d}", "an equals sign of another script", "="),
 ];
 
 /// The place of the first character of a wrong `line` that stands for one of TOML, and a message. It isn't in a remark, nor in a text in
@@ -123,15 +103,15 @@ pub fn typographic(line: &str) -> Option<(usize, String)> {
             None if c == '"' || c == '\'' => quote = Some(c),
             // a text that ends may have any in it
             Some(open) if c == open => (quote, first) = (None, None),
-            _ => first = first.or_else(|| Some((place, TYPOGRAPHIC.iter().find(|(other, ..)| *other == c)?))),
+            _ => first = first.or_else(|| Some((place, c, TYPOGRAPHIC.iter().find(|(those, ..)| those.contains(c))?))),
         }
         if quote.is_none() && first.is_some() {
             break;
         }
     }
-    let (place, (c, what, typed)) = first?;
+    let (place, c, (_, what, typed)) = first?;
     let shown = if c.is_whitespace() { String::new() } else { format!("`{c}` ") };
-    let (code, line) = (u32::from(*c), shortened(line.trim()));
+    let (code, line) = (u32::from(c), shortened(line.trim()));
     Some((place, format!("{shown}(U+{code:04X}) is {what}; type {typed} in `{line}`")))
 }
 
@@ -256,7 +236,7 @@ fn unknown_field(names: &str) -> String {
         return format!("`{asked}` is not supported: {why}; see Limits in the guide. Expected {}", one_of(known));
     }
     let guess = nearest(asked, known.iter().copied());
-    let elsewhere = ELSEWHERE.iter().find(|(name, _)| *name == plain).map(|(_, where_else)| *where_else);
+    let elsewhere = ELSEWHERE.iter().find(|(names, _)| names.contains(&plain.as_str())).map(|(_, words)| *words);
     let elsewhere = elsewhere.map(|words| if words == HARDNESS { hardness() } else { words.into() });
     let more = match (guess, elsewhere) {
         (_, Some(elsewhere)) => format!("; {elsewhere}. Expected "),

@@ -1,7 +1,7 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
-use super::beside::{self, OwnMaterial};
 use super::file::{BodyTable, PowerLawTable, SceneFile, TensileTestTable};
+use super::own_materials::{self, OwnMaterial};
 use super::shared_bodies::number_in;
 use crate::body::Body;
 use crate::layout::shortened;
@@ -88,57 +88,58 @@ const MASS: Expected<'static> = Expected {
 const DROP_HEIGHT: Expected<'static> =
     Expected { range: 0.0..=200.0, unit: "m", factors: &[1e-3, 1e-6], why: "drop towers have up to 200 m" };
 
-/// The doubts about `file`, each with its place.
-pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
-    let mut doubts = Vec::new();
+/// The warnings about `file`, each with its place.
+pub fn warnings(file: &SceneFile) -> Vec<Mistake> {
+    let mut warnings = Vec::new();
     if let Some(impactor) = &file.impactor {
-        doubts.extend(of_body("", Body::Impactor, &impactor.get_ref().0, &file.own));
+        warnings.extend(of_body("", Body::Impactor, &impactor.get_ref().0, &file.own));
     }
     if let Some(target) = &file.target {
-        doubts.extend(of_body("", Body::Target, target.get_ref(), &file.own));
+        warnings.extend(of_body("", Body::Target, target.get_ref(), &file.own));
     }
     for contact in file.contact.iter().flat_map(|contacts| contacts.get_ref()) {
         let contact = contact.get_ref();
         let owner = format!("{}.", contact.name.get_ref());
-        doubts.extend(of_body(&owner, Body::Impactor, &contact.impactor.0, &file.own));
-        doubts.extend(of_body(&owner, Body::Target, &contact.target, &file.own));
+        warnings.extend(of_body(&owner, Body::Impactor, &contact.impactor.0, &file.own));
+        warnings.extend(of_body(&owner, Body::Target, &contact.target, &file.own));
         let mass = contact.effective_mass.as_ref();
-        doubts.extend(mass.and_then(|mass| MASS.doubt(&format!("{owner}effective_mass"), mass)));
+        warnings.extend(mass.and_then(|mass| MASS.warning(&format!("{owner}effective_mass"), mass)));
     }
     let impact = file.impact.as_ref().map(Spanned::get_ref);
-    doubts.extend(impact.and_then(|impact| SPEED.doubt("impact.speed", impact.speed.as_ref()?)));
-    doubts.extend(impact.and_then(|impact| DROP_HEIGHT.doubt("impact.drop_height", impact.drop_height.as_ref()?)));
-    doubts.extend(impact.and_then(|impact| MASS.doubt("impact.mass", impact.mass.as_ref()?)));
+    warnings.extend(impact.and_then(|impact| SPEED.warning("impact.speed", impact.speed.as_ref()?)));
+    warnings.extend(impact.and_then(|impact| DROP_HEIGHT.warning("impact.drop_height", impact.drop_height.as_ref()?)));
+    warnings.extend(impact.and_then(|impact| MASS.warning("impact.mass", impact.mass.as_ref()?)));
     let coupling = file.coupling.as_ref().map(Spanned::get_ref);
     let mass = coupling.and_then(|coupling| coupling.effective_mass.as_ref());
-    doubts.extend(mass.and_then(|mass| MASS.doubt("coupling.effective_mass", mass)));
-    doubts.extend(without_strength(file));
+    warnings.extend(mass.and_then(|mass| MASS.warning("coupling.effective_mass", mass)));
+    warnings.extend(without_strength(file));
     if let Some((radius, density)) = ball(file) {
         let masses =
             [("coupling.effective_mass", mass), ("impact.mass", impact.and_then(|impact| impact.mass.as_ref()))];
         // both are the same mass
-        let doubt = masses.into_iter().find_map(|(name, mass)| {
+        let warning = masses.into_iter().find_map(|(name, mass)| {
             let mass = mass?;
             Some(Mistake(mass.span(), of_ball(name, *mass.get_ref(), radius, density)?))
         });
-        doubts.extend(doubt);
+        warnings.extend(warning);
     }
     for body in file.body.iter().flat_map(|bodies| bodies.get_ref()).map(Spanned::get_ref) {
         let name = format!("body `{}`: ", body.name.get_ref());
-        doubts.extend(MASS.doubt(&format!("{name}mass"), &body.mass));
+        warnings.extend(MASS.warning(&format!("{name}mass"), &body.mass));
         let inertia = body.inertia.as_ref();
-        doubts.extend(inertia.and_then(|inertia| of_inertia(&format!("{name}inertia"), inertia, *body.mass.get_ref())));
+        warnings
+            .extend(inertia.and_then(|inertia| of_inertia(&format!("{name}inertia"), inertia, *body.mass.get_ref())));
     }
-    doubts
+    warnings
 }
 
-/// The doubt about a target of a metal that has a strength only by its condition, in a scene that gives none and asks for no law.
+/// The warning about a target of a metal that has a strength only by its condition, in a scene that gives none and asks for no law.
 fn without_strength(file: &SceneFile) -> Option<Mistake> {
     let target = file.target.as_ref()?.get_ref();
     let mut contacts = file.contact.iter().flat_map(|contacts| contacts.get_ref());
     let gives = target.gives_strength() || contacts.any(|contact| contact.get_ref().target.gives_strength());
     let name = target.material.as_ref().filter(|_| !gives && file.law.loading.is_none())?;
-    let material = beside::find(name, &file.own).ok()?;
+    let material = own_materials::find(name, &file.own).ok()?;
     // a brittle one says so itself
     let is_elastic = material.yield_strength.is_none() && material.tension.is_none() && material.hardness.is_none();
     let is_silent = is_elastic && material.warning.is_none();
@@ -153,7 +154,7 @@ fn without_strength(file: &SceneFile) -> Option<Mistake> {
 /// Radius \[m\] and density \[kg/m^3\], if it is given, of the impactor of `file`, unless it is a rod.
 fn ball(file: &SceneFile) -> Option<(f64, Option<f64>)> {
     let table = &file.impactor.as_ref()?.get_ref().0;
-    let of_material = || Some(beside::find(table.material.as_ref()?, &file.own).ok()?.density);
+    let of_material = || Some(own_materials::find(table.material.as_ref()?, &file.own).ok()?.density);
     let density = table.density.as_ref().map(|density| *density.get_ref()).or_else(of_material);
     let radius = *table.one_radius()?.get_ref();
     // whoever is wrong about these is asked about them
@@ -161,7 +162,7 @@ fn ball(file: &SceneFile) -> Option<(f64, Option<f64>)> {
     (is_known && table.length.is_none()).then_some((radius, density))
 }
 
-/// The doubt about the first moment of inertia of a body with this `mass` \[kg\], from its radius of gyration.
+/// The warning about the first moment of inertia of a body with this `mass` \[kg\], from its radius of gyration.
 fn of_inertia(key: &str, inertia: &Spanned<Value>, mass: f64) -> Option<Mistake> {
     let (first, place) = match inertia.get_ref() {
         Value::Array(moments) => (moments.first()?, "[1]"),
@@ -175,7 +176,7 @@ fn of_inertia(key: &str, inertia: &Spanned<Value>, mass: f64) -> Option<Mistake>
     expected.question(&format!("{key}{place}"), moment).map(|message| Mistake(inertia.span(), message))
 }
 
-/// The doubts about a `body`. `owner` precedes its name.
+/// The warnings about a `body`. `owner` precedes its name.
 fn of_body(owner: &str, body: Body, table: &BodyTable, own: &[OwnMaterial]) -> Vec<Mistake> {
     let radius = table.one_radius();
     let numbers = [
@@ -192,44 +193,44 @@ fn of_body(owner: &str, body: Body, table: &BodyTable, own: &[OwnMaterial]) -> V
         ("area", &table.area, &AREA),
     ];
     let name = format!("{owner}{}", body.name());
-    let warning = table.material.as_ref().and_then(|material| {
-        let warning = beside::find(material, own).ok()?.warning.as_ref()?;
+    let of_material = table.material.as_ref().and_then(|material| {
+        let warning = own_materials::find(material, own).ok()?.warning.as_ref()?;
         Some(Mistake(material.span(), format!("{name}.material = \"{}\": {warning}", material.get_ref())))
     });
     let of_own = table.material.iter().flat_map(|material| of_own_material(material, own));
     // a wide target is nearly flat
     let is_flat = |key: &str, value: f64| key == "radius" && body == Body::Target && value.abs() > *RADIUS.range.end();
-    let doubt = |(key, value, expected): (&str, &Option<Spanned<f64>>, &Expected)| {
+    let warning = |(key, value, expected): (&str, &Option<Spanned<f64>>, &Expected)| {
         let value = value.as_ref().filter(|value| !is_flat(key, *value.get_ref()))?;
-        expected.doubt(&format!("{name}.{key}"), value)
+        expected.warning(&format!("{name}.{key}"), value)
     };
-    let mut doubts: Vec<Mistake> = numbers.into_iter().filter_map(doubt).collect();
-    doubts.extend(warning);
-    doubts.extend(of_own);
-    let of_material = || Some(beside::find(table.material.as_ref()?, own).ok()?.youngs_modulus);
+    let mut warnings: Vec<Mistake> = numbers.into_iter().filter_map(warning).collect();
+    warnings.extend(of_material);
+    warnings.extend(of_own);
+    let of_material = || Some(own_materials::find(table.material.as_ref()?, own).ok()?.youngs_modulus);
     let modulus = table.youngs_modulus.as_ref().map(|modulus| *modulus.get_ref()).or_else(of_material);
-    doubts.extend(table.tensile_test.iter().flat_map(|test| of_test(&name, test, modulus)));
-    doubts.extend(of_power_law(&name, table.power_law.as_ref()));
+    warnings.extend(table.tensile_test.iter().flat_map(|test| of_test(&name, test, modulus)));
+    warnings.extend(of_power_law(&name, table.power_law.as_ref()));
     if let (Body::Target, true, Some(strength), Some(modulus)) =
-        (body, doubts.is_empty(), &table.yield_strength, &table.youngs_modulus)
+        (body, warnings.is_empty(), &table.yield_strength, &table.youngs_modulus)
     {
-        doubts.extend(too_strong(owner, strength, modulus));
+        warnings.extend(too_strong(owner, strength, modulus));
     }
-    doubts
+    warnings
 }
 
-/// The doubt about the power law of a `body`: its coefficient is the flow stress at a strain of 1.
+/// The warning about the power law of a `body`: its coefficient is the flow stress at a strain of 1.
 fn of_power_law(body: &str, law: Option<&Spanned<PowerLawTable>>) -> Option<Mistake> {
-    STRENGTH.doubt(&format!("{body}.power_law.coefficient"), &law?.get_ref().coefficient)
+    STRENGTH.warning(&format!("{body}.power_law.coefficient"), &law?.get_ref().coefficient)
 }
 
-/// The doubts about the tensile test of a `body` with this Young's modulus \[Pa\].
+/// The warnings about the tensile test of a `body` with this Young's modulus \[Pa\].
 fn of_test(body: &str, test: &Spanned<TensileTestTable>, modulus: Option<f64>) -> Vec<Mistake> {
     let TensileTestTable { proof_stress, tensile_strength, compliance_correction, .. } = test.get_ref();
     let key = |key: &str| format!("{body}.tensile_test.{key}");
     let corrects = compliance_correction.as_ref().is_some_and(|corrects| *corrects.get_ref());
     let numbers = [("proof_stress", proof_stress), ("tensile_strength", tensile_strength)];
-    let of_numbers = numbers.into_iter().filter_map(|(name, value)| STRENGTH.doubt(&key(name), value.as_ref()?));
+    let of_numbers = numbers.into_iter().filter_map(|(name, value)| STRENGTH.warning(&key(name), value.as_ref()?));
     // the largest of many
     let curve = test.get_ref().curve().ok().flatten();
     let most = curve.as_ref().and_then(|curve| curve.points.iter().map(|point| point.1).reduce(f64::max));
@@ -241,9 +242,9 @@ fn of_test(body: &str, test: &Spanned<TensileTestTable>, modulus: Option<f64>) -
     of_numbers.chain(of_curve.into_iter().chain(of_slope).map(|message| Mistake(test.span(), message))).collect()
 }
 
-/// The doubts about the numbers of a material that isn't built in, where it is used.
+/// The warnings about the numbers of a material that isn't built in, where it is used.
 fn of_own_material(name: &Spanned<String>, own: &[OwnMaterial]) -> Vec<Mistake> {
-    let Ok(material) = beside::find(name, own) else { return Vec::new() };
+    let Ok(material) = own_materials::find(name, own) else { return Vec::new() };
     if !own.iter().any(|own| std::ptr::eq(&own.material, material)) {
         return Vec::new();
     }
@@ -253,16 +254,16 @@ fn of_own_material(name: &Spanned<String>, own: &[OwnMaterial]) -> Vec<Mistake> 
         ("tension.coefficient", material.tension.map(|tension| tension.coefficient), &STRENGTH),
         ("density", Some(material.density), &DENSITY),
     ];
-    let doubt = |(key, value, expected): (&str, Option<f64>, &Expected)| {
+    let warning = |(key, value, expected): (&str, Option<f64>, &Expected)| {
         let message = expected.question(&format!("material `{}`: {key}", shortened(&material.name)), value?)?;
         Some(Mistake(name.span(), message))
     };
-    numbers.into_iter().filter_map(doubt).collect()
+    numbers.into_iter().filter_map(warning).collect()
 }
 
 impl Expected<'_> {
-    /// The doubt about the value of `key`, if it is implausible.
-    fn doubt(&self, key: &str, value: &Spanned<f64>) -> Option<Mistake> {
+    /// The warning about the value of `key`, if it is implausible.
+    fn warning(&self, key: &str, value: &Spanned<f64>) -> Option<Mistake> {
         self.question(key, *value.get_ref()).map(|message| Mistake(value.span(), message))
     }
 
@@ -279,7 +280,7 @@ impl Expected<'_> {
     }
 }
 
-/// The doubt about a yield strength near Young's modulus, or about a modulus that would fit the strength in another unit.
+/// The warning about a yield strength near Young's modulus, or about a modulus that would fit the strength in another unit.
 fn too_strong(owner: &str, strength: &Spanned<f64>, modulus: &Spanned<f64>) -> Option<Mistake> {
     let (number, of_modulus) = (*strength.get_ref(), *modulus.get_ref());
     if !(number > STRENGTH_OVER_MODULUS * of_modulus && number.is_finite() && of_modulus > 0.0) {
@@ -304,7 +305,7 @@ fn too_strong(owner: &str, strength: &Spanned<f64>, modulus: &Spanned<f64>) -> O
 const SPEED: Expected<'static> =
     Expected { range: 0.0..=3e3, unit: "m/s", factors: &[1e-3], why: "bodies meet at up to 3 km/s" };
 
-/// The doubt about a `value` on the command line of the quantity `name`: a speed, or a parameter of the scene.
+/// The warning about a `value` on the command line of the quantity `name`: a speed, or a parameter of the scene.
 pub fn of_quantity(name: &str, value: f64) -> Option<String> {
     let expected = match name.rsplit('.').next()? {
         // a wide target is nearly flat
@@ -326,7 +327,7 @@ pub fn of_quantity(name: &str, value: f64) -> Option<String> {
 /// A mass this near to a thousand times that of the ball is one in grams.
 const SAME_BALL: f64 = 0.15;
 
-/// The doubt about a `mass` \[kg\] that would be that of a solid ball with this radius \[m\] in another unit: grams, milligrams, tonnes.
+/// The warning about a `mass` \[kg\] that would be that of a solid ball with this radius \[m\] in another unit: grams, milligrams, tonnes.
 /// Without a `density` \[kg/m^3\] the ball is of steel. `name` is the name of the mass.
 pub fn of_ball(name: &str, mass: f64, radius: f64, density: Option<f64>) -> Option<String> {
     let solid = density.unwrap_or(STEEL) * 4.0 / 3.0 * PI * radius * radius * radius;
@@ -341,14 +342,14 @@ pub fn of_ball(name: &str, mass: f64, radius: f64, density: Option<f64>) -> Opti
     ))
 }
 
-/// The doubt about a kinetic `energy` \[J\] of a `mass` \[kg\]: the speed that it gives; `name` is its name on the command line.
+/// The warning about a kinetic `energy` \[J\] of a `mass` \[kg\]: the speed that it gives; `name` is its name on the command line.
 pub fn of_energy(name: &str, energy: f64, mass: f64) -> Option<String> {
     let most = 0.5 * mass * SPEED.range.end() * SPEED.range.end();
     let why = format!("the mass is {}, and {}", quantity(mass, "kg"), SPEED.why);
     Expected { range: 0.0..=most, unit: "J", factors: &[1e-3, 1e-6], why: &why }.question(name, energy)
 }
 
-/// The doubt about the depth \[m\] of a dent by an impactor with this `radius` \[m\]; `name` is its name on the command line.
+/// The warning about the depth \[m\] of a dent by an impactor with this `radius` \[m\]; `name` is its name on the command line.
 pub fn of_depth(name: &str, depth: f64, radius: f64) -> Option<String> {
     let why = "an atom has 0.1 nm, and no dent is deeper than the impactor's radius";
     Expected { range: 1e-10..=radius, unit: "m", factors: &[1e-3, 1e-6], why }.question(name, depth)

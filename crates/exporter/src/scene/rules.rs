@@ -6,16 +6,18 @@ use crate::layout::shortened;
 use crate::mistake::{Mistake, Spanned, check_range};
 use crate::model::Dampings;
 use crate::numbers::in_message;
+use crate::pairing::{self, TABLE};
 use crate::table::{self, Causality, Variable};
 use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::LazyLock;
 use toml::de::{DeTable, DeValue};
 
 /// The rules in the order in which they are told.
-pub static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| read(include_str!("rules.txt")));
+pub static RULES: LazyLock<Vec<Rule>> = LazyLock::new(read);
 
 /// The bodies of a contact, as tables of a scene.
 pub const BODIES: [&str; 2] = ["impactor", "target"];
@@ -24,13 +26,16 @@ pub const BODIES: [&str; 2] = ["impactor", "target"];
 pub const OF_ALL_CONTACTS: [&str; 5] = ["rate", "plate_thickness", "shape", "thickness", "base"];
 
 /// The lists of names in the rules.
-fn list(name: &str) -> Vec<&'static str> {
+pub fn list(name: &str) -> Vec<&'static str> {
     let damped = |is: fn(&AnyDamped) -> bool| {
         AnyDamped::ALL.iter().filter(move |(_, law)| is(law)).map(|(name, _)| *name).collect::<Vec<_>>()
     };
     let plastic = |is: fn(&AnyLoading) -> bool| {
         let laws = AnyLoading::ALL.iter().filter(move |(name, law)| *name != "hertz" && is(law));
         laws.map(|(name, _)| *name).collect::<Vec<_>>()
+    };
+    let unloading = |is: fn(&(&'static str, AnyUnloading)) -> bool| {
+        AnyUnloading::ALL.iter().filter(move |law| is(law)).map(|(name, _)| *name).collect::<Vec<_>>()
     };
     let outputs = |is: fn(&Variable) -> bool| {
         let outputs =
@@ -49,13 +54,12 @@ fn list(name: &str) -> Vec<&'static str> {
         "OF_DAMPINGS" => damped(|law| !law.dampings().is_empty()),
         "PLASTIC" => plastic(|_| true),
         "SOFTENING" => [plastic(|law| !law.takes_both_bodies()), vec!["hertz"], damped(|_| true)].concat(),
-        "UNGUARDED" => {
-            AnyUnloading::ALL.iter().filter(|(_, law)| law.guarded().is_none()).map(|(name, _)| *name).collect()
-        }
-        "FRICTIONLESS" => {
-            let laws = table::unloading_laws().into_iter().filter(|law| law.no_friction.is_some());
-            laws.map(|law| law.name.as_str()).collect()
-        }
+        "STRENGTHLESS" => [vec!["hertz", TABLE], damped(|_| true)].concat(),
+        "HARDENED" => plastic(|law| law.takes_both_bodies()),
+        "GUARDED" => unloading(|(_, law)| law.guarded().is_some()),
+        "UNGUARDED" => unloading(|(_, law)| law.guarded().is_none()),
+        "FRICTIONAL" => unloading(|(name, _)| table::unloading_law(name).no_friction.is_none()),
+        "FRICTIONLESS" => unloading(|(name, _)| table::unloading_law(name).no_friction.is_some()),
         "OF_SHARED" => outputs(|output| table::OF_SHARED.contains(&output.name.as_str())),
         "OF_FRICTION" => outputs(|output| output.friction),
         other => panic!("{other} is no list of names"),
@@ -66,6 +70,8 @@ fn list(name: &str) -> Vec<&'static str> {
 pub struct Rule {
     /// The body in whose tables its keys are.
     pub body: Option<String>,
+    /// Whether it is about the laws that the scene has, be they named or chosen by what yields.
+    chosen: bool,
     /// Each of them holds, which is one of several keys.
     pub when: Vec<Vec<Key>>,
     /// Whether `what` is forbidden; otherwise one of it is needed.
@@ -107,29 +113,34 @@ pub enum Level {
     Contact,
 }
 
-fn read(text: &str) -> Vec<Rule> {
-    let (mut rules, mut heads, mut message) = (Vec::new(), Vec::new(), String::new());
-    for line in text.lines().filter(|line| !line.starts_with('#')).chain(["end"]) {
+/// The rules as they are written: those with the same message, and the message.
+pub fn written_rules() -> Vec<(Vec<&'static str>, String)> {
+    let (mut all, mut heads, mut message) = (Vec::new(), Vec::new(), String::new());
+    for line in include_str!("rules.txt").lines().filter(|line| !line.starts_with('#')).chain(["end"]) {
         if let Some(words) = line.strip_prefix("    ") {
             message = format!("{message} {words}").trim().into();
             continue;
         }
         if !message.is_empty() || line == "end" {
-            for head in heads.drain(..) {
-                let message = &message;
-                let of = |body: &str| Rule::read(&str::replace(head, "*", body), &message.replace('*', body));
-                let bodies: &[&str] = if head.contains('*') { &BODIES } else { &[""] };
-                rules.extend(bodies.iter().map(|body| of(body)));
-            }
-            message.clear();
+            all.push((std::mem::take(&mut heads), std::mem::take(&mut message)));
         }
         heads.extend(Some(line).filter(|line| !line.is_empty()));
     }
-    rules
+    all
+}
+
+fn read() -> Vec<Rule> {
+    let of = |(head, message): (&str, &String)| {
+        let bodies: &[&str] = if head.contains('*') { &BODIES } else { &[""] };
+        bodies.iter().map(|body| Rule::read(&head.replace('*', body), &message.replace('*', body))).collect::<Vec<_>>()
+    };
+    let written = written_rules();
+    written.iter().flat_map(|(heads, message)| heads.iter().map(move |head| (*head, message))).flat_map(of).collect()
 }
 
 impl Rule {
     fn read(head: &str, message: &str) -> Rule {
+        let (chosen, head) = head.strip_prefix("chosen: ").map_or((false, head), |head| (true, head));
         let (body, head) = head.split_once(": ").map_or((None, head), |(body, head)| (Some(body.to_string()), head));
         let (head, at) = head.split_once(", at ").map_or((head, None), |(head, at)| (head, Key::read(at).pop()));
         let (when, what, forbids) = match (head.split_once(" forbids "), head.split_once(" needs ")) {
@@ -143,7 +154,7 @@ impl Rule {
             true => keys.into_iter().map(|key| vec![key]).collect(),
             false => vec![keys],
         });
-        Rule { body, when: when.collect(), forbids, what: any(what), at, message: message.into() }
+        Rule { body, chosen, when: when.collect(), forbids, what: any(what), at, message: message.into() }
     }
 
     fn keys(&self) -> impl Iterator<Item = &Key> {
@@ -154,14 +165,14 @@ impl Rule {
     fn broken(&self, seen: &Seen) -> Option<Mistake> {
         let mut last = None;
         for any in &self.when {
-            let found = any.iter().find_map(|key| seen.find(key).map(|found| (key, found)));
+            let found = seen.find_any(any);
             match (found, any[0].no) {
                 (Some(found), false) => last = Some(found),
                 (None, true) => {}
                 _ => return None,
             }
         }
-        let found = self.what.iter().find_map(|key| seen.find(key).map(|found| (key, found)));
+        let found = seen.find_any(&self.what);
         let told = match (self.forbids, found.is_some()) {
             (true, true) => found,
             (false, false) => last,
@@ -178,23 +189,57 @@ impl Rule {
         let owner =
             seen.contact.filter(|_| is_own).and_then(|contact| contact.get_ref().get("name")?.get_ref().as_str());
         let owner = owner.map_or(String::new(), |name| format!("contact `{}`: ", shortened(name)));
-        Some(Mistake(place.unwrap_or(0..0), owner + &self.filled(seen, told.as_ref())))
+        Some(Mistake(place.unwrap_or(0..0), owner + &self.filled(seen, told.as_ref(), None)))
     }
 
-    /// Its message with the names and values of what is `told`.
-    fn filled(&self, seen: &Seen, told: Option<&(&Key, Found)>) -> String {
+    /// What it closes in a scene, if no more than one of its keys is missing for a mistake.
+    fn closes(&self, seen: &Seen) -> Vec<(String, Closed)> {
+        let all = self.when.iter().chain([&self.what]);
+        let (held, missing): (Vec<&Vec<Key>>, Vec<&Vec<Key>>) =
+            all.partition(|keys| seen.find_any(keys).is_some() != keys[0].no);
+        let [missing] = missing.as_slice() else { return Vec::new() };
+        if !self.forbids || missing[0].no || missing[0].level() == Level::Contact {
+            return Vec::new();
+        }
+        // the default of another law is that of this one, and follows it
+        let is_default = |keys: &&Vec<Key>| seen.find_any(keys).is_some_and(|(_, found)| found.span == (0..0));
+        if missing[0].path == ["law", "loading"] && held.iter().any(is_default) {
+            return Vec::new();
+        }
+        let name = |key: &Key| self.body.iter().chain(&key.path).map(String::as_str).collect::<Vec<_>>().join(".");
+        let by: Vec<_> = held.iter().filter_map(|keys| seen.find_any(keys)).map(|(key, _)| name(key)).collect();
+        let of_key = |key| {
+            let of_value = |value: Option<String>| {
+                let name = name(key) + &value.as_ref().map_or(String::new(), |value| format!("={value}"));
+                let value = DeValue::String(value.unwrap_or_default().into());
+                let supposed = (key, Found { span: 0..0, value: &value, is_own: false });
+                let why = self.filled(seen, seen.find_any(&self.what).as_ref().or(Some(&supposed)), Some(&supposed));
+                (name, Closed { why, by: by.clone() })
+            };
+            Key::values(key).into_iter().map(of_value).collect::<Vec<_>>()
+        };
+        missing.iter().flat_map(of_key).collect()
+    }
+
+    /// Its message with the names and values of what is `told`, and of what is `supposed` to be there.
+    fn filled(&self, seen: &Seen, told: Option<&(&Key, Found)>, supposed: Option<&(&Key, Found)>) -> String {
         let mut parts = self.message.split(['{', '}']);
         let mut text = parts.next().unwrap_or_default().to_string();
         while let (Some(name), Some(rest)) = (parts.next(), parts.next()) {
             text += &match (name, told) {
                 ("MATERIALS", _) => seen.materials.join("`, `"),
+                ("NO_FRICTION", Some((_, found))) => {
+                    table::unloading_law(&written(found.value)).no_friction.clone().unwrap_or_default()
+                }
                 ("key", Some((key, _))) => key.path[usize::from(key.path[0] == "contact")..].join("."),
                 ("value", Some((_, found))) => written(found.value),
                 (name, _) if is_list(name) => list(name).join("\", \""),
-                (name, _) => Key::read(name)
-                    .iter()
-                    .find_map(|key| seen.find(key))
-                    .map_or(String::new(), |found| written(found.value)),
+                (name, _) => {
+                    let keys = Key::read(name);
+                    let found = keys.iter().find_map(|key| seen.find(key)).map(|found| written(found.value));
+                    let supposed = supposed.filter(|(key, _)| key.path.join(".") == name);
+                    found.or_else(|| supposed.map(|(_, supposed)| written(supposed.value))).unwrap_or_default()
+                }
             };
             text += rest;
         }
@@ -224,6 +269,20 @@ impl Key {
         let tables: Vec<_> = table.into_iter().flat_map(|table| table.split('.')).map(String::from).collect();
         let path = |last| tables.iter().cloned().chain([last]).collect();
         words(last).into_iter().map(|last| Key { no, path: path(last), is: is.clone() }).collect()
+    }
+
+    /// The values of which a scene can't have one where it can't have this; `None` where it can't have the key.
+    fn values(&self) -> Vec<Option<String>> {
+        match &self.is {
+            Is::There => vec![None],
+            Is::In(names) | Is::With(names) => names.iter().cloned().map(Some).collect(),
+            Is::NotIn(names) => {
+                let laws =
+                    AnyLoading::ALL.iter().map(|(name, _)| *name).chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
+                laws.map(String::from).filter(|law| !names.contains(law)).map(Some).collect()
+            }
+            Is::Two => Vec::new(),
+        }
     }
 
     pub fn level(&self) -> Level {
@@ -271,6 +330,8 @@ fn number(value: &DeValue) -> Option<f64> {
 /// The tables in which a rule looks for its keys.
 struct Seen<'a> {
     scene: &'a DeTable<'a>,
+    /// The table of the laws that are chosen, in place of that of the scene.
+    law: Option<&'a DeTable<'a>>,
     contact: Option<&'a toml::Spanned<DeValue<'a>>>,
     /// The table of a body that is looked at for itself.
     body: Option<&'a DeTable<'a>>,
@@ -298,11 +359,19 @@ fn contacts<'a>(scene: &'a DeTable<'a>) -> impl Iterator<Item = &'a toml::Spanne
 }
 
 impl<'a> Seen<'a> {
+    /// The first of the keys that it has as wanted, and what it has.
+    fn find_any<'b>(&self, keys: &'b [Key]) -> Option<(&'b Key, Found<'a>)> {
+        keys.iter().find_map(|key| self.find(key).map(|found| (key, found)))
+    }
+
     /// What is as the `key` wants it, whether or not that is negated.
     fn find(&self, key: &Key) -> Option<Found<'a>> {
         let path = key.path.as_slice();
         let own = |path: &[String]| below(self.contact?.get_ref().as_table()?, path);
-        let of_scene = |path: &[String]| below(self.scene, path);
+        let of_scene = |path: &[String]| match (self.law, path) {
+            (Some(law), [first, rest @ ..]) if first == "law" && !rest.is_empty() => below(law, rest),
+            _ => below(self.scene, path),
+        };
         let part = |value: &'a toml::Spanned<DeValue<'a>>| key.part(value);
         let (value, is_own) = match (self.body, path[0].as_str(), &path[1..]) {
             (Some(table), ..) => (below(table, path).and_then(part), self.contact.is_some()),
@@ -328,9 +397,35 @@ impl<'a> Seen<'a> {
 /// The first number of a `scene` out of its range, otherwise the first rule that it breaks. `materials` are the names of all materials.
 pub fn check(scene: &DeTable<'_>, materials: &[&str]) -> Result<(), Mistake> {
     check_ranges(scene, "", "")?;
-    for rule in RULES.iter().filter(|rule| !rule.message.is_empty()) {
+    check_rules(scene, None, materials)
+}
+
+/// The first rule about its laws that a `scene` breaks if, where it names none, it has the `loading` law.
+pub fn check_chosen(scene: &DeTable<'_>, loading: &str) -> Result<(), Mistake> {
+    check_rules(scene, Some(&chosen(scene, loading)), &[])
+}
+
+/// The table of the laws of a `scene` whose loading law, if it names none, is `loading`, with the unloading law that goes with it.
+fn chosen<'a>(scene: &DeTable<'a>, loading: &str) -> DeTable<'a> {
+    let mut law = scene.get("law").and_then(|law| law.get_ref().as_table()).cloned().unwrap_or_default();
+    let mut add = |key: &'static str, name: String| {
+        if !law.contains_key(key) {
+            law.insert(toml::Spanned::new(0..0, key.into()), toml::Spanned::new(0..0, DeValue::String(name.into())));
+        }
+        law.get(key).map_or(String::new(), |name| written(name.get_ref()))
+    };
+    let loading = add("loading", loading.into());
+    if list("PLASTIC").contains(&loading.as_str()) {
+        add("unloading", pairing::default_unloading(&loading).into());
+    }
+    law
+}
+
+/// The first rule that a `scene` breaks: of those about the laws that are chosen, in this table, or of the others.
+fn check_rules(scene: &DeTable<'_>, law: Option<&DeTable<'_>>, materials: &[&str]) -> Result<(), Mistake> {
+    for rule in RULES.iter().filter(|rule| !rule.message.is_empty() && rule.chosen == law.is_some()) {
         let looks_at = |contact| {
-            let seen = Seen { scene, contact, body: None, materials };
+            let seen = Seen { scene, law, contact, body: None, materials };
             let Some(body) = &rule.body else { return rule.broken(&seen) };
             let table = match contact {
                 Some(contact) => below(contact.get_ref().as_table()?, std::slice::from_ref(body)),
@@ -350,6 +445,48 @@ pub fn check(scene: &DeTable<'_>, materials: &[&str]) -> Result<(), Mistake> {
         }
     }
     Ok(())
+}
+
+/// What a scene can't have as it is.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Closed {
+    pub why: String,
+    /// The keys that it has against it.
+    pub by: Vec<String>,
+}
+
+/// What a `scene` can't have beside what it has, by key or `key=value`. Its loading law is `loading` if it names none.
+pub fn closed(scene: &DeTable<'_>, loading: &str) -> BTreeMap<String, Closed> {
+    let chosen = chosen(scene, loading);
+    let mut closed = BTreeMap::new();
+    for rule in RULES.iter().filter(|rule| !rule.message.is_empty()) {
+        let law = Some(&chosen).filter(|_| rule.chosen);
+        let body = rule.body.as_ref().map(|body| scene.get(body.as_str()).and_then(|body| body.get_ref().as_table()));
+        let contact = contacts(scene).next().filter(|_| body.is_none());
+        if let Some(None) = body {
+            continue;
+        }
+        for (key, why) in rule.closes(&Seen { scene, law, contact, body: body.flatten(), materials: &[] }) {
+            closed.entry(key).or_insert(why);
+        }
+    }
+    closed
+}
+
+/// The keys of the table of laws that don't go with a loading law, and those that it needs.
+pub fn of_law(name: &str) -> [Vec<String>; 2] {
+    let text = format!("law.loading = {name:?}");
+    let tree = DeTable::parse(&text).expect("a name is a text");
+    let closed = closed(tree.get_ref(), name).into_keys();
+    let closed = closed.map(|key| key.split('=').next().unwrap_or_default().to_string());
+    let is_of_it =
+        |key: &Key| key.path == ["law", "loading"] && matches!(&key.is, Is::In(names) if names.contains(&name.into()));
+    let needing = RULES.iter().filter(|rule| !rule.forbids && rule.when.iter().all(|keys| keys.iter().any(is_of_it)));
+    let needed = needing.flat_map(|rule| &rule.what).map(|key| key.path.join("."));
+    let of_laws = |keys: &mut dyn Iterator<Item = String>| {
+        keys.filter_map(|key| key.strip_prefix("law.").map(String::from)).filter(|key| key != "loading").collect()
+    };
+    [of_laws(&mut closed.into_iter()), of_laws(&mut needed.into_iter())]
 }
 
 /// Numbers whose range depends on more than their key.

@@ -2,16 +2,11 @@
 
 use super::checked::{Scene, SceneLaws};
 use super::contacts::Contacts;
-use super::file::{LawTable, SceneFile};
+use super::file::SceneFile;
 use super::fmu;
 use crate::mistake::Mistake;
 use crate::own_curve;
 use brinell_contact::loading::AnyLoading;
-
-/// Whether the law is a curve of one's own.
-pub fn is_own(law: &LawTable) -> bool {
-    law.own_curve.is_some()
-}
 
 /// Puts the curve of the file into the laws of the `scene`. The numbers of the bodies that it belongs to are then constants of the FMU.
 pub fn settle(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> Result<(), Mistake> {

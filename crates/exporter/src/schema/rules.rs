@@ -7,7 +7,7 @@ use crate::pairing;
 use crate::parameters::{self, LawConstant};
 use crate::reading;
 use crate::scene::rules::{BODIES, Is, Key, Level, RULES, Rule};
-use crate::scene::{GROUND, taken_names};
+use crate::scene::{GROUND, reserved_names};
 use crate::table;
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
@@ -25,7 +25,7 @@ pub fn add(schema: &mut Value) {
         keys["contact"]["items"]["properties"][body]["allOf"] = of_table;
     }
     let contact = &mut keys["contact"]["items"]["properties"];
-    contact["name"]["not"] = json!({ "enum": taken_names() });
+    contact["name"]["not"] = json!({ "enum": reserved_names() });
     contact["between"]["uniqueItems"] = json!(true);
     for direction in ["normal", "tangent"] {
         contact[direction]["not"] = json!({ "items": { "const": 0 } });

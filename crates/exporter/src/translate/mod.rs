@@ -397,7 +397,7 @@ fn of_law(scene: &Scene, impact: Impact, is_asked: bool) -> Result<Outcome, Tran
 }
 
 /// What is beyond the validity of the scene's law at the largest of these speeds.
-fn doubts(scene: &Scene, impact: Impact) -> Vec<String> {
+fn beyond_validity(scene: &Scene, impact: Impact) -> Vec<String> {
     let own = scene.clone().with_strengths_for(Some(&impact));
     let found = own.and_then(|own| {
         let model = own.any_model();

@@ -2,6 +2,7 @@
 
 use super::law::Law;
 use super::runge_kutta;
+use crate::bisection::border;
 use libm::pow;
 
 /// What an impact is compared by. NaN where a tool does not define it.
@@ -82,7 +83,7 @@ pub fn exact(law: &Law, mass: f64, speed: f64) -> Option<Outcome> {
         let part = |part: f64| runge_kutta::step(&state, part, slope).map_or(next, |(state, _)| state);
         if state[1] > 0.0 && next[1] <= 0.0 {
             // the way back begins at the turning point, where laws with a memory have a corner
-            let turning = bisected(step, |step| part(step)[1] <= 0.0);
+            let turning = border((0.0, step), |step| part(step)[1] <= 0.0);
             (state, time) = (part(turning), time + turning);
             deepest = deepest.max(state[0]);
             state[1] = state[1].min(-f64::MIN_POSITIVE);
@@ -90,7 +91,7 @@ pub fn exact(law: &Law, mass: f64, speed: f64) -> Option<Outcome> {
             continue;
         }
         if over(deepest, &next) {
-            let end = bisected(step, |step| over(deepest, &part(step)));
+            let end = border((0.0, step), |step| over(deepest, &part(step)));
             return Some(Outcome {
                 restitution: -part(end)[1] / speed,
                 largest_force: peak.most,
@@ -108,16 +109,6 @@ pub fn exact(law: &Law, mass: f64, speed: f64) -> Option<Outcome> {
         }
     }
     None
-}
-
-/// The first instant up to `end` at which something `happens` that has happened at the end.
-fn bisected(end: f64, happens: impl Fn(f64) -> bool) -> f64 {
-    let (mut low, mut high) = (0.0, end);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        *(if happens(middle) { &mut high } else { &mut low }) = middle;
-    }
-    high
 }
 
 /// The largest of numbers over time, between them as on a parabola through three.

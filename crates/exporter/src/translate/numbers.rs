@@ -2,6 +2,7 @@
 
 use super::law::Law;
 use super::plastic::{POISSON, Plastic, Thornton};
+use crate::bisection::border;
 use libm::{exp, pow, sqrt};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -184,13 +185,10 @@ impl Context<'_> {
 fn impact_model_restitution(factor: f64) -> f64 {
     let upper = |restitution: f64| 1.5 * (1.0 - restitution) * (11.0 - restitution) / (1.0 + 9.0 * restitution);
     let lower = |restitution: f64| (1.0 - restitution * restitution) / restitution;
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        let reached = if middle > 1.0 / 3.0 { upper(middle) } else { lower(middle) };
-        *(if reached > factor { &mut low } else { &mut high }) = middle;
-    }
-    high
+    border((0.0, 1.0), |restitution| {
+        let reached = if restitution > 1.0 / 3.0 { upper(restitution) } else { lower(restitution) };
+        reached <= factor
+    })
 }
 
 /// The factor from SI to mm, tonne and second for a number of this `unit` with the exponent n.

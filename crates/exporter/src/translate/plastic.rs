@@ -1,5 +1,6 @@
 //! The elastoplastic laws of LAMMPS and LIGGGHTS.
 
+use crate::bisection::border;
 use libm::{acos, exp, hypot, pow, sqrt};
 use std::f64::consts::PI;
 
@@ -30,14 +31,10 @@ impl Plastic {
         let mut plastic = Plastic { modulus, strength, radius, yields: f64::INFINITY, noticed: None };
         // at a depth of zero the pressure of the yielding sphere is largest
         let most = 0.75 * PI * plastic.pressure(0.0) / modulus;
-        let (mut low, mut high) = (0.0, radius * most * most);
+        let high = radius * most * most;
         if high.is_finite() {
-            for _ in 0..80 {
-                let middle = 0.5 * (low + high);
-                let yielded = 4.0 * modulus * sqrt(middle / radius) / (3.0 * PI) > plastic.pressure(middle);
-                *(if yielded { &mut high } else { &mut low }) = middle;
-            }
-            plastic.yields = high;
+            let yielded = |x: f64| 4.0 * modulus * sqrt(x / radius) / (3.0 * PI) > plastic.pressure(x);
+            plastic.yields = border((0.0, high), yielded);
         }
         plastic
     }

@@ -6,7 +6,7 @@ use super::motion::{Outcome, PHASES, Promise, Stepping, exact};
 use super::numbers::Radii;
 use super::text::change;
 use super::tools::{Tool, ToolNumbers};
-use super::{Case, Request, Translated, doubts};
+use super::{Case, Request, Translated, beyond_validity};
 use crate::numbers::{quantity, significant};
 use crate::scene::Scene;
 use brinell_contact::Surface;
@@ -310,7 +310,7 @@ pub fn of_scene(
         notes.push(format!("{}'s numbers don't depend on a step: --step has no effect.", tool.title));
     }
     if let Some(fastest) = speeds.last() {
-        notes.extend(doubts(scene, Impact { mass, speed: *fastest }));
+        notes.extend(beyond_validity(scene, Impact { mass, speed: *fastest }));
     }
     notes
 }

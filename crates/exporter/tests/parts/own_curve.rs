@@ -5,7 +5,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::{self, AnyUnloading};
 use brinell_contact::{Body, Loading, Model, Numbered, OtherBody, Pair, Surface, TwoBodies};
 use brinell_exporter::own_curve::*;
-use brinell_exporter::scene::{Beside, Scene};
+use brinell_exporter::scene::{ReferencedFiles, Scene};
 use brinell_testing::physics::Random;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -202,8 +202,10 @@ fn scene(file: &str, more: &str) -> Result<Scene, String> {
          law = {{ loading = {{ table = \"fe.csv\" }} }}\n{more}"
     );
     let files = BTreeMap::from([("fe.csv".to_string(), Ok(file.as_bytes().to_vec()))]);
-    let beside = Beside { files, ..Beside::default() };
-    Scene::parse_beside(&text, Path::new("own.toml"), &beside).map(|(scene, _)| scene).map_err(|why| why.to_string())
+    let beside = ReferencedFiles { files, ..ReferencedFiles::default() };
+    Scene::parse_with_files(&text, Path::new("own.toml"), &beside)
+        .map(|(scene, _)| scene)
+        .map_err(|why| why.to_string())
 }
 
 fn csv(heading: &str, rows: &Rows, units: [f64; 3]) -> String {
@@ -255,5 +257,18 @@ fn a_scene_whose_file_does_not_fit_says_what_is_missing() {
     }
     let plain = "name = \"own\"\nimpactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\nlaw = { loading = \"table\" }\n";
     let said = Scene::parse(plain.into(), Path::new("own.toml")).unwrap_err().to_string();
-    assert!(said.contains("needs the file: law = { loading = { table = \"file.csv\" } }"), "{said}");
+    assert!(said.contains("needs the file, as in law.loading.table = \"file.csv\""), "{said}");
+}
+
+#[test]
+fn numbers_of_a_file_have_the_same_digits_in_a_scene() {
+    let depths: Vec<String> = (1..=200).map(|row| format!("{}.{:04}", row / 7, (row * 7919) % 10_000)).collect();
+    for (unit, power) in [("nm", -9), ("um", -6), ("mm", -3), ("cm", -2), ("m", 0)] {
+        let rows: String = depths.iter().map(|depth| format!("{depth};1.5\n")).collect();
+        let found = read(format!("depth [{unit}];force [N]\n{rows}").as_bytes()).expect("a table");
+        for (written, number) in depths.iter().zip(&found.depth) {
+            let expected: f64 = format!("{written}e{power}").parse().unwrap();
+            assert_eq!(*number, expected, "{written} {unit}");
+        }
+    }
 }

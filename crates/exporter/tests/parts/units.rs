@@ -99,14 +99,16 @@ fn what_is_wrong_with_a_unit_is_said_with_what_is_allowed() {
 
 #[test]
 fn a_number_of_the_command_line_has_a_unit_or_is_in_si() {
-    assert_eq!(lengths("5mm"), Ok(5e-3));
-    assert_eq!(lengths("5e-3"), Ok(5e-3));
-    assert_eq!(masses("4.11 g"), Ok(4.11e-3));
-    assert_eq!(speeds("3.6km/h"), Ok(1.0));
-    assert_eq!(angles("45"), Ok(45.0));
-    assert!(energies("five").unwrap_err().contains("a number in joules is expected, or with a unit like one of `uJ`"));
-    assert!(speeds("5mm").unwrap_err().contains("mm is a length; a speed has"));
-    assert_eq!((speeds("1,5"), lengths("-0,25 mm")), (Ok(1.5), Ok(-0.25e-3)));
+    assert_eq!(number("5mm", "m"), Ok(5e-3));
+    assert_eq!(number("5e-3", "m"), Ok(5e-3));
+    assert_eq!(number("4.11 g", "kg"), Ok(4.11e-3));
+    assert_eq!(number("3.6km/h", "m/s"), Ok(1.0));
+    assert_eq!(number("45", "deg"), Ok(45.0));
+    assert!(
+        number("five", "J").unwrap_err().contains("a number in joules is expected, or with a unit like one of `uJ`")
+    );
+    assert!(number("5mm", "m/s").unwrap_err().contains("mm is a length; a speed has"));
+    assert_eq!((number("1,5", "m/s"), number("-0,25 mm", "m")), (Ok(1.5), Ok(-0.25e-3)));
 }
 
 /// Every usual unit: what is out of range is said in the unit in which it was given.

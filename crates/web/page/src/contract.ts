@@ -21,13 +21,21 @@ export interface Written {
   number?: number;
 }
 
+/** What a scene can't have as it is: why, and the keys that it has against it. */
+export interface Closed {
+  why: string;
+  by: string[];
+}
+
 export interface Check {
   values: Table | null;
   /** By their paths, as `impactor.radius`. */
   quantities: { [path: string]: Written };
   mistakes: Mistake[];
-  doubts: Mistake[];
+  warnings: Mistake[];
   files: string[];
+  /** By key, `target.thickness`, or by key and value, `law.loading=line`. */
+  closed: { [key: string]: Closed };
 }
 
 /** What somebody types in a field, with the unit or scale beside it; `bare` if the scene has a number without a unit. */
@@ -62,6 +70,9 @@ export interface LawEntry {
   says: string;
   validity: string;
   recommended?: boolean;
+  /** Keys of the table of laws that don't go with a loading law, and those that it needs. */
+  closes?: string[];
+  needs?: string[];
 }
 
 export interface About {

@@ -176,7 +176,7 @@ export class Editor {
       severity,
       message,
     });
-    const { mistakes, doubts } = this.scene.check;
-    this.view.dispatch(setDiagnostics(this.view.state, [...mistakes.map(diagnostic("error")), ...doubts.map(diagnostic("warning"))]));
+    const { mistakes, warnings } = this.scene.check;
+    this.view.dispatch(setDiagnostics(this.view.state, [...mistakes.map(diagnostic("error")), ...warnings.map(diagnostic("warning"))]));
   }
 }

@@ -1,5 +1,5 @@
 // Fields of the form. Each shows one key of the scene (or a choice between keys) and edits it; labels and help come from the schema.
-import type { About, Edit, Json, Material, Path } from "./contract";
+import type { About, Closed, Edit, Json, Material, Path } from "./contract";
 import { h, id, options } from "./dom";
 import { key, type Scene } from "./scene";
 import { help, type Schema, words } from "./schema";
@@ -46,6 +46,12 @@ function shell(context: Context, path: Path, look: Look, control: HTMLElement, l
   };
   explain(look.help ?? (info ? help(info) : ""));
   return { element, mark, explain };
+}
+
+/** Hides a field whose keys don't go with the scene. */
+export function updateOpen({ scene }: Context, field: Field): void {
+  field.update();
+  field.element.hidden = field.paths.length > 0 && field.paths.every((path) => scene.closed(path));
 }
 
 const focused = (element: HTMLElement): boolean => element.contains(document.activeElement);
@@ -144,8 +150,15 @@ export function choice(context: Context, path: Path, choices: [value: Json, labe
       select.append(...options([[shown, shown]]));
     }
     select.value = shown;
+    choices.forEach(([one], at) => close(select.options[at]!, one === null ? undefined : context.scene.closed(path, one)));
   };
   return { element, mark, paths: [path], update };
+}
+
+/** Disables an option that doesn't go with the scene, and says why. */
+function close(option: HTMLOptionElement, closed: Closed | undefined): void {
+  option.disabled = closed !== undefined;
+  option.title = closed?.why ?? "";
 }
 
 /** Several of a list, as checkboxes. */
@@ -154,6 +167,7 @@ export function several(context: Context, path: Path, names: readonly (readonly 
     const box = h("input", { type: "checkbox", value: name, "data-test": `${key(path)}.${name}`, onchange: send });
     return { box, label: h("label", { class: "check", title }, box, ` ${name}`) };
   });
+  const titles = new Map(names);
   const set = h("fieldset", {}, h("legend", {}, look.label ?? words(String(path.at(-1)))), ...boxes.map(({ label }) => label));
   const wrong = h("p", { class: "wrong", role: "alert" });
   function send(): void {
@@ -165,7 +179,11 @@ export function several(context: Context, path: Path, names: readonly (readonly 
     paths: [path],
     update() {
       const value = context.scene.value(...path);
-      for (const { box } of boxes) box.checked = Array.isArray(value) && value.includes(box.value);
+      for (const { box, label } of boxes) {
+        const closed = context.scene.closed(path, box.value);
+        [box.checked, box.disabled] = [Array.isArray(value) && value.includes(box.value), closed !== undefined];
+        label.title = closed?.why ?? titles.get(box.value) ?? "";
+      }
     },
     mark(at, message) {
       wrong.textContent = at === key(path) || at.startsWith(`${key(path)}.`) ? message : "";
@@ -207,10 +225,17 @@ export interface Alternative {
 }
 
 /** A choice between keys of which one is given; choosing another one removes those of the others. */
-export function oneOf({ scene }: Context, test: string, label: string, alternatives: Alternative[], help = ""): Field {
+export function oneOf(context: Context, test: string, label: string, alternatives: Alternative[], help = ""): Field {
   const select = h("select", { "data-test": test, id: id(), onchange: change },
     ...options(alternatives.map((alternative, index) => [String(index), alternative.label])));
+  const { scene } = context;
   const fields = alternatives.flatMap(({ field }) => field ?? []);
+  const keys = new Set(alternatives.flatMap((alternative) => alternative.keys.map(key)));
+  /** Why none of these keys goes with the scene; what another alternative has against it goes with that. */
+  const closing = (paths: Path[]): Closed | undefined => {
+    const closed = paths.map((path) => scene.closed(path)).filter((one) => one && !one.by.some((by) => keys.has(by)));
+    return closed.length === paths.length ? closed[0] : undefined;
+  };
   const given = (path: Path): boolean => scene.value(...path) !== undefined;
   function change(): void {
     const chosen = alternatives[select.selectedIndex];
@@ -228,20 +253,21 @@ export function oneOf({ scene }: Context, test: string, label: string, alternati
     update() {
       const found = alternatives.findIndex(({ keys }) => keys.some(given));
       if (!scene.busy) select.selectedIndex = found >= 0 ? found : alternatives.findIndex(({ keys }) => keys.length === 0);
-      show();
+      alternatives.forEach((alternative, at) => close(select.options[at]!, closing(alternative.keys)));
       for (const field of fields) field.update();
+      show();
     },
     mark: (path, message) => fields.forEach((field) => field.mark(path, message)),
   };
 }
 
 /** Several fields as one. */
-export function group(...fields: (Field | null)[]): Field {
+export function group(context: Context, ...fields: (Field | null)[]): Field {
   const present = fields.filter((field) => field !== null);
   return {
     element: h("div", { class: "group" }, ...present.map(({ element }) => element)),
     paths: present.flatMap(({ paths }) => paths),
-    update: () => present.forEach((field) => field.update()),
+    update: () => present.forEach((field) => updateOpen(context, field)),
     mark: (path, message) => present.forEach((field) => field.mark(path, message)),
   };
 }

@@ -1,7 +1,7 @@
 // Bodies and impact as a form: what people know about them, in the units that they use. What is rare is folded.
-import type { Edit, Json, LawEntry, Mistake, Path } from "./contract";
+import type { Json, LawEntry, Mistake, Path } from "./contract";
 import { fold, h, id } from "./dom";
-import { type Alternative, anyField, choice, type Context, type Field, group, material, materialOf, oneOf, quantity, several, textField, withScale } from "./fields";
+import { type Alternative, anyField, choice, type Context, type Field, group, material, materialOf, oneOf, quantity, several, textField, updateOpen, withScale } from "./fields";
 import { placeAt } from "./places";
 import { key } from "./scene";
 
@@ -9,6 +9,9 @@ const SCALES = ["HBW 10/3000", "HBW 2.5/187.5", "HV10", "HV1", "HRC", "HRB", "HL
 /** Keys that only an elastic body has. */
 const ELASTIC = ["material", "youngs_modulus", "poissons_ratio"];
 const STRENGTH = ["yield_strength", "hardness", "tensile_strength", "power_law", "tensile_test"];
+
+/** What a key begins with that a law needs. */
+const STARTS: { [key: string]: Json } = { restitution: 0.7 };
 
 type Body = "impactor" | "target";
 const set = (path: Path, value: Json): { path: Path; value: Json } => ({ path, value });
@@ -28,8 +31,8 @@ function strength(context: Context, body: Body): Field {
     { label: "tensile strength", keys: [at("tensile_strength")], start: () => [set(at("tensile_strength"), "500 MPa")],
       field: quantity(context, at("tensile_strength")) },
     { label: "tensile test", keys: [at("tensile_test")],
-      start: () => [set(at("tensile_test"), { proof_stress: "240 MPa", tensile_strength: "480 MPa" })], field: group(...test) },
-    { label: "power law K εⁿ", keys: [at("power_law")], start: () => [set(at("power_law"), { coefficient: "600 MPa", exponent: 0.2 })], field: group(...powerLaw) },
+      start: () => [set(at("tensile_test"), { proof_stress: "240 MPa", tensile_strength: "480 MPa" })], field: group(context, ...test) },
+    { label: "power law K εⁿ", keys: [at("power_law")], start: () => [set(at("power_law"), { coefficient: "600 MPa", exponent: 0.2 })], field: group(context, ...powerLaw) },
   ], "What you know of the strength. A hardness or a tensile strength becomes the yield strength at the strain of this impact.");
 }
 
@@ -50,7 +53,7 @@ function elasticity(context: Context, body: Body): Field {
   return oneOf(context, `${body}.body`, "Body", [
     { label: "elastic: a material", keys: [at("material")], start: () => [set(at("material"), start)], field: material(context, at("material")) },
     { label: "elastic: own moduli", keys: [at("youngs_modulus"), at("poissons_ratio")],
-      start: () => [set(at("youngs_modulus"), "206 GPa"), set(at("poissons_ratio"), 0.3)], field: group(young!, poisson!) },
+      start: () => [set(at("youngs_modulus"), "206 GPa"), set(at("poissons_ratio"), 0.3)], field: group(context, young!, poisson!) },
     neither,
   ], body === "impactor" ? "A rigid body doesn't deform; an elastic one does, and the softer of the two yields." : "");
 }
@@ -60,25 +63,26 @@ function laws(context: Context): Field {
   const chosen = h("p", { class: "chosen", "data-test": "law.chosen" });
   const name = id();
   const loadings = about.laws.loading.toSorted((a, b) => Number(b.recommended ?? false) - Number(a.recommended ?? false));
-  const radio = (law: LawEntry, damped: boolean): HTMLLabelElement =>
+  const radio = (law: LawEntry): HTMLLabelElement =>
     h("label", { class: "law", "data-help": law.says },
-      h("input", { type: "radio", name, value: law.name, "data-test": `law.${law.name}`, onchange: () => take(law.name, damped) }),
+      h("input", { type: "radio", name, value: law.name, "data-test": `law.${law.name}`, onchange: () => take(law) }),
       h("span", {}, h("b", {}, law.title), law.recommended ? h("em", {}, "recommended") : null, law.recommended ? null : h("small", {}, law.validity)));
-  const first = loadings.filter((law) => law.recommended).map((law) => radio(law, false));
-  const others = loadings.filter((law) => !law.recommended).map((law) => radio(law, false));
-  const damped = about.laws.damped.map((law) => radio(law, true));
+  const first = loadings.filter((law) => law.recommended).map(radio);
+  const others = loadings.filter((law) => !law.recommended).map(radio);
+  const damped = about.laws.damped.map(radio);
   const unloading = choice(context, ["law", "unloading"],
     [[null, "that of the law"], ...about.laws.unloading.map((law): [Json, string] => [law.name, law.title])]);
-  const details = group(unloading, anyField(context, ["law", "passivity_guard"]));
-  const damping = group(anyField(context, ["law", "restitution"]), anyField(context, ["law", "damping"]));
-  function take(loading: string, rateDependent: boolean): void {
-    const given = (keys: string[]): Edit[] => keys.filter((one) => scene.value("law", one) !== undefined).map((one) => set(["law", one], null));
-    const restitution = rateDependent && !/kuwabara|adams/.test(loading);
+  const details = group(context, unloading, anyField(context, ["law", "passivity_guard"]));
+  const damping = group(context, anyField(context, ["law", "restitution"]), anyField(context, ["law", "damping"]));
+  function take(loading: LawEntry): void {
+    const law = (name: string): Json | undefined => scene.value("law", name);
+    // what belongs to the law before, and what doesn't go with this one
+    const others = new Set(["unloading", "loading_parameters", "unloading_parameters", "passivity_guard", "damping", ...(loading.closes ?? [])]);
+    const start = (loading.needs ?? []).filter((name) => name in STARTS && law(name) === undefined);
     scene.edit(
-      ...given(["unloading", "loading_parameters", "unloading_parameters", "damping_parameters", "passivity_guard", "elastic_restitution", "damping",
-        ...(restitution ? [] : ["restitution"])]),
-      set(["law", "loading"], loading),
-      ...(restitution && scene.value("law", "restitution") === undefined ? [set(["law", "restitution"], 0.7)] : []),
+      ...[...others].filter((name) => law(name) !== undefined).map((name) => set(["law", name], null)),
+      set(["law", "loading"], loading.name),
+      ...start.map((name) => set(["law", name], STARTS[name]!)),
     );
   }
   const folded = fold("Other laws", "law.others", ...others, h("h3", {}, "Rate-dependent, without dents"), ...damped);
@@ -90,16 +94,18 @@ function laws(context: Context): Field {
       const now = scene.value("law", "loading") ?? loadings[0]?.name;
       const boxes = [...first, ...others, ...damped].map((label) => label.querySelector("input")!);
       const found = boxes.find(({ value }) => value === now);
-      for (const box of boxes) box.checked = box === found;
-      const isDamped = damped.some((label) => label.contains(found ?? null));
+      for (const box of boxes) {
+        // what the table of laws has against it goes with the law before
+        const closed = scene.closed(["law", "loading"], box.value);
+        const stays = closed && closed.by.some((by) => !by.startsWith("law."));
+        [box.checked, box.disabled, box.title] = [box === found, Boolean(stays), stays ? closed.why : ""];
+      }
       const entry = [...about.laws.loading, ...about.laws.damped].find((law) => law.name === found?.value);
       const isOwn = typeof now === "object"; // rows of depth and force
       chosen.textContent = isOwn ? "Law: a curve of your own" : entry && !entry.recommended ? `Law: ${entry.title}` : "";
       chosen.hidden = !chosen.textContent;
-      damping.element.hidden = !isDamped;
-      details.element.hidden = isDamped || isOwn;
-      damping.update();
-      details.update();
+      for (const field of [damping, details]) updateOpen(context, field);
+      details.element.hidden ||= isOwn;
     },
   };
 }
@@ -112,7 +118,7 @@ function contacts(context: Context): { element: HTMLElement; fields: () => Field
   let shape = "";
   const length = (name: string): number => ((list) => (Array.isArray(list) ? list.length : 0))(scene.value(name));
   const entry = (name: string, index: number, ...inside: (Field | null)[]): HTMLElement => {
-    const one = group(...inside);
+    const one = group(context, ...inside);
     fields.push(one);
     return h("div", { class: "entry", "data-test": `${name}.${index}` }, one.element,
       h("button", { type: "button", class: "quiet", "data-test": `${name}.${index}.remove`,
@@ -185,7 +191,7 @@ export class Form {
     const friction = oneOf(context, "friction.kind", "Friction", [
       { label: "none", keys: [] },
       { label: "Coulomb", keys: [["friction"]], start: () => [set(["friction", "coefficient"], 0.1)],
-        field: group(any("friction", "coefficient"), any("friction", "directions")) },
+        field: group(context, any("friction", "coefficient"), any("friction", "directions")) },
     ]);
     const loss = oneOf(context, "law.loss", "Loss below yield", [
       { label: "none", keys: [] },
@@ -193,7 +199,7 @@ export class Form {
         field: quantity(context, ["law", "elastic_restitution"]) },
     ]);
     const rate = (model: string, ...names: string[]): Field =>
-      group(choice(context, ["target", "rate", "model"], [[model, model]]), ...names.map((name) => quantity(context, ["target", "rate", name])));
+      group(context, choice(context, ["target", "rate", "model"], [[model, model]]), ...names.map((name) => quantity(context, ["target", "rate", name])));
     const rates = oneOf(context, "target.rate.kind", "Strain rate of the target", [
       { label: "as the strength says", keys: [] },
       { label: "Johnson and Cook", keys: [["target", "rate", "c"]],
@@ -204,7 +210,7 @@ export class Form {
     const coupling = oneOf(context, "coupling.kind", "The bodies are moved by", [
       { label: "the importer", keys: [] },
       { label: "the FMU, in its own steps", keys: [["coupling"]], start: () => [set(["coupling", "effective_mass"], mass())],
-        field: group(any("coupling", "effective_mass"), any("coupling", "master"),
+        field: group(context, any("coupling", "effective_mass"), any("coupling", "master"),
           several(context, ["coupling", "inputs"], [["external_acceleration", ""], ["effective_mass", ""]])) },
     ], "With a mass, the FMU is right at any step of the importer.");
     const outputs = (context.schema.info(["fmu", "outputs", 0])?.choices ?? [])
@@ -264,7 +270,8 @@ export class Form {
 
   update(): void {
     const { scene } = this.context;
-    for (const part of [...this.#fields, ...this.#rest]) part.update();
+    for (const field of this.#fields) updateOpen(this.context, field);
+    for (const part of this.#rest) part.update();
     const mistake = scene.check.mistakes[0];
     const place = mistake && placeAt(scene.places, mistake.from);
     const at = place ? key(place.path) : "";

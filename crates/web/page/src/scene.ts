@@ -1,5 +1,5 @@
 // The scene: one text, which form and editor both show. Edits of the form go through the exporter, which keeps comments.
-import type { Check, Edit, Json, Path, Table, Typed, Written } from "./contract";
+import type { Check, Closed, Edit, Json, Path, Table, Typed, Written } from "./contract";
 import { toast } from "./dom";
 import type { Engine } from "./engine";
 import { Refusal } from "./engine";
@@ -16,7 +16,7 @@ export function valueAt(values: Json | undefined, path: Path): Json | undefined 
 
 export class Scene {
   text = "";
-  check: Check = { values: {}, quantities: {}, mistakes: [], doubts: [], files: [] };
+  check: Check = { values: {}, quantities: {}, mistakes: [], warnings: [], files: [], closed: {} };
   /** The last values of a text that was TOML. */
   values: Table = {};
   #quantities: Check["quantities"] = {};
@@ -47,6 +47,16 @@ export class Scene {
 
   value(...path: Path): Json | undefined {
     return valueAt(this.values, path);
+  }
+
+  /** Why the scene can't have this key, or this value of it, beside what it has; what it has may stay. */
+  closed(path: Path, value?: Json): Closed | undefined {
+    const now = this.value(...path);
+    if (now !== undefined && (value === undefined || now === value || (Array.isArray(now) && now.includes(value)))) return undefined;
+    if (value !== undefined) return this.check.closed[`${key(path)}=${String(value)}`];
+    // a key is closed with the table that it would begin
+    const tables = path.map((_, at) => path.slice(0, at + 1)).filter((part) => this.value(...part) === undefined);
+    return tables.map((part) => this.check.closed[key(part)]).find(Boolean);
   }
 
   /** Number and unit of a key whose text has both. */

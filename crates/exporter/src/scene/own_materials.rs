@@ -10,9 +10,9 @@ use crate::table::{Class, MATERIALS, Material};
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write;
 
-/// What lies beside a scene.
+/// The files that a scene refers to: those that it names, and tables of materials.
 #[derive(Default)]
-pub struct Beside {
+pub struct ReferencedFiles {
     /// The bytes of the files that the scene [names](super::files_named), or why they can't be read.
     pub files: BTreeMap<String, Result<Vec<u8>, String>>,
     /// Tables of materials; the first one that has a name is asked.
@@ -125,7 +125,7 @@ fn check_material(table: &Spanned<Material>) -> Result<(), Mistake> {
 
 /// Adds to the scene's `all` those materials of the `tables` that it has `used`, and returns them as tables of a scene.
 pub fn take_in(used: &[Spanned<String>], all: &mut Vec<OwnMaterial>, tables: &[MaterialTable]) -> String {
-    let mut taken = String::new();
+    let mut added = String::new();
     for name in used {
         if all.iter().any(|own| own.material.is_called(name.get_ref())) {
             continue;
@@ -141,10 +141,10 @@ pub fn take_in(used: &[Spanned<String>], all: &mut Vec<OwnMaterial>, tables: &[M
         let table = toml::to_string(&found.material).expect("a table of text and numbers");
         // a table in it has a name of its own
         let table = table.replace("\n[tension]", "\n[material.tension]");
-        write!(taken, "\n[[material]]\n{table}").expect("a String takes everything");
+        write!(added, "\n[[material]]\n{table}").expect("a String takes everything");
         all.push(found);
     }
-    taken
+    added
 }
 
 /// The material of this name or with this alias: of the scene's `own`, then built in.
