@@ -1,6 +1,9 @@
 //! FMUs of a loading curve of one's own, compiled and prebuilt, that do what is predicted of it.
 
+use crate::both_ways::Both;
 use crate::command::{compile, empty_folder, run};
+use crate::physics::Random;
+use crate::prebuilt::store;
 use crate::written::Written;
 use std::fs;
 
@@ -46,10 +49,13 @@ fn an_fmu_of_an_own_curve_agrees_with_the_prediction() {
 }
 
 #[test]
-fn a_compiled_library_has_an_own_curve_alone() {
+fn a_compiled_library_has_an_own_curve_alone_and_says_what_a_prebuilt_one_says() {
     let row = |row: u32| (f64::from(row) * 1e-6, 2.134e10 * (f64::from(row) * 1e-6).powf(1.5) * 0.7);
     let list = |of: &dyn Fn(u32) -> f64| (1..20).map(|row| format!("{:e}", of(row))).collect::<Vec<_>>().join(", ");
     let rows = format!("{{ depth = [{}], force = [{}] }}", list(&|at| row(at).0), list(&|at| row(at).1));
-    let written = Written::of(&scene(IMPACT).replace("\"fe.csv\"", &rows));
+    let text = scene(IMPACT).replace("\"fe.csv\"", &rows);
+    let written = Written::of(&text);
     assert!(written.rust.contains("contact::loading::Tabulated, contact::unloading::Tabulated"), "{}", written.rust);
+    // also beyond the last row
+    Both::of(text, store()).compare(100, &mut Random(7));
 }

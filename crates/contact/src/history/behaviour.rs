@@ -182,7 +182,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
 
     #[inline(always)]
     fn widths<B: Borrow<Model<L, U>>>(model: impl FnOnce() -> B, radius: f64, size: f64) -> [f64; 2] {
-        if !L::has_chain() {
+        if !L::has_own_widths() {
             return [largest_radius(radius, size), size];
         }
         let model = model();

@@ -55,6 +55,10 @@ impl Loading for AnyLoading {
         self.law().area(pair, radius)
     }
 
+    fn has_own_widths() -> bool {
+        true
+    }
+
     fn widths(&self, pair: &Pair, size: f64) -> [f64; 2] {
         self.law().widths(pair, size)
     }

@@ -575,6 +575,10 @@ impl Loading for Line {
         2.0 * radius * (self.length * pair.radius)
     }
 
+    fn has_own_widths() -> bool {
+        true
+    }
+
     fn widths(&self, pair: &Pair, size: f64) -> [f64; 2] {
         let own = self.size(pair);
         [smallest(largest_radius(pair.radius, size), LARGEST_PART * own), smallest(size, own)]

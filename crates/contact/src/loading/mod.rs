@@ -145,6 +145,14 @@ pub trait Loading {
         PI * radius * radius
     }
 
+    /// Whether the law may have [widths](Loading::widths) of its own. Otherwise only the radii of the bodies count.
+    fn has_own_widths() -> bool
+    where
+        Self: Sized,
+    {
+        false
+    }
+
     /// The contact radii \[m\] up to which the law is valid, and from which on there is no contact at all, for bodies of which the smaller
     /// one has this `size` \[m\].
     fn widths(&self, pair: &Pair, size: f64) -> [f64; 2] {

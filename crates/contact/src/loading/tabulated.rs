@@ -222,6 +222,10 @@ impl Loading for Tabulated {
         (radius, Recovery { factor: recovery, difference })
     }
 
+    fn has_own_widths() -> bool {
+        true
+    }
+
     /// Valid up to the last knot.
     fn widths(&self, pair: &Pair, size: f64) -> [f64; 2] {
         let last = self.knots().last().map_or(0.0, |knot| pair.radius * sqrt(knot.square));

@@ -134,7 +134,7 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
 
     #[inline(always)]
     fn widths<B: Borrow<Model<L, U, K>>>(model: impl FnOnce() -> B, radius: f64, size: f64) -> [f64; 2] {
-        if !L::has_chain() {
+        if !L::has_own_widths() {
             return [largest_radius(radius, size), size];
         }
         let model = model();
