@@ -127,6 +127,11 @@ impl Sources {
         for variable in ["CARGO_ENCODED_RUSTFLAGS", "RUSTFLAGS", "RUSTUP_TOOLCHAIN", "RUSTC", "CARGO"] {
             cargo.env_remove(variable);
         }
+        // rustup's rustc would follow the file of a toolchain that a crate may have in its folder
+        let rustc = Path::new(env!("CARGO")).with_file_name("rustc");
+        if toolchain.is_empty() && rustc.is_file() {
+            cargo.env("RUSTC", rustc);
+        }
         cargo
     }
 
