@@ -286,6 +286,22 @@ def test_tables_and_pictures_are_written(unit, tmp_path):
         assert sorted(path.name for path in tmp_path.iterdir()) == sorted(file.name for file in files)
 
 
+@pytest.mark.parametrize("ending", [".csv", ".parquet", ".svg"])
+def test_a_table_that_cannot_be_written_whole_leaves_the_one_before(ending, unit, tmp_path, monkeypatch):
+    def half(path, *_, **__):
+        Path(path).write_text("half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pandas.DataFrame.to_csv", lambda _, path, **__: half(path))
+    monkeypatch.setattr("pandas.DataFrame.to_parquet", lambda _, path, **__: half(path))
+    monkeypatch.setattr("brinell.studies.picture.draw", half)
+    before = tmp_path / f"table{ending}"
+    before.write_text("an older one")
+    with pytest.raises(OSError, match="No space"):
+        brinell.study(unit, {"speed": "1:2:2"}, mass=4e-3, output=before, progress=False)
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [(before.name, "an older one")]
+
+
 @pytest.mark.skipif(os.name == "nt", reason="needs SIGKILL")
 def test_the_processes_of_a_killed_study_end_with_it(unit, tmp_path):
     program = f"""

@@ -104,14 +104,15 @@ def study(
     plain = {name: name.removesuffix("_low").removesuffix("_high") for name in table}
     made.attrs["units"] = {name: units.get(name) or units[plain[name]] for name in table}
     for path in outputs:
-        if path.suffix in PICTURES:
-            from .picture import draw
+        with temporary.draft(path) as whole:
+            if path.suffix in PICTURES:
+                from .picture import draw
 
-            draw(path, made, list(values))
-        elif path.suffix == ".csv":
-            made.to_csv(path, index=False)
-        else:
-            made.to_parquet(path, index=False)
+                draw(whole, made, list(values))
+            elif path.suffix == ".csv":
+                made.to_csv(whole, index=False)
+            else:
+                made.to_parquet(whole, index=False)
     return made
 
 
