@@ -1,6 +1,6 @@
 //! `brinell laws`: the laws as the table describes them, with their constants.
 
-mod numbers;
+mod laws;
 mod text;
 
 use crate::messages::WrongCall;
@@ -9,7 +9,7 @@ use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::laws::loading_names;
 use brinell_exporter::layout::json_line;
 use brinell_exporter::nearest::unknown;
-use numbers::those;
+use laws::those;
 use std::error::Error;
 
 /// The arguments of `brinell laws`.

@@ -1,6 +1,6 @@
 //! The laws as text: tables, and a paragraph for each law.
 
-use super::numbers::{ASKED, LawList, Loads, Rated, Told};
+use super::laws::{ASKED, LawList, Loads, Rated, Told};
 use brinell_exporter::layout::{WIDTH, paragraph, table};
 use brinell_exporter::numbers::significant;
 use brinell_exporter::pairing;
