@@ -65,7 +65,7 @@ mod exporter {
         found.unwrap_or_else(|error| panic!("cargo doesn't say where libm {version} is:\n{error}"))
     }
 
-    /// The folder of `libm` according to `cargo metadata` for the package in `folder`, which has one other manifest.
+    /// The folder of `libm` according to `cargo metadata` for the package in `folder`.
     fn metadata(root: &Path, folder: &Path, more: &[&str]) -> Result<PathBuf, String> {
         let mut cargo = Command::new(env::var_os("CARGO").expect("cargo sets it"));
         cargo.args(["metadata", "--format-version=1", "--locked"]).args(more);

@@ -320,7 +320,7 @@ pub struct TensileTestTable {
     pub section: Option<Spanned<f64>>,
     /// Initial gauge length of the specimen, for a file with its change of length.
     pub gauge_length: Option<Spanned<f64>>,
-    /// Whether the compliance of the machine is added off the strain, so that the curve begins with Young's modulus.
+    /// Whether the compliance of the machine is taken off the strain, so that the curve begins with Young's modulus.
     #[schemars(extend("default" = false))]
     pub compliance_correction: Option<Spanned<bool>>,
 }
