@@ -72,14 +72,11 @@ fn every_mistake_applies_to_the_sources() {
 #[track_caller]
 fn build(sources: &Sources, scene: &Path, way: &Way, mistake: Option<Mistake>) -> (PathBuf, PathBuf) {
     let place = sources.use_scene(scene);
-    let before = mistake.map(|(file, old, new)| {
-        let text = sources.replace(file, old, &new.replace('~', old));
-        (file, text.expect("a test has found the text"))
-    });
-    let library = sources.library("checked", way);
-    if let Some((file, text)) = before {
-        sources.restore(file, &text);
-    }
+    let build = || sources.library("checked", way);
+    let library = match mistake {
+        Some((file, old, new)) => sources.changed((file, old, &new.replace('~', old)), build),
+        None => build(),
+    };
     (library.unwrap_or_else(|said| panic!("{said}")), place)
 }
 

@@ -52,7 +52,10 @@ fn worker() {
             let check = CHECKS.iter().find(|check| check.name == name);
             (check.unwrap_or_else(|| panic!("no check {name:?}")).run)(&face);
         }
-        Err(_) => CHECKS.iter().for_each(|check| (check.run)(&face)),
+        Err(_) => CHECKS.iter().for_each(|check| {
+            println!("check: {}", check.name);
+            (check.run)(&face);
+        }),
     }
     if let Ok(file) = env::var(COUNT) {
         fs::write(file, CALLS.load(Ordering::Relaxed).to_string()).expect("the target folder can be written to");

@@ -1,16 +1,16 @@
-//! Which tests in Rust find which mistakes: `matrix.csv`, a line for each mistake and program.
+//! Which tests find which mistakes: `matrix.csv`, a line for each mistake and program.
 //!
-//! A test whose claim others say as well, and that no mistake needs, may go; a mistake that none finds any more brings its
-//! test back. `BRINELL_DEFECTS` chooses mistakes here as well, and `BRINELL_PROGRAMS` programs; all other lines stay as they are.
+//! Of the programs in Rust all tests that fail are listed, of the conformance suite the first check. A test whose claim others say as
+//! well, and that no mistake needs, may go; a mistake that none finds any more brings its test back. `BRINELL_DEFECTS` chooses
+//! mistakes here as well, and `BRINELL_PROGRAMS` programs; all other lines stay as they are.
 
-use super::{chosen, defects};
-use brinell_testing::{child, rebuilt::Sources};
+use super::{Defect, LIMIT_OF_PROGRAM, Tests, chosen, defects, planted};
+use brinell_testing::{child, toolchain::TestProgram};
 use std::collections::{BTreeMap, BTreeSet};
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::Duration;
 
 /// The programs that need no FMU, and what a mistake must be in to be found by them.
 const PROGRAMS: [(&str, &[&str]); 3] = [
@@ -18,9 +18,6 @@ const PROGRAMS: [(&str, &[&str]); 3] = [
     ("instances", &["crates/contact/", "crates/fmu/"]),
     ("c_functions", &["crates/contact/", "crates/fmu/"]),
 ];
-
-/// The longest time for a program; one that hangs has found the mistake.
-const LIMIT: Duration = Duration::from_secs(1200);
 
 /// For a name and a program, the tests that fail.
 type Matrix = BTreeMap<(String, String), Vec<String>>;
@@ -46,41 +43,62 @@ fn write(matrix: &Matrix) {
     fs::write(path(), text).expect("the folder of the tests can be written to");
 }
 
-/// The tests of `program`, a file, that fail.
-fn failing(program: &Path, log: &Path) -> Vec<String> {
-    let mut command = Command::new(program);
-    command.current_dir(program.parent().expect("a folder"));
-    let Err(failure) = child::run(&mut command, log, LIMIT) else { return Vec::new() };
-    let said = fs::read_to_string(log).unwrap_or_default();
-    let failed = said.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
-    let mut failed: Vec<String> = failed.map(String::from).collect();
-    match failure {
-        child::Failure::Hang { .. } => failed.push("(no end)".into()),
-        child::Failure::Ended { .. } if failed.is_empty() => failed.push("(crash)".into()),
-        child::Failure::Ended { .. } => failed.sort(),
+impl Tests {
+    /// The tests of `program` that fail with a mistake.
+    fn failing(&self, program: &TestProgram, defect: &Defect) -> Vec<String> {
+        let mut command = Command::new(&program.file);
+        command.current_dir(&program.package).env(planted::VARIABLE, defect.number.to_string());
+        let log = self.program.with_extension("log");
+        let Err(failure) = child::run(&mut command, &log, LIMIT_OF_PROGRAM) else { return Vec::new() };
+        let said = fs::read_to_string(log).unwrap_or_default();
+        let failed = said.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
+        let mut failed: Vec<String> = failed.map(String::from).collect();
+        match failure {
+            child::Failure::Hang { .. } => failed.push("(no end)".into()),
+            child::Failure::Ended { .. } if failed.is_empty() => failed.push("(crash)".into()),
+            child::Failure::Ended { .. } => failed.sort(),
+        }
+        failed
     }
-    failed
+
+    /// The first check of the conformance suite that fails with a mistake.
+    fn failing_check(&self, defect: &Defect) -> Option<String> {
+        let library = self.library_for(defect).expect("the mistake applies");
+        let said = self.run("conformance: all", &library, defect.number).err()?;
+        let name = said.lines().rev().find_map(|line| line.strip_prefix("check: ")).unwrap_or("(crash)");
+        Some(name.replace(' ', "_"))
+    }
+
+    /// What finds a mistake, by program.
+    fn finders(&self, defect: &Defect, programs: &[&str]) -> BTreeMap<String, Vec<String>> {
+        let mut all = BTreeMap::new();
+        self.with_programs(defect, programs, |program| {
+            all.insert(program.name.clone(), self.failing(program, defect));
+        });
+        if !defect.scene.is_empty() {
+            all.insert("conformance".into(), self.failing_check(defect).into_iter().collect());
+        }
+        all
+    }
 }
 
 #[test]
-#[ignore = "it compiles and runs three programs for each mistake: hours"]
+#[ignore = "it runs three programs for each mistake: hours"]
 fn the_matrix_of_mistakes_and_tests_is_written() {
-    let sources = Sources::copied("matrix");
-    let log = sources.beside("log");
     let wanted = env::var("BRINELL_PROGRAMS").unwrap_or_default();
-    for defect in chosen(&defects()) {
-        let may_find = |(name, parts): &&(&str, &[&str])| {
-            name.contains(&*wanted) && parts.iter().any(|part| defect.file.starts_with(part))
-        };
-        let programs: Vec<&str> = PROGRAMS.iter().filter(may_find).map(|(name, _)| *name).collect();
-        let before = sources.replace(&defect.file, &defect.old, &defect.new).expect("the mistake applies");
-        let files = sources.test_programs(&programs);
-        sources.restore(&defect.file, &before);
+    let is_wanted = |name: &str| wanted.is_empty() || wanted.split(',').any(|one| one == name);
+    let programs: BTreeSet<&str> = PROGRAMS.iter().map(|(name, _)| *name).filter(|name| is_wanted(name)).collect();
+    let all = defects();
+    let chosen = chosen(&all);
+    let tests = Tests::of(&chosen, &programs);
+    for defect in chosen {
+        let may_find = |(_, parts): &&(&str, &[&str])| parts.iter().any(|part| defect.file.starts_with(part));
+        let programs: Vec<&str> =
+            PROGRAMS.iter().filter(may_find).map(|(name, _)| *name).filter(|name| is_wanted(name)).collect();
         let mut matrix = read();
-        for program in files {
-            let found = failing(&program.file, &log);
-            println!("{}: {} of {}", defect.name, found.len(), program.name);
-            matrix.insert((defect.name.replace(',', ""), program.name), found);
+        for (program, found) in tests.finders(defect, &programs) {
+            println!("{}: {} of {program}", defect.name, found.len());
+            matrix.insert((defect.name.replace(',', ""), program), found);
         }
         matrix.retain(|_, found| !found.is_empty());
         write(&matrix);
@@ -118,6 +136,10 @@ fn a_mistake_of_the_matrix_has_a_test_that_finds_it() {
 
 /// Whether the test `name`, with its modules, is in the sources of `program`.
 fn is_there(tests: &Path, program: &str, name: &str) -> bool {
+    if program == "conformance" {
+        let checks = fs::read_to_string(tests.join("conformance/checks/mod.rs")).unwrap_or_default();
+        return checks.contains(&format!("check(\"{}\"", name.replace('_', " ")));
+    }
     let parts: Vec<&str> = name.split("::").collect();
     let (test, modules) = parts.split_last().expect("a name");
     let folder = tests.join(program);

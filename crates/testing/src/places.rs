@@ -22,12 +22,23 @@ pub fn build() -> String {
 /// The test program that is running: `target/PROFILE/deps/NAME-HASH`.
 static TEST: LazyLock<PathBuf> = LazyLock::new(|| env::current_exe().expect("a test program knows where it is"));
 
+/// The folder `target/PROFILE` of the test program.
+fn made_in() -> &'static Path {
+    TEST.ancestors().nth(2).expect("a test program is in target/PROFILE/deps")
+}
+
+/// The profile of cargo in which the test program was built.
+pub fn profile() -> &'static str {
+    match made_in().file_name().and_then(|name| name.to_str()).expect("a profile has a plain name") {
+        "debug" => "dev",
+        name => name,
+    }
+}
+
 /// The program `brinell`, which cargo builds before the tests.
 pub fn program() -> &'static Path {
-    static PROGRAM: LazyLock<PathBuf> = LazyLock::new(|| {
-        let profile = TEST.ancestors().nth(2).expect("a test program is in target/PROFILE/deps");
-        profile.join("brinell").with_extension(env::consts::EXE_EXTENSION)
-    });
+    static PROGRAM: LazyLock<PathBuf> =
+        LazyLock::new(|| made_in().join("brinell").with_extension(env::consts::EXE_EXTENSION));
     &PROGRAM
 }
 
@@ -35,7 +46,7 @@ pub fn program() -> &'static Path {
 /// until this test program has ended.
 pub fn temporary() -> &'static Path {
     static FOLDER: LazyLock<(PathBuf, Option<File>)> = LazyLock::new(|| {
-        let target = TEST.ancestors().nth(3).expect("a test program is in target/PROFILE/deps");
+        let target = made_in().parent().expect("a test program is in target/PROFILE/deps");
         let folder = target.join("tmp");
         fs::create_dir_all(&folder).expect("the target folder can be written to");
         let lock = env::var_os(WORKER).is_none().then(|| for_this_run(&folder.join("in-use")));

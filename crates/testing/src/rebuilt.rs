@@ -89,7 +89,13 @@ impl Sources {
         self.write("crates/unit/src/kind.rs", text);
     }
 
-    fn write(&self, file: &str, text: &str) {
+    /// The text of `file`.
+    pub fn read(&self, file: &str) -> String {
+        fs::read_to_string(self.folder.join(file)).expect("it was copied")
+    }
+
+    /// Writes `text` into `file`.
+    pub fn write(&self, file: &str, text: &str) {
         let path = self.folder.join(file);
         // an unchanged file isn't compiled again
         if fs::read_to_string(&path).is_ok_and(|old| old == text) {
@@ -98,24 +104,24 @@ impl Sources {
         fs::write(path, text).expect("the target folder can be written to");
     }
 
-    /// Replaces the only occurrence of `old` in `file`; returns the text before.
+    /// What `build` makes of the sources with `new` in place of the only `old` in `file`.
     ///
     /// # Errors
-    /// If `old` isn't there exactly once.
-    pub fn replace(&self, file: &str, old: &str, new: &str) -> Result<String, String> {
-        let text = fs::read_to_string(self.folder.join(file)).map_err(|error| format!("{file}: {error}"))?;
-        match text.matches(old).count() {
-            1 => {
-                self.write(file, &text.replacen(old, new, 1));
-                Ok(text)
-            }
-            count => Err(format!("{file} has this text {count} times, not once:\n{old}")),
+    /// If `old` isn't there exactly once, or what `build` says.
+    pub fn changed<T>(
+        &self,
+        (file, old, new): (&str, &str, &str),
+        build: impl FnOnce() -> Result<T, String>,
+    ) -> Result<T, String> {
+        let text = self.read(file);
+        let count = text.matches(old).count();
+        if count != 1 {
+            return Err(format!("{file} has this text {count} times, not once:\n{old}"));
         }
-    }
-
-    /// Writes `text` back to `file`.
-    pub fn restore(&self, file: &str, text: &str) {
-        self.write(file, text);
+        self.write(file, &text.replacen(old, new, 1));
+        let made = build();
+        self.write(file, &text);
+        made
     }
 
     /// cargo in the copy, without settings of the tests.
@@ -165,28 +171,10 @@ impl Sources {
     }
 
     /// The test programs `names`, compiled quickly.
-    pub fn test_programs(&self, names: &[&str]) -> Vec<TestProgram> {
+    pub fn test_programs<'a>(&self, names: impl IntoIterator<Item = &'a &'a str>) -> Vec<TestProgram> {
         let mut cargo = self.cargo("");
         cargo.args(["test", "--profile", "quick", "--locked", "--no-default-features"]);
-        cargo.args(names.iter().flat_map(|name| ["--test", *name]));
+        cargo.args(names.into_iter().flat_map(|name| ["--test", *name]));
         test_programs(&mut cargo)
-    }
-
-    /// The file `name` beside the sources.
-    pub fn beside(&self, name: &str) -> PathBuf {
-        self.target.with_file_name(name)
-    }
-
-    /// Runs a test file of the project that needs the library alone.
-    ///
-    /// # Errors
-    /// What the tests say, if one of them fails.
-    pub fn test(&self, file: &str, filter: &str) -> Result<(), String> {
-        let mut cargo = self.cargo("");
-        cargo.args(["test", "--release", "--locked", "--no-default-features"]);
-        cargo.args(if file == "lib" { vec!["--lib"] } else { vec!["--test", file] }).arg("--").arg(filter);
-        let output = cargo.output().map_err(|error| error.to_string())?;
-        let said = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-        if output.status.success() { Ok(()) } else { Err(said) }
     }
 }

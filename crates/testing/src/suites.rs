@@ -1,7 +1,7 @@
 //! The conformance suite and the random calls, run on any library.
 
 use super::child;
-use crate::places::root;
+use crate::places::{profile, root};
 use crate::toolchain::test_programs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -26,10 +26,10 @@ pub struct Subject<'a> {
 }
 
 impl Suites {
-    /// The programs of this build.
+    /// The programs in the profile of this one.
     pub fn build() -> Suites {
         let mut cargo = Command::new(env!("CARGO"));
-        cargo.current_dir(root()).args(["test", "--release", "--test", "conformance", "--test", "fuzz"]);
+        cargo.current_dir(root()).args(["test", "--profile", profile(), "--test", "conformance", "--test", "fuzz"]);
         let programs = test_programs(&mut cargo);
         let program = |name: &str| {
             let found = programs.iter().find(|program| program.name == name);
