@@ -102,7 +102,13 @@ impl Tests {
     fn of(defects: &[&Defect], programs: &BTreeSet<&str>) -> Tests {
         let sources = Sources::copied("defects");
         let switched = planted::plant(&sources, defects);
-        let programs = if programs.is_empty() { Vec::new() } else { sources.test_programs(programs) };
+        let mut programs = if programs.is_empty() { Vec::new() } else { sources.test_programs(programs) };
+        for program in &mut programs {
+            // a build with a mistake alone has the same place
+            let kept = program.file.with_file_name(format!("all_{}", program.name));
+            fs::copy(&program.file, &kept).expect("the target folder can be written to");
+            program.file = kept;
+        }
         Tests {
             suites: Suites::build(),
             switched,
