@@ -7,6 +7,7 @@ use brinell_testing::{friction, physics, printed};
 mod arithmetic_modes;
 mod corners;
 mod damped_laws;
+mod damped_motion;
 mod dents;
 mod ellipse;
 mod ends_of_laws;
