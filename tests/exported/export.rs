@@ -1,32 +1,11 @@
-//! The command line from the user's point of view: exit status, results, the FMU and its library.
+//! What an export makes and says: of the scenes of the project, and of what is left out.
 
-use crate::command::{assert_same, compile, contents, empty_folder, exported, run, scene};
+use crate::command::{compile, contents, empty_folder, run, scene};
 use crate::unit;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
-
-#[test]
-fn a_wrong_call_ends_with_2_and_shows_the_usage() {
-    let folder = empty_folder();
-    for arguments in
-        [&["export"][..], &["exprt"], &["check"], &["export", "a", "b"], &["--colour"], &["check", "-o", "x"]]
-    {
-        let run = run(folder.path(), arguments).with_status(2);
-        assert!(run.err.contains("Usage:") && run.out.is_empty(), "{arguments:?}: {run:#?}");
-    }
-    assert!(contents(folder.path()).is_empty());
-}
-
-#[test]
-fn help_and_version_go_to_standard_output() {
-    let folder = empty_folder();
-    let help = run(folder.path(), ["--help"]).with_status(0);
-    assert!(help.out.contains("export") && help.out.contains("check") && help.err.is_empty(), "{help:#?}");
-    let version = run(folder.path(), ["--version"]).with_status(0);
-    assert_eq!(version.out.lines().next(), Some(concat!("brinell ", env!("CARGO_PKG_VERSION"))));
-}
 
 #[test]
 fn without_arguments_the_default_scene_is_exported_and_checked() {
@@ -127,59 +106,13 @@ fn a_description_of_any_other_characters_is_exported_and_checked() {
     run(folder.path(), ["check", "elastic.fmu"]).with_status(0);
 }
 
+/// The source tree has those of the default scene, so that the library can be built and tested without an export.
 #[test]
-fn json_has_the_keys_that_programs_read() {
+fn the_constants_and_the_kind_in_the_source_are_those_of_the_default_scene() {
     let folder = empty_folder();
-    let keys = |json: &serde_json::Value| json.as_object().expect("an object").keys().cloned().collect::<BTreeSet<_>>();
-    let export =
-        compile(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "--json"]).with_status(0).json();
-    let left_out = ["left_out", "left_out_laws", "left_out_features", "absent", "constants"];
-    for key in ["fmu", "guid", "size", "library_size", "imports", "variables", "variable_count"].iter().chain(&left_out)
-    {
-        assert!(keys(&export).contains(*key), "no {key} in {export}");
-    }
-    let check = run(folder.path(), ["check", "steel_ball.fmu", "--json"]).with_status(0).json();
-    for key in ["fmu", "platforms", "variables", "impact", "step", "rows", "wrong_starts", "passed"] {
-        assert!(keys(&check).contains(key), "no {key} in {check}");
-    }
-    for key in ["quantity", "unit", "predicted", "simulated", "difference"] {
-        assert!(keys(&check["rows"][0]).contains(key), "no {key} in {check}");
-    }
-    let materials = run(folder.path(), ["materials", "--json"]).with_status(0).json();
-    assert!(materials[0]["youngs_modulus"].as_f64().is_some_and(|modulus| modulus > 1e9), "{materials}");
-}
-
-/// The source tree contains the constants of the default scene, so that the library can be built and tested without an export.
-#[test]
-fn the_constants_in_the_source_are_those_of_the_default_scene() {
-    let folder = empty_folder();
-    let constants = run(folder.path(), ["constants", scene("steel_ball").to_str().unwrap()]).with_status(0);
-    let source = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/unit/src/exported.rs")).unwrap();
-    assert!(constants.out == source, "crates/unit/src/exported.rs is not what the exporter writes:\n{}", constants.out);
-}
-
-#[test]
-fn an_fmu_is_written_to_the_requested_path_and_replaces_an_older_one() {
-    let folder = empty_folder();
-    fs::create_dir(folder.path().join("units")).unwrap();
-    fs::write(folder.path().join("units/ball.fmu"), "an older unit").unwrap();
-    let source = scene("steel_ball");
-    let run = compile(folder.path(), ["export", source.to_str().unwrap(), "-o", "units/ball.fmu"]).with_status(0);
-    assert!(run.out.starts_with("units/ball.fmu\n"), "{run:#?}");
-    assert_eq!(contents(folder.path()), ["units"]);
-    assert_eq!(contents(&folder.path().join("units")), ["ball.fmu"]);
-    assert_same(&fs::read(folder.path().join("units/ball.fmu")).unwrap(), &exported(|command| command));
-}
-
-#[test]
-fn an_output_that_cannot_be_written_is_named() {
-    let folder = empty_folder();
-    fs::write(folder.path().join("file"), "").unwrap();
-    fs::create_dir(folder.path().join("folder.fmu")).unwrap();
-    // the superuser, as in containers, can write to a folder without write permission; these paths fail for everyone
-    for path in ["missing/unit.fmu", "file/unit.fmu", "folder.fmu"] {
-        let run = run(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "-o", path]).with_status(1);
-        assert!(run.err.contains(&format!("brinell: {path}: ")) && run.out.is_empty(), "{run:#?}");
-        assert_eq!(contents(folder.path()), ["file", "folder.fmu"], "files were left");
+    for (command, file) in [("constants", "exported"), ("kind", "kind")] {
+        let written = run(folder.path(), [command, scene("steel_ball").to_str().unwrap()]).with_status(0).out;
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/unit/src").join(file).with_extension("rs");
+        assert!(written == fs::read_to_string(path).unwrap(), "{file}.rs is not what the program writes:\n{written}");
     }
 }

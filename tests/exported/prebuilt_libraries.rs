@@ -1,71 +1,22 @@
-//! FMUs from prebuilt libraries have the same outputs as compiled ones, bit for bit.
+//! FMUs from prebuilt libraries: how many instructions they take, how they are made, and what is refused. That they do what compiled ones do:
+//! `differential.rs`.
 
-use crate::both_ways::Both;
-use crate::command::{self, assert_same, brinell, empty_folder, output, run};
+use crate::command::{brinell, contents, empty_folder, output};
 use crate::courses;
 use crate::hosts::{Host, Interface, Loading, cc, compile};
-use crate::kinds::{any_scene, of_each_kind, scene};
+use crate::kinds::{IMPACT, of_each_kind, scene};
 use crate::loaded::Unit;
 use crate::physics::Random;
-use crate::prebuilt::{self, export, export_anew, store};
+use crate::prebuilt::{self, export, file, store};
 use crate::skips;
 use crate::unit;
-use brinell_exporter::scene::Scene;
+use brinell_fmu::scene::library::block::{Block, MAGIC, VERSION};
 use brinell_testing::long;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
+use std::env::consts::DLL_EXTENSION;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// Compares compiled and prebuilt FMUs of a scene; returns the number of messages.
-fn compare(text: String, random: &mut Random) -> (String, usize) {
-    let both = Both::of(text, store());
-    let messages = (0..if long::is_asked() { 10 } else { 3 }).map(|_| both.compare(100, random)).sum();
-    (both.kind, messages)
-}
-
-/// Scenes of the repository, whose libraries other tests compile, too; and those of each kind that are chosen, in a usual run of the
-/// kinds that are left.
-#[test]
-fn a_prebuilt_library_gives_the_same_bits_and_messages_as_a_compiled_one() {
-    let mut random = Random(14);
-    let mut kinds = BTreeSet::new();
-    let mut messages = 0;
-    for scene in unit::scenes_to_compile() {
-        let (kind, count) = compare(fs::read_to_string(scene).expect("a scene file"), &mut random);
-        kinds.insert(kind);
-        messages += count;
-    }
-    for (expected, text) in of_each_kind() {
-        if kinds.contains(expected) && !long::is_asked() {
-            continue;
-        }
-        let (kind, count) = compare(text, &mut random);
-        assert_eq!(kind, expected);
-        kinds.insert(kind);
-        messages += count;
-    }
-    assert_eq!(kinds, prebuilt::names(store()));
-    assert!(messages > 150, "{messages} messages were compared");
-}
-
-#[test]
-fn any_scene_has_the_same_bits_and_messages_in_both_ways() {
-    let count = if long::is_asked() { 100 } else { 2 };
-    let (mut random, mut done) = (Random(2026), 0);
-    let mut kinds = BTreeMap::new();
-    while done < count {
-        let text = any_scene(&mut random);
-        if Scene::parse(text.clone(), Path::new("any.toml")).is_err() {
-            continue;
-        }
-        println!("{done}:\n{text}");
-        let (kind, _) = compare(text, &mut random);
-        *kinds.entry(kind).or_insert(0) += 1;
-        done += 1;
-    }
-    println!("{kinds:?}");
-}
 
 /// Functions, and the largest ratio of their instructions between a prebuilt library and a compiled one, for one contact and for
 /// arrays that are as long as the scene needs. A compiled library knows what its scene has, and needs no table to find it.
@@ -121,18 +72,6 @@ fn a_prebuilt_library_takes_hardly_more_instructions_than_a_compiled_one() {
     assert!(beyond.is_empty(), "{beyond:#?}");
 }
 
-#[test]
-fn fmus_of_every_kind_pass_the_check_and_are_the_same_bytes_each_time() {
-    for (kind, text) in of_each_kind() {
-        // a slow constant rate must reach the surface
-        let text = text.replace("initial_gap = 1e-6", "initial_gap = 0.0");
-        let (fmu, (again, _)) = (export(&text, Some(store())), export_anew(&text, Some(store())));
-        assert_same(&fs::read(&fmu).unwrap(), &fs::read(again).unwrap());
-        let check = run(fmu.parent().unwrap(), ["check", "unit.fmu", "--json"]).with_status(0).json();
-        assert_eq!(check["passed"], true, "{kind}: {check}");
-    }
-}
-
 /// With a compiler the scene is compiled unless the user requests a prebuilt library; without a compiler it is not.
 #[test]
 fn the_summary_shows_how_the_fmu_was_made() {
@@ -154,38 +93,6 @@ fn the_summary_shows_how_the_fmu_was_made() {
     }
 }
 
-/// FMUs with different numbers: none accepts a state of another, but the compiled one and the prebuilt one of a scene are the same.
-#[test]
-fn states_of_other_scenes_are_rejected() {
-    let texts = [
-        scene("big-alabo", &["work"], ""),
-        scene("big-alabo", &["work"], "[fmu]\ninitial_gap = 1e-9\n"),
-        scene("big-alabo", &["work", "regime"], ""),
-    ];
-    let mut fmus: Vec<_> = texts.iter().map(|text| Unit::open(&export(text, Some(store())))).collect();
-    fmus.push(Unit::open(&export(&texts[0], None)));
-    let instances: Vec<_> = fmus.iter().map(Unit::ready).collect();
-    for (index, instance) in instances.iter().enumerate() {
-        let state = instance.save();
-        let bytes = instance.bytes(state);
-        for (other, taker) in instances.iter().enumerate() {
-            let taken = taker.deserialize(&bytes);
-            // the last one is the first one, compiled
-            assert_eq!(taken.is_some(), index % 3 == other % 3, "{index} to {other}");
-            taken.into_iter().for_each(|state| taker.free(state));
-        }
-        instance.free(state);
-    }
-}
-
-#[test]
-fn the_kind_in_the_source_tree_is_that_of_the_default_scene() {
-    let folder = empty_folder();
-    let kind = run(folder.path(), ["kind".as_ref(), command::scene("steel_ball").as_os_str()]).with_status(0);
-    let source = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/unit/src/kind.rs")).unwrap();
-    assert!(kind.out == source, "crates/unit/src/kind.rs is not what the program writes:\n{}", kind.out);
-}
-
 /// The same bytes from any run, with any number of threads.
 #[test]
 fn prebuilding_is_reproducible_and_rejects_unknown_kinds() {
@@ -197,4 +104,102 @@ fn prebuilding_is_reproducible_and_rejects_unknown_kinds() {
     assert_eq!(library(&again), library(store()));
     let said = prebuilt::prebuild(&again, &["--kinds", "all"]).with_status(1).err;
     assert!(said.contains("no kind `all`") && said.contains("moved"), "{said}");
+}
+
+/// The error line of an export without a compiler.
+#[track_caller]
+fn refusal(text: &str, store: &Path) -> String {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    let run = output(prebuilt::without_compiler(folder.path(), store).args(["export", "scene.toml"])).with_status(1);
+    assert_eq!(contents(folder.path()), ["scene.toml"]);
+    run.err.lines().last().unwrap_or_default().into()
+}
+
+#[test]
+fn a_scene_that_needs_a_compiler_is_rejected_with_the_key_that_needs_it() {
+    let many: String = (0..1000)
+        .map(|index| format!("[[contact]]\nname = \"c{index}\"\ntarget = {{ yield_strength = {index}.5e6 }}\n"))
+        .collect();
+    let cases = [
+        (scene("big-alabo", &[], "[fmu]\nstandalone = true\n"), "fmu.standalone: prebuilt libraries take their memory"),
+        (scene("big-alabo", &[], &many), "[[contact]]: the data of this scene take "),
+    ];
+    for (text, expected) in cases {
+        let said = refusal(&text, store());
+        assert!(said.contains("needs a compiler") && said.contains(expected), "{said}\n{text}");
+    }
+}
+
+#[test]
+fn missing_or_damaged_libraries_and_those_of_another_version_are_reported() {
+    let text = scene("big-alabo", &[], "");
+    let none = empty_folder();
+    let said = refusal(&text, none.path());
+    assert!(said.contains("no prebuilt libraries in") && said.contains("BRINELL_PREBUILT"), "{said}");
+    let said = refusal(&scene("big-alabo", &["impulse"], ""), &prebuilt::only_state());
+    assert!(said.contains("no prebuilt library `momentum`"), "{said}");
+    type Change<'a> = &'a dyn Fn(Vec<u8>) -> Vec<u8>;
+    let copy = |changed: &str, change: Change| {
+        let folder = empty_folder();
+        for ending in ["br", "json"] {
+            let name = file(ending);
+            let bytes = fs::read(store().join(&name)).unwrap();
+            fs::write(folder.path().join(name), if ending == changed { change(bytes) } else { bytes }).unwrap();
+        }
+        folder
+    };
+    let replaced = |from: &'static str, to: &'static str| {
+        move |bytes: Vec<u8>| String::from_utf8(bytes).unwrap().replacen(from, to, 1).into_bytes()
+    };
+    let flipped = |mut bytes: Vec<u8>| {
+        bytes[1000] ^= 16;
+        bytes
+    };
+    let cut = |bytes: Vec<u8>| bytes[..1000].to_vec();
+    let cases: [(&str, Change, &str); 5] = [
+        ("json", &replaced("\"sources\": \"", "\"sources\": \"0"), "another version"),
+        ("json", &replaced("\"archive\"", "\"arch\""), ".json is damaged"),
+        ("json", &replaced("\"sha256\": \"", "\"sha256\": \"0"), ".br is damaged"),
+        ("br", &flipped, ".br is damaged"),
+        ("br", &cut, ".br is damaged"),
+    ];
+    for (ending, change, expected) in cases {
+        let folder = copy(ending, change);
+        let said = refusal(&text, folder.path());
+        assert!(said.contains(expected), "{said}");
+    }
+}
+
+/// Changes any bit of the data.
+#[test]
+fn a_library_with_damaged_data_rejects_instantiation_with_the_reason() {
+    let fmu = export(&scene("big-alabo", &["work"], IMPACT), Some(store()));
+    let place = unit::library(&fmu);
+    let good = fs::read(&place).unwrap();
+    let head: Vec<u8> = [MAGIC, VERSION].into_iter().flat_map(u64::to_le_bytes).collect();
+    let begin = good.windows(head.len()).position(|bytes| bytes == head).expect("the data begin with their magic");
+    let word = |at: usize| u64::from_le_bytes(good[begin + 8 * at..][..8].try_into().unwrap());
+    // what is behind the last list is never read
+    let length = 8 * (5 + word(3) as usize);
+    assert!(length < size_of::<Block>());
+    let folder = empty_folder();
+    let mut random = Random(15);
+    for byte in (0..64).chain((64..length).step_by(301)) {
+        let mut bad = good.clone();
+        bad[begin + byte] ^= 1 << (8.0 * random.next()) as u32;
+        let path = folder.path().join(byte.to_string()).with_extension(DLL_EXTENSION);
+        fs::write(&path, bad).unwrap();
+        let unit = Unit::open_library(&path, &place);
+        let Err(messages) = unit.try_to_instantiate() else { panic!("byte {byte}: an instance") };
+        let said = &messages.last().expect("a reason").text;
+        let expected = match byte / 8 {
+            0 | 1 => "another version",
+            2 => "another library",
+            _ => "damaged",
+        };
+        assert!(said.starts_with("fmi2Instantiate: ") && said.contains(expected), "byte {byte}: {said}");
+    }
+    // the whole library is unchanged
+    assert!(Unit::open(&fmu).try_to_instantiate().is_ok());
 }

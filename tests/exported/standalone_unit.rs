@@ -2,13 +2,14 @@
 //! tests/platforms/kinds_of_hosts.rs tests the kinds of hosts that it runs in.
 #![cfg(target_os = "linux")]
 
-use crate::command;
 use crate::unit;
+use brinell_fmu::fmi2::abi::*;
+use brinell_testing::face::Face;
+use brinell_testing::functions::variadic;
 use brinell_testing::long::some;
 use brinell_testing::standalone;
-use libloading::Library;
 use std::cell::{Cell, RefCell};
-use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ffi::{CStr, c_char, c_int, c_void};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -25,8 +26,7 @@ fn scenes() -> impl Iterator<Item = PathBuf> {
 }
 
 #[test]
-fn its_library_has_no_undefined_symbol_and_is_hardly_larger() {
-    let mut count = 0;
+fn its_library_has_no_undefined_symbol_is_hardly_larger_and_is_declared() {
     for scene in scenes() {
         let [standalone, other] = libraries(&scene);
         let undefined = |library: &Path| {
@@ -39,29 +39,10 @@ fn its_library_has_no_undefined_symbol_and_is_hardly_larger() {
         let [size, before] = [&standalone, &other].map(|library| fs::metadata(library).expect("a library").len());
         // own memory functions instead of calls of those of the process
         assert!(size < before + 400, "{}: {size} against {before} bytes", scene.display());
-        count += 1;
+        assert!(standalone::is_standalone(&standalone) && !standalone::is_standalone(&other));
+        let page = standalone.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY").join("documentation/index.html");
+        assert!(fs::read_to_string(page).expect("a unit has a page").contains("<code>allocateMemory</code>"));
     }
-    assert!(count >= 2);
-}
-
-#[test]
-fn its_model_description_declares_it() {
-    let [standalone, other] = libraries(&unit::scene("steel_ball"));
-    assert!(standalone::is_standalone(&standalone) && !standalone::is_standalone(&other));
-    let page = standalone.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY").join("documentation/index.html");
-    assert!(fs::read_to_string(page).expect("a unit has a page").contains("<code>allocateMemory</code>"));
-}
-
-#[test]
-fn the_key_is_true_or_false() {
-    let folder = command::empty_folder();
-    let scene = "name = \"ball\"\nimpactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n[fmu]\nstandalone = 1\n";
-    fs::write(folder.path().join("scene.toml"), scene).unwrap();
-    let run = command::run(folder.path(), ["export", "scene.toml"]).with_status(1);
-    assert!(
-        run.err.contains("scene.toml:5") && run.err.contains("expected true or false in `standalone = 1`"),
-        "{run:#?}"
-    );
 }
 
 thread_local! {
@@ -99,44 +80,26 @@ unsafe extern "C" fn give_back(memory: *mut c_void) {
     });
 }
 
-type Log = unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
-type Take = unsafe extern "C" fn(usize, usize) -> *mut c_void;
-type GiveBack = unsafe extern "C" fn(*mut c_void);
-
-#[repr(C)]
-struct Callbacks {
-    log: Log,
-    take: Option<Take>,
-    give_back: Option<GiveBack>,
-    unused: [usize; 2],
+/// The standalone FMU of the default scene.
+fn loaded() -> Face {
+    Face::load(&libraries(&unit::scene("steel_ball"))[0])
 }
 
-/// The standalone library of the default scene, and its GUID.
-fn loaded() -> (Library, CString) {
-    let [path, _] = libraries(&unit::scene("steel_ball"));
-    let root = path.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
-    let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
-    let guid = description.split_once(" guid=\"").and_then(|(_, rest)| rest.split('"').next()).expect("a GUID");
-    // SAFETY: the FMU was made by the program under test, and has no initializers
-    (unsafe { Library::new(&path) }.expect("a library that can be loaded"), CString::new(guid).unwrap())
-}
-
-fn instantiate(library: &Library, guid: &CStr, take: Option<Take>, give_back: Option<GiveBack>) -> *mut c_void {
-    type Instantiate = unsafe extern "C" fn(
-        *const c_char,
-        c_int,
-        *const c_char,
-        *const c_char,
-        *const Callbacks,
-        c_int,
-        c_int,
-    ) -> *mut c_void;
-    let callbacks = Callbacks { log, take, give_back, unused: [0; 2] };
-    // SAFETY: the type of the standard, strings that end with 0, and callbacks that are copied
-    unsafe {
-        let instantiate = library.get::<Instantiate>("fmi2Instantiate").expect("every unit has it");
-        instantiate(c"ball".as_ptr(), 1, guid.as_ptr(), c"".as_ptr(), &raw const callbacks, 0, 0)
-    }
+fn instantiate(
+    face: &Face,
+    take: Option<fmi2CallbackAllocateMemory>,
+    give_back: Option<fmi2CallbackFreeMemory>,
+) -> fmi2Component {
+    let callbacks = fmi2CallbackFunctions {
+        logger: Some(variadic(log)),
+        allocateMemory: take,
+        freeMemory: give_back,
+        stepFinished: None,
+        componentEnvironment: null_mut(),
+    };
+    let (name, guid, nothing) = (c"ball".as_ptr(), face.guid.as_ptr(), c"".as_ptr());
+    // SAFETY: strings that end with 0, and callbacks that are copied
+    unsafe { (face.functions.instantiate)(name, 1, guid, nothing, &raw const callbacks, 0, 0) }
 }
 
 fn message() -> String {
@@ -145,13 +108,13 @@ fn message() -> String {
 
 #[test]
 fn an_importer_without_memory_functions_gets_no_instance_and_an_error_that_names_the_missing_one() {
-    let (library, guid) = loaded();
+    let face = loaded();
     for (take, give_back, missing) in [
-        (None, Some(give_back as GiveBack), "allocateMemory"),
-        (Some(take as Take), None, "freeMemory"),
+        (None, Some(give_back as fmi2CallbackFreeMemory), "allocateMemory"),
+        (Some(take as fmi2CallbackAllocateMemory), None, "freeMemory"),
         (None, None, "allocateMemory"),
     ] {
-        assert!(instantiate(&library, &guid, take, give_back).is_null());
+        assert!(instantiate(&face, take, give_back).is_null());
         assert!(message().contains(missing), "{}", message());
     }
     TAKEN.with(|taken| assert!(taken.borrow().is_empty()));
@@ -159,27 +122,24 @@ fn an_importer_without_memory_functions_gets_no_instance_and_an_error_that_names
 
 #[test]
 fn instances_and_states_use_memory_of_the_importer_and_free_it() {
-    type Get = unsafe extern "C" fn(*mut c_void, *mut *mut c_void) -> c_int;
-    type Free = unsafe extern "C" fn(*mut c_void);
-    let (library, guid) = loaded();
+    let face = loaded();
     let count = || TAKEN.with(|taken| taken.borrow().len());
-    // SAFETY: the types of the standard; the instance lives, and so does the state
+    let mut state = null_mut();
+    // SAFETY: the instance lives, and so does the state
     unsafe {
-        let instance = instantiate(&library, &guid, Some(take), Some(give_back));
+        let instance = instantiate(&face, Some(take), Some(give_back));
         assert!(!instance.is_null() && count() == 1);
-        let [get, free_state] = ["fmi2GetFMUstate", "fmi2FreeFMUstate"].map(|name| *library.get::<Get>(name).unwrap());
-        let mut state = null_mut();
-        assert_eq!(get(instance, &raw mut state), 0);
+        assert_eq!((face.functions.get_fmu_state)(instance, &raw mut state), 0);
         assert!(!state.is_null() && count() == 2);
-        assert_eq!(free_state(instance, &raw mut state), 0);
+        assert_eq!((face.functions.free_fmu_state)(instance, &raw mut state), 0);
         assert!(state.is_null() && count() == 1);
         // no memory is left
         LEFT.set(0);
-        assert_eq!(get(instance, &raw mut state), 3);
+        assert_eq!((face.functions.get_fmu_state)(instance, &raw mut state), 3);
         assert!(state.is_null() && message().contains("memory"), "{}", message());
-        assert!(instantiate(&library, &guid, Some(take), Some(give_back)).is_null() && message().contains("memory"));
+        assert!(instantiate(&face, Some(take), Some(give_back)).is_null() && message().contains("memory"));
         LEFT.set(usize::MAX);
-        library.get::<Free>("fmi2FreeInstance").unwrap()(instance);
+        (face.functions.free_instance)(instance);
     }
     assert_eq!(count(), 0);
 }

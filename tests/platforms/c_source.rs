@@ -2,11 +2,11 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 use brinell_exporter::symbols::FUNCTIONS;
-use brinell_testing::both_ways::Both;
 use brinell_testing::command::{self, empty_folder, output};
 use brinell_testing::courses;
 use brinell_testing::debian::{Packages, packages};
 use brinell_testing::driver::{assert_never_trapped, compile_one};
+use brinell_testing::histories::Both;
 use brinell_testing::hosts::{Host, Interface, Loading, cc, compile, folder};
 use brinell_testing::kinds::{is_rate_dependent, of_each_kind, of_every_law};
 use brinell_testing::physics::Random;

@@ -3,6 +3,7 @@
 mod hardness;
 mod law_list;
 mod oblique;
+mod predictions;
 mod sweeps;
 
 use crate::command;

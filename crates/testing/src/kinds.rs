@@ -141,116 +141,232 @@ fn one<'a>(random: &mut Random, texts: &[&'a str]) -> &'a str {
     texts[(random.next() * texts.len() as f64) as usize]
 }
 
-/// A scene of random features. Not every one is valid: some features exclude others.
-pub fn any_scene(random: &mut Random) -> String {
-    let mut is = |probability: f64| random.next() < probability;
-    let (damped, moved, frictional, lossy, shared) = (is(0.12), is(0.5), is(0.3), is(0.3), is(0.3));
-    let (elastic, socket, fresh, guard, rated, hardens) = (is(0.5), is(0.2), is(0.3), is(0.3), is(0.3), is(0.5));
-    let (several, counted, own, constants, held, yields) = (is(0.3), is(0.3), is(0.3), is(0.3), is(0.2), is(0.3));
-    let mut text = String::from("name = \"any\"\n[impactor]\n");
-    text += &format!("radius = {:e}\n", random.log_uniform(1e-3, 2e-2));
-    if elastic || yields {
-        text += "youngs_modulus = 210e9\npoissons_ratio = 0.29\n";
+/// Either one of some texts or nothing.
+fn perhaps(random: &mut Random, probability: f64, texts: &[&str]) -> String {
+    if random.next() < probability { one(random, texts).into() } else { String::new() }
+}
+
+/// What contacts of a scene touch with.
+#[derive(Clone, Copy, PartialEq)]
+enum Shape {
+    Ball,
+    Ellipse,
+    Roller,
+}
+
+/// The features of a scene.
+struct Features {
+    shape: Shape,
+    /// A rate-dependent law.
+    damped: bool,
+    /// A loading curve of one's own.
+    own_curve: bool,
+    /// Nothing yields.
+    elastic: bool,
+    friction: bool,
+    lossy: bool,
+    /// The FMU knows a mass for each contact, or the bodies that contacts share.
+    moved: bool,
+    shared: bool,
+    loading: &'static str,
+}
+
+impl Features {
+    fn any(random: &mut Random) -> Features {
+        let mut is = |probability: f64| random.next() < probability;
+        let (roller, ellipse, damped, own_curve, elastic) = (is(0.08), is(0.12), is(0.15), is(0.06), is(0.07));
+        let (friction, lossy, moved, shared) = (is(0.35), is(0.3), is(0.5), is(0.3));
+        let shape = if roller { Shape::Roller } else { Shape::Ball };
+        let shape = if ellipse { Shape::Ellipse } else { shape };
+        let round = shape == Shape::Ball;
+        let names: Vec<&'static str> = match () {
+            () if roller && !ellipse => vec!["line"],
+            () if damped => AnyDamped::ALL.map(|law| law.0).into(),
+            () if own_curve => vec!["own"],
+            () if elastic => vec!["hertz"],
+            () if ellipse => vec!["brinell", "hertz"],
+            () => AnyLoading::of_balls().map(|law| law.0).collect(),
+        };
+        let loading = names[(random.next() * names.len() as f64) as usize];
+        let (damped, own_curve) = (is_rate_dependent(loading), loading == "own");
+        // friction goes with a loss or a mass only where contacts share bodies
+        let friction = friction && round && !damped;
+        let (lossy, moved) = (lossy && (!friction || shared), moved && !friction);
+        Features { shape, damped, own_curve, elastic, friction, lossy, moved, shared, loading }
     }
-    if yields {
-        text += &format!("yield_strength = {:e}\n", random.log_uniform(1e8, 1e9));
-    }
-    text += &format!("[target]\nmaterial = \"mild steel\"\nyield_strength = {:e}\n", random.log_uniform(1e8, 1e9));
-    if socket {
-        text += "radius = -0.05\n";
-    }
-    if fresh {
-        text += "surface = \"fresh\"\n";
-    }
-    if rated {
-        text += one(
-            random,
-            &[
-                "rate = { model = \"cowper-symonds\", d = 40.4, q = 5 }\n",
-                "rate = { model = \"johnson-cook\", c = 0.014, reference_rate = 1.0 }\n",
-            ],
-        );
-    }
-    let (plate, pick) = (lossy && random.next() < 0.3, random.next());
-    if plate {
-        text += "plate_thickness = 0.01\n";
-    }
-    let name = |all: &[&'static str]| all[(pick * all.len() as f64) as usize];
-    let loading = if damped {
-        name(&AnyDamped::ALL.map(|law| law.0))
-    } else {
-        name(&AnyLoading::of_balls().map(|law| law.0).collect::<Vec<_>>())
-    };
-    if hardens && loading == "brinell" {
-        text += &format!("hardening_modulus = {:e}\n", random.log_uniform(1e8, 1e10));
-    }
-    text += &format!("[law]\nloading = {loading:?}\n");
-    if ["hunt-crossley", "kelvin-voigt", "tsuji"].contains(&loading) {
-        text += &format!("restitution = {:.3}\n", 0.3 + 0.6 * random.next());
-    } else if !damped && loading != "hertz" && random.next() < 0.7 {
-        text += &format!("unloading = {:?}\n", one(random, &AnyUnloading::ALL.map(|law| law.0)));
-    }
-    if guard && !damped {
-        text += "passivity_guard = true\n";
-    }
-    if constants && !damped && ["big-alabo", "brinell", "power", "johnson"].contains(&loading) {
-        text += "loading_parameters = { yield_pressure_factor = 1.07 }\n";
-    }
-    if lossy && !plate && !damped {
-        text += one(random, &["elastic_restitution = \"waves\"\n", "elastic_restitution = 0.87\n"]);
-    }
-    let mut outputs: Vec<&str> = STATE.into_iter().chain(["impulse", "mean_force"]).collect();
-    outputs.retain(|_| random.next() < 0.5);
-    if moved || shared {
-        outputs.push("closing_speed");
-    }
-    if frictional {
-        outputs.extend(["friction_work", "tangential_energy", "sliding", "mean_tangential_force"]);
-    }
-    text += &format!("[fmu]\noutputs = {outputs:?}\n");
-    if held {
-        text += "input_derivatives = false\n";
-    }
-    if own {
-        text += "parameters_per_contact = [\"initial_gap\"]\n";
-    } else if random.next() < 0.5 {
-        text += "parameters = [\"initial_gap\", \"impactor.radius\"]\n";
-    }
-    text += &format!("[impact]\nmass = 4e-3\nspeed = {:.3}\n", 0.2 + random.next());
-    if random.next() < 0.5 {
-        text += "watch = false\n";
-    }
-    if frictional {
-        text += &format!("[friction]\ncoefficient = {:.3}\n", random.next());
-        text += one(random, &["", "directions = 2\n"]);
-    }
-    let master = one(random, &["", "master = \"parallel\"\n"]);
-    if shared {
-        let by_inputs = random.next() < 0.4;
-        let inverse = if by_inputs { "inverse_masses = \"input\"\n" } else { "" };
-        text += &format!("[coupling]\n{inverse}{master}inputs = [\"external_acceleration\"]\n");
-        if by_inputs {
-            return text + "[[contact]]\nname = \"foot\"\ncount = 3\n";
+
+    /// The strength of a body and what goes with it.
+    fn strength(&self, random: &mut Random, body: &str) -> String {
+        let power_law = "power_law = { coefficient = 700e6, exponent = 0.2 }\n";
+        if self.elastic || self.damped || self.own_curve {
+            return String::new();
         }
-        return text + if frictional { CRATE } else { STACK };
+        let mut text = match self.loading == "brinell" && random.next() < 0.1 {
+            true => power_law.to_string(),
+            false => format!("yield_strength = {:e}\n", random.log_uniform(1e8, 1e9)),
+        };
+        if ["brinell", "line"].contains(&self.loading) && !text.starts_with("power") && random.next() < 0.5 {
+            let key = one(random, &["hardening_modulus", "tangent_modulus"]);
+            text += &format!("{key} = {:e}\n", random.log_uniform(1e8, 1e10));
+        }
+        let rates = [
+            "rate = { model = \"cowper-symonds\", d = 40.4, q = 5 }\n",
+            "rate = { model = \"johnson-cook\", c = 0.014, reference_rate = 1.0 }\n",
+        ];
+        if self.shape != Shape::Roller && random.next() < if body == "target" { 0.25 } else { 0.1 } {
+            text += one(random, &rates);
+        }
+        text
     }
-    if moved {
-        let inputs = one(
-            random,
-            &[
+
+    fn bodies(&self, random: &mut Random) -> String {
+        let size = random.log_uniform(1e-3, 2e-2);
+        let mut text = String::from("[impactor]\n");
+        text += &match self.shape {
+            Shape::Ball => format!("radius = {size:e}\n"),
+            Shape::Ellipse => format!("radius = [{size:e}, {:e}]\n", size * random.log_uniform(0.2, 5.0)),
+            Shape::Roller => format!("shape = \"cylinder\"\nradius = {size:e}\nlength = 0.02\n"),
+        };
+        if random.next() < 0.5 {
+            text += "youngs_modulus = 210e9\npoissons_ratio = 0.29\n";
+            if random.next() < 0.5 {
+                text += &self.strength(random, "impactor");
+            }
+        }
+        text += "[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\ndensity = 7850.0\n";
+        text += &self.strength(random, "target");
+        if self.lossy && !self.damped && random.next() < 0.3 {
+            text += "plate_thickness = 0.01\n";
+        } else {
+            text += &match self.shape {
+                Shape::Ball => perhaps(random, 0.25, &["radius = -0.05\n", "radius = 0.03\n"]),
+                Shape::Ellipse => perhaps(random, 0.3, &["radius = [-0.2, \"flat\"]\n", "radius = 0.03\n"]),
+                Shape::Roller => perhaps(random, 0.6, &["thickness = 0.04\n", "radius = -0.05\nthickness = 0.01\n"]),
+            };
+        }
+        text + &perhaps(random, 0.3, &["surface = \"fresh\"\n"])
+    }
+
+    fn law(&self, random: &mut Random) -> String {
+        let mut text = match self.loading {
+            "own" => format!("[law]\nloading = {{ table = {OWN_CURVE} }}\n"),
+            "line" => "[law]\n".into(),
+            loading => format!("[law]\nloading = {loading:?}\n"),
+        };
+        match self.loading {
+            "hunt-crossley" | "kelvin-voigt" | "tsuji" => {
+                text += &format!("restitution = {:.3}\n", 0.3 + 0.6 * random.next());
+                text += match self.loading {
+                    "hunt-crossley" => one(random, &["", "damping = \"flores\"\n", "damping = \"hunt-crossley\"\n"]),
+                    "tsuji" => one(random, &["", "damping = \"original\"\n", "damping = \"lammps\"\n"]),
+                    _ => "",
+                };
+            }
+            "own" | "line" | "hertz" => {}
+            _ if self.damped => {}
+            _ if random.next() < 0.7 => {
+                text += &format!("unloading = {:?}\n", one(random, &AnyUnloading::ALL.map(|law| law.0)));
+            }
+            _ => {}
+        }
+        if !self.damped && !self.own_curve && !self.friction {
+            text += &perhaps(random, 0.25, &["passivity_guard = true\n"]);
+        }
+        if ["big-alabo", "brinell", "power", "johnson"].contains(&self.loading) {
+            text += &perhaps(random, 0.2, &["loading_parameters = { yield_pressure_factor = 1.07 }\n"]);
+        }
+        if self.lossy && !self.damped {
+            text += one(random, &["", "elastic_restitution = \"waves\"\n", "elastic_restitution = 0.87\n"]);
+        }
+        text
+    }
+
+    /// What can be set.
+    fn parameters(&self, random: &mut Random) -> Vec<&'static str> {
+        let mut all = vec!["initial_gap", "impactor.radius", "target.youngs_modulus", "target.poissons_ratio"];
+        all.extend((!self.elastic && !self.damped).then_some("target.yield_strength"));
+        all.extend(self.friction.then_some("friction.coefficient"));
+        all.extend((self.moved && !self.shared).then_some("effective_mass"));
+        all.extend(["hunt-crossley", "kelvin-voigt", "tsuji"].contains(&self.loading).then_some("restitution"));
+        all.retain(|_| random.next() < 0.35);
+        all
+    }
+
+    fn fmu(&self, random: &mut Random) -> String {
+        let more = ["contact_area", "regime_number", "impulse", "mean_force"];
+        let mut outputs: Vec<&str> = STATE.into_iter().chain(more).collect();
+        outputs.extend((self.moved || self.shared).then_some("closing_speed"));
+        outputs.extend(self.shared.then_some("impulse_moment"));
+        if self.friction {
+            outputs.extend(["friction_work", "tangential_energy", "sliding", "sliding_number", "stick_radius"]);
+            outputs.extend(["mean_tangential_force", "tangential_impulse", "predicted_tangential_force"]);
+            outputs
+                .extend(self.shared.then_some(["tangential_speed", "tangential_impulse_moment"]).into_iter().flatten());
+        }
+        outputs.retain(|name| *name == "closing_speed" || random.next() < 0.5);
+        let mut text = format!("[fmu]\noutputs = {outputs:?}\n");
+        text += &perhaps(random, 0.2, &["input_derivatives = false\n"]);
+        text += &perhaps(random, 0.2, &["initial_gap = -1e-7\n"]);
+        if random.next() < 0.7 {
+            text += &format!("parameters = {:?}\n", self.parameters(random));
+        }
+        text
+    }
+
+    /// The bodies that the FMU moves, or the contacts that it has.
+    fn rest(&self, random: &mut Random) -> String {
+        let mut text = format!("[impact]\nmass = 4e-3\nspeed = {:.3}\n", 0.2 + random.next());
+        text += &perhaps(random, 0.5, &["watch = false\n"]);
+        if self.friction {
+            text += &format!("[friction]\ncoefficient = {:.3}\n", random.next());
+            text += one(random, &["", "directions = 2\n"]);
+        }
+        let master = one(random, &["", "master = \"parallel\"\n"]);
+        if self.shared {
+            let by_inputs = random.next() < 0.4;
+            let inverse = if by_inputs { "inverse_masses = \"input\"\n" } else { "" };
+            text += &format!("[coupling]\n{inverse}{master}inputs = [\"external_acceleration\"]\n");
+            return match by_inputs {
+                true => text + "[[contact]]\nname = \"foot\"\ncount = 3\n",
+                // bodies say the masses
+                false => text.replace("mass = 4e-3\n", "") + if self.friction { CRATE } else { STACK },
+            };
+        }
+        if self.moved {
+            let inputs = [
                 "",
                 "inputs = [\"external_acceleration\"]\n",
                 "inputs = [\"external_acceleration\", \"effective_mass\"]\n",
-            ],
-        );
-        text += &format!("[coupling]\neffective_mass = 4e-3\n{master}{inputs}");
-    }
-    if several || own {
-        text += "[[contact]]\nname = \"left\"\ninitial_gap = 1e-7\n";
-        if counted || own {
-            text += "count = 3\n";
+            ];
+            text += &format!("[coupling]\neffective_mass = 4e-3\n{master}{}", one(random, &inputs));
         }
-        text += "[[contact]]\nname = \"right\"\ntarget = { yield_strength = 4e8, density = 5e3 }\n";
+        if random.next() < 0.35 {
+            text += "[[contact]]\nname = \"left\"\ninitial_gap = 1e-7\n";
+            let own = [
+                "",
+                "",
+                "parameters_per_contact = [\"initial_gap\"]\n",
+                "parameters_per_contact = [\"impactor.radius\"]\n",
+            ];
+            text += one(random, &["", "count = 3\n"]);
+            text += one(random, &own);
+            text += "[[contact]]\nname = \"right\"\n";
+            text += one(
+                random,
+                &["", "target = { youngs_modulus = 190e9, density = 5e3 }\n", "impactor = { radius = 4e-3 }\n"],
+            );
+        }
+        text
     }
-    text
+}
+
+/// A curve that begins as Hertz's of 5 mm on steel and falls behind, up to 20 um.
+const OWN_CURVE: &str = "{ depth = [1e-7, 3e-7, 6e-7, 1e-6, 2e-6, 4e-6, 7e-6, 1e-5, 1.4e-5, 2e-5], force = [\
+                         0.582, 2.75, 7.16, 14.2, 35.4, 85.3, 170.1, 261.4, 389.9, 590.0] }";
+
+/// A scene of random features, over all that is offered. Not every one is valid: some features exclude others.
+pub fn any_scene(random: &mut Random) -> String {
+    let features = Features::any(random);
+    let parts = [Features::bodies, Features::law, Features::fmu, Features::rest];
+    String::from("name = \"any\"\n") + &parts.map(|part| part(&features, random)).concat()
 }

@@ -2,7 +2,6 @@
 
 pub mod archive;
 pub mod arithmetic;
-pub mod both_ways;
 pub mod browser;
 pub mod child;
 pub mod command;
@@ -13,6 +12,7 @@ pub mod face;
 pub mod fmi_crate;
 pub mod friction;
 pub mod functions;
+pub mod histories;
 pub mod hostile;
 pub mod hosts;
 pub mod importer;

@@ -18,7 +18,7 @@ use brinell_contact::rate::Rate;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Contact, Pair, Surface};
 use brinell_fmu::instance::Instance;
-use brinell_fmu::scene::{Absent, Guard, Integer, Parameter, Presence, Real, Scene, Settable, Store, identity_of};
+use brinell_fmu::scene::{Absent, Guard, Integer, Parameter, Presence, Real, Scene, Settable, identity_of};
 use std::cell::RefCell;
 use std::marker::PhantomData;
 
@@ -295,9 +295,4 @@ pub fn words<S: Scene>(instance: &Instance<S>) -> Vec<u64> {
     instance.save(|word| words.push(word));
     assert_eq!(words.len(), Instance::<S>::words());
     words
-}
-
-/// The number of values that the scene can set.
-pub fn settable<S: Scene>() -> usize {
-    <S::Values as Store<f64>>::LENGTH
 }

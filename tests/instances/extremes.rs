@@ -1,10 +1,10 @@
-//! A contact may begin at any gap, down to the smallest numbers: every step is made, ends in numbers and keeps the momentum.
+//! A contact may begin at any gap and rate, down to the smallest numbers: every step is made and ends in numbers.
 
 use crate::scenes::{
     Choice, Chosen, Damped, DampedMassive, Elastoplastic, Frictional, FrictionalPlane, Lossy, LossyMassive, Massive,
-    Rated, choose, outputs, ready, words,
+    Rated, choose, outputs, ready, set_rate, words,
 };
-use crate::{LOSSES, every_pairing, some_pairings};
+use crate::{DampedOne, LOSSES, every_pairing, some_pairings};
 use brinell_contact::damped::AnyDamped;
 use brinell_fmu::instance::Fault;
 use brinell_fmu::scene::{Absent, Coupled, Present, Real, Scene};
@@ -94,6 +94,24 @@ fn a_contact_with_a_loss_begins_at_any_gap() {
             let (name, choice) = (format!("{name}, {loss:?}"), Choice { loss, ..choice });
             goes_on::<Chosen<Lossy, 1, Present>>(&name, choice);
             every_coupling!(LossyMassive, name, choice);
+        }
+    }
+}
+
+/// A contact that was touched at almost zero speed once had an infinite damping.
+#[test]
+fn a_rate_dependent_contact_can_be_touched_at_next_to_no_speed() {
+    for (name, damped) in AnyDamped::ALL {
+        for rate in [1e-300, 1e-200, 1e-100, 1e-30] {
+            choose(Choice { damped, ..some_pairings()[0].1 });
+            let mut instance = ready::<DampedOne>();
+            set_rate(&mut instance, 0, rate);
+            // indentation of one micrometre
+            instance.do_step(0.0, if rate > 1e-50 { 1e-6 / rate } else { 1e49 }).unwrap_or_else(|fault| {
+                panic!("{name} at {rate} m/s: {fault:?}");
+            });
+            let shown = outputs(&instance);
+            assert!(shown.iter().all(|number| number.is_finite()), "{name} at {rate} m/s: {shown:?}");
         }
     }
 }
