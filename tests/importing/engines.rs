@@ -294,7 +294,16 @@ const FOR_FITS: [&str; 5] = ["scipy", "matplotlib", "pandas", "openpyxl", "pyarr
 
 #[test]
 fn fits_find_what_made_a_measurement() {
-    pytest(&["test_measurements.py", "test_fit.py", "test_fit_choices.py"], &FOR_FITS, "fits");
+    let files = ["test_measurements.py", "test_fit.py", "test_fit_choices.py"];
+    if long::leaves_out("fits that take longest") {
+        // beside each of them a quicker one says nearly the same: of the hardening, of each constant alone, of the record, of each result
+        // alone, of one strength that was read, of intervals of a few points
+        let longest = "constant_that_would_be_negative or planted_strength_and_rate or whole_record_is_fitted or several_kinds_are_weighted \
+                       or was_read_in_any_way or bootstrap_and_linearised";
+        pytest(&[&files[..], &["-k", &format!("not ({longest})")]].concat(), &FOR_FITS, "fits");
+    } else {
+        pytest(&files, &FOR_FITS, "fits");
+    }
 }
 
 /// How often is a matter of many fits: of `BRINELL_COVERAGE` measurements of each case, or of some in a long run.
