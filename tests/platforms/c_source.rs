@@ -215,11 +215,12 @@ fn two_units_are_linked_into_one_program_and_need_only_memory_functions() {
     output(&mut Command::new(program)).with_status(0);
 }
 
-/// A command with the programs of the tests' Python, such as CMake, on its path.
-fn with_cmake(program: &Path) -> Command {
-    let programs = python().parent().unwrap().display().to_string();
+/// A command with CMake on its path.
+fn with_cmake(program: &str) -> Command {
+    let tools = systems::tools().unwrap_or_else(|why| panic!("{why}"));
     let mut command = Command::new(program);
-    keeping_modules(&mut command).env("PATH", format!("{programs}:{}", std::env::var("PATH").unwrap()));
+    let path = format!("{}:{}", tools.parent().unwrap().display(), std::env::var("PATH").unwrap());
+    keeping_modules(&mut command).env("PATH", path);
     command
 }
 
@@ -230,7 +231,7 @@ fn fmpy_compiles_the_source() {
     fs::rename(&place, &native).unwrap();
     let script =
         "import sys, fmpy.build, fmpy.validation\nfmpy.build.build_platform_binary(sys.argv[1], all_warnings=True)\n";
-    output(with_cmake(&python()).args(["-c", script]).arg(fmu.path())).with_status(0);
+    output(with_cmake(python().to_str().unwrap()).args(["-c", script]).arg(fmu.path())).with_status(0);
     let built = fmu.path().join("built.so");
     fs::rename(&place, &built).unwrap();
     fs::rename(&native, &place).unwrap();
@@ -252,8 +253,7 @@ fn a_cmake_project_has_the_source_as_a_library() {
     let project = empty_folder();
     fs::write(project.path().join("CMakeLists.txt"), text).unwrap();
     let cmake = |arguments: &[&str]| {
-        let program = python().with_file_name("cmake");
-        output(with_cmake(&program).current_dir(project.path()).args(arguments)).with_status(0);
+        output(with_cmake("cmake").current_dir(project.path()).args(arguments)).with_status(0);
     };
     cmake(&["-DCMAKE_BUILD_TYPE=Release", "-B", "build"]);
     cmake(&["--build", "build"]);
