@@ -182,8 +182,8 @@ fn the_curve_of_a_rate_dependent_law_is_the_course_of_the_impact() {
     let impact = 0.5 * 5.4e-3 * 0.8 * 0.8;
     assert!(force.iter().all(|force| *force >= 0.0), "{force:?}");
     assert!(heat.windows(2).all(|w| w[1] >= w[0] - 1e-12 * impact), "{heat:?}");
-    for row in 0..work.len() {
-        assert!((work[row] - elastic[row] - heat[row]).abs() <= 1e-12 * impact, "row {row}");
+    for ((work, elastic), heat) in work.iter().zip(&elastic).zip(&heat) {
+        assert!((work - elastic - heat).abs() <= 1e-12 * impact, "{work} is not {elastic} + {heat}");
     }
     close(heat[heat.len() - 1] / impact, 1.0 - 0.9 * 0.9, 1e-3);
     close(depth.iter().copied().fold(0.0, f64::max), 1.323_578e-5, 1e-4);
