@@ -1,8 +1,10 @@
 //! The first test program, because cargo runs them in alphabetical order: this machine has what the tests need, and the list of
 //! what is skipped begins anew. docs/project/tests.md lists the packages for each system.
 
-use brinell_testing::python::INSTALLED;
+use brinell_testing::places::WORKER;
+use brinell_testing::python::{self, INSTALLED};
 use brinell_testing::skips;
+use std::env;
 use std::process::{Command, Output, Stdio};
 
 /// Oldest version of Python that the tests support: their packages have no files for older ones.
@@ -60,6 +62,20 @@ fn python() -> Option<String> {
 fn this_machine_has_what_the_tests_need() {
     let missing: Vec<_> = [c_compiler(), python()].into_iter().flatten().collect();
     assert!(missing.is_empty(), "the tests can't run here:\n- {}", missing.join("\n- "));
+}
+
+/// They are downloaded while the next test programs run, by a process of its own: whoever needs them waits for it, and says what fails.
+#[test]
+#[allow(clippy::zombie_processes, reason = "it outlives this program")]
+fn the_packages_of_python_begin_to_be_installed() {
+    if env::var_os(WORKER).is_some() {
+        python::python();
+        python::engines(false);
+        return;
+    }
+    let mut own = Command::new(env::current_exe().expect("a test knows where it is"));
+    own.args(["--exact", "the_packages_of_python_begin_to_be_installed"]).env(WORKER, "1");
+    own.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("this program can be started");
 }
 
 #[test]

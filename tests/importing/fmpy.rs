@@ -1,16 +1,16 @@
 //! FMUs in fmpy, the importer of most Python users: the files of tests/fmpy/, each a topic.
 //!
-//! The program exports the FMUs like for a user. The files can also be run alone: see [`pytest::pytest`].
+//! The program exports the FMUs like for a user. The files can also be run alone: see [`pytest::with_units`].
 
 use crate::pytest;
-use crate::unit::{export, plain_scenes, scene, scenes, steel_ball_with_regime, write_scene};
+use crate::unit::{plain_scenes, scene, scenes, steel_ball_with_regime, write_scene};
 use std::fs;
 use std::path::PathBuf;
 
 /// Runs these topics of tests/fmpy/ with the FMUs of `scenes`.
 fn pytest(topics: &[&str], scenes: impl IntoIterator<Item = PathBuf>) {
-    let name = |scene: &PathBuf| scene.file_stem().unwrap().to_string_lossy().into_owned();
-    pytest::pytest(topics, &scenes.into_iter().map(|scene| (name(&scene), export(&scene))).collect());
+    let files: Vec<String> = topics.iter().map(|topic| format!("test_{topic}.py")).collect();
+    pytest::pytest(&mut pytest::with_units(scenes), "fmpy", &files);
 }
 
 /// A scene of a ball of 5 mm with these lines.

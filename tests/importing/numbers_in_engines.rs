@@ -2,7 +2,7 @@
 //! `BRINELL_ENGINES=all`.
 
 use crate::debian;
-use crate::engines::{all, interpreter, pytest_with};
+use crate::engines::{all, with_scipy};
 use crate::python;
 use crate::skips;
 use std::fs;
@@ -23,7 +23,7 @@ fn numbers_for_yade_do_what_is_promised_in_it() {
     for precision in ["longdouble", "float128", "mpfr150"] {
         let _ = fs::remove_dir_all(packages.folder.join(format!("usr/lib/x86_64-linux-gnu/yade-{precision}")));
     }
-    pytest_with(interpreter(&["scipy"]).env("BRINELL_TEST_DEBIAN", packages.folder), &["test_translate_yade.py"]);
+    with_scipy("BRINELL_TEST_DEBIAN", &packages.folder, "test_translate_yade.py");
 }
 
 /// Runs the tests in `file` with this release of a package for Node.js.
@@ -32,7 +32,7 @@ fn with_npm(what: &str, size: &str, package: &str, file: &str) {
         return skips::skipped(what, &format!("{size} of npm; BRINELL_ENGINES=all adds them"));
     }
     match npm(package) {
-        Ok(folder) => pytest_with(interpreter(&["scipy"]).env("BRINELL_TEST_NPM", folder), &[file]),
+        Ok(folder) => with_scipy("BRINELL_TEST_NPM", &folder, file),
         Err(why) => skips::skipped(what, &why),
     }
 }

@@ -5,9 +5,10 @@
 //! of BRINELL_TOOLCHAIN.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
-use brinell_testing::command::{brinell, contents, empty_folder, output, scene};
+use crate::unpacked::Unpacked;
+use brinell_testing::command::{contents, empty_folder, output, scene};
 use brinell_testing::courses;
-use brinell_testing::hosts::{Host, Interface, Loading, cc, compile};
+use brinell_testing::hosts::Host;
 use brinell_testing::python;
 use brinell_testing::skips;
 use brinell_testing::systems;
@@ -18,21 +19,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// The prebuilt libraries for all platforms; `None` without a toolchain to make them.
-fn store(folder: &Path) -> Option<PathBuf> {
-    let toolchain = toolchain::toolchain_for_c()?;
-    let store = folder.join("store");
-    let mut prebuild = brinell(folder);
-    prebuild.env("BRINELL_TOOLCHAIN", toolchain).args(["prebuild", "--platforms", "all,c-code", "-o"]);
-    output(prebuild.arg(&store)).with_status(0);
-    Some(store)
-}
-
 /// The wheel.
 fn wheel(folder: &Path) -> Option<PathBuf> {
     let mut release = Command::new("python3");
     release.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("packaging/release.py"));
-    release.args(["--program", env!("CARGO_BIN_EXE_brinell"), "--prebuilt"]).arg(store(folder)?);
+    release.args(["--program", env!("CARGO_BIN_EXE_brinell"), "--prebuilt"]).arg(toolchain::store("all,c-code")?);
     release.arg("--scratch").arg(python::target_folder().join("packaging")).arg("-o").arg(folder.join("dist"));
     output(release.env("PYTHONDONTWRITEBYTECODE", "1")).with_status(0);
     let names = contents(&folder.join("dist"));
@@ -42,13 +33,6 @@ fn wheel(folder: &Path) -> Option<PathBuf> {
 
 /// The folders of an FMU for every system, and C source.
 const PLATFORMS: [&str; 5] = ["aarch64-linux", "c-code", "darwin64", "linux64", "win64"];
-
-/// The library of the `folder` of a system among the `binaries` of an unpacked FMU.
-fn library(unpacked: &Path, folder: &str) -> PathBuf {
-    let folder = unpacked.join("binaries").join(folder);
-    let mut files = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    files.next().expect("a library").expect("a readable folder").path()
-}
 
 /// Every scene of the repository, by the program of a wheel alone, for every system and as C source.
 #[test]
@@ -62,54 +46,40 @@ fn a_wheel_in_an_empty_environment_makes_fmus_that_run_on_every_system_here() {
     let mut pip = Command::new(environment.join("bin/python"));
     output(pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps"]).arg(&wheel))
         .with_status(0);
-    let history = courses::history();
-    let ordinary =
-        compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}"));
     let others = [("aarch64-linux", systems::arm64_linux()), ("win64", systems::windows())];
     let mut scenes = contents(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"));
     scenes.retain(|name| name.ends_with(".toml"));
     assert!(scenes.len() > 10, "{scenes:?}");
     for name in scenes.iter().map(|name| name.trim_end_matches(".toml")) {
         // nothing of a compiler, and nothing of the environment of this test
-        let mut export = Command::new(environment.join("bin/brinell"));
-        export.env_clear().env("PATH", folder.join("nothing")).env("HOME", folder).current_dir(folder);
-        export.arg("export").arg(scene(name)).args(["--json", "-o", "unit.fmu"]);
-        let start = Instant::now();
-        let said = output(export.args(["--platforms", &PLATFORMS.join(",")])).with_status(0);
-        let seconds = start.elapsed().as_secs_f64();
-        let libraries = said.json()["libraries"].as_object().expect("libraries").keys().cloned().collect::<Vec<_>>();
-        assert_eq!(libraries, PLATFORMS, "{name}: darwin64 is for two processors");
-        let fmu = folder.join("unit.fmu");
-        let size = fs::metadata(&fmu).expect("an FMU").len();
-        let _ = writeln!(stderr(), "{name}: {size} bytes in {seconds:.2} s");
-
-        let unpacked = folder.join(name);
-        output(Command::new("python3").args(["-m", "zipfile", "-e"]).args([&fmu, &unpacked])).with_status(0);
-        let interface = Interface::of(&fs::read_to_string(unpacked.join("modelDescription.xml")).expect("unpacked"));
-        let run = |host: &Host, library: &Path| {
-            host.run(library, &interface, &history).unwrap_or_else(|why| panic!("{}: {why}", library.display())).bits
+        let program = |unpacked: &Path| {
+            let mut program = Command::new(environment.join("bin/brinell"));
+            program.env_clear().env("PATH", folder.join("nothing")).env("HOME", folder).current_dir(unpacked);
+            program
         };
-        let expected = run(&Host::program(ordinary.clone()), &library(&unpacked, "linux64"));
-        courses::assert_moving(&expected);
-        let compiled = unpacked.join("compiled.so");
+        let text = fs::read_to_string(scene(name)).expect("a scene of the project");
+        let start = Instant::now();
+        let fmu = Unpacked::of(&text, program, &["--platforms", &PLATFORMS.join(",")]);
+        assert_eq!(fmu.platforms, PLATFORMS, "{name}: darwin64 is for two processors");
+        let (size, seconds) = (fs::metadata(fmu.file()).expect("an FMU").len(), start.elapsed().as_secs_f64());
+        let _ = writeln!(stderr(), "{name}: {size} bytes, exported and unpacked in {seconds:.2} s");
+        let compiled = fmu.path().join("compiled.so");
         let headers = format!("-I{}", python::site_packages_file("fmpy/c-code").display());
         let options = ["-O1", "-shared", "-fPIC", "-DFMI2_OVERRIDE_FUNCTION_PREFIX", &headers, "-o"];
-        output(Command::new("gcc").args(options).args([&compiled, &unpacked.join("sources/fmi2.c")])).with_status(0);
-        assert!(run(&Host::program(ordinary.clone()), &compiled) == expected, "{name}: other bits from C source");
+        output(Command::new("gcc").args(options).args([&compiled, &fmu.source()])).with_status(0);
+        assert_eq!(fmu.difference(&Host::ordinary(), &compiled), None, "{name} from C source");
         for (platform, system) in &others {
             match system {
                 Err(why) => skips::skipped(platform, why),
                 Ok(system) => {
-                    assert!(
-                        run(&system.host, &library(&unpacked, platform)) == expected,
-                        "{name} on {}: other bits",
-                        system.name
-                    );
+                    let found = fmu.difference(&system.host, &fmu.library(platform));
+                    assert_eq!(found, None, "{name} on {}", system.name);
                 }
             }
         }
         if name == "steel_ball" {
-            let by_fmpy = systems::by_fmpy(&fmu, &history, None).unwrap_or_else(|why| panic!("fmpy: {why}"));
+            let by_fmpy =
+                systems::by_fmpy(&fmu.file(), &courses::history(), None).unwrap_or_else(|why| panic!("fmpy: {why}"));
             assert!(by_fmpy.lines().count() > 400, "{} lines", by_fmpy.lines().count());
         }
     }

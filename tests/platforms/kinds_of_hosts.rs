@@ -40,17 +40,10 @@ fn cases(host: &Host) -> Vec<Case> {
     scenes.map(case).collect()
 }
 
-/// An ordinary program that loads libraries through the system.
-fn ordinary() -> Host {
-    Host::program(
-        compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}")),
-    )
-}
-
 /// Runs the FMUs in `host`, whose name begins with `name`, and compares the results with those in an ordinary program.
 #[track_caller]
 fn assert_all_run(host: &Host, name: &str) {
-    for case in cases(&ordinary()) {
+    for case in cases(&Host::ordinary()) {
         assert_runs(host, name, &case);
     }
 }
@@ -68,7 +61,7 @@ fn assert_runs(host: &Host, name: &str, case: &Case) {
 /// Standalone FMUs run in `host`, whose name begins with `name`; for the others, the host reports that `calloc` is missing.
 #[track_caller]
 fn assert_standalone_alone_runs(host: &Host, name: &str) {
-    for case in cases(&ordinary()) {
+    for case in cases(&Host::ordinary()) {
         if standalone::is_standalone(&case.library) {
             assert_runs(host, name, &case);
         } else {

@@ -9,4 +9,6 @@ mod first_export;
 mod kinds_of_hosts;
 mod other_systems;
 mod portable;
+#[cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
+mod unpacked;
 mod wheel;

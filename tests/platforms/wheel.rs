@@ -63,9 +63,6 @@ impl Installed {
     }
 }
 
-/// The scene that is exported without a compiler.
-const SCENE: &str = "mass_known";
-
 /// The wheel, installed with its dependencies in an empty environment.
 static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
     let folder = temporary().join("wheel");
@@ -220,14 +217,6 @@ fn the_wheel_has_a_bill_of_materials() {
         .map(|(name, _)| name.to_string())
         .collect();
     assert!(listed.len() > 60 && listed == licensed, "{listed:?}\n{licensed:?}");
-}
-
-#[test]
-#[ignore = "makes and installs a wheel: cargo test --release --test platforms wheel -- --ignored"]
-fn a_first_export_takes_no_compiler_and_fmpy_runs_the_unit() {
-    output(INSTALLED.command("brinell").arg("export").arg(scene(SCENE))).with_status(0);
-    let run = "import fmpy; print(len(fmpy.simulate_fmu('mass_known.fmu', stop_time=1e-3, output_interval=1e-5)))";
-    assert_eq!(INSTALLED.python(run), "101");
 }
 
 /// It compiles the program once more.

@@ -2,12 +2,10 @@
 //! no file.
 
 use crate::archive;
-use crate::command::{assert_same, brinell, empty_folder, output, run};
+use crate::command::{assert_same, brinell, output};
 use crate::prebuilt::finding_no_compiler;
-use serde_json::Value;
+use brinell_testing::folder::{Folder, number, words};
 use std::fs;
-use std::path::Path;
-use tempfile::TempDir;
 
 const BALL: &str =
     "name = \"ball\"\nimpactor = { radius = \"5 mm\", density = \"7.85 g/cm3\" }\nimpact = { speed = 2.0 }\n";
@@ -23,22 +21,9 @@ fn curve() -> String {
     "Dehnung [%];Spannung [MPa]\n".to_string() + &(0..80).map(row).collect::<String>()
 }
 
-fn folder_with(files: &[(&str, &str)]) -> TempDir {
-    let folder = empty_folder();
-    for (name, text) in files {
-        let path = folder.path().join(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, text).unwrap();
-    }
-    folder
-}
-
-fn predicted(folder: &Path, scene: &str) -> Value {
-    run(folder, ["predict", scene, "--json"]).with_status(0).json()
-}
-
-fn number(answer: &Value, key: &str) -> f64 {
-    answer["laws"][0][key].as_f64().unwrap_or_else(|| panic!("no {key} in {answer}"))
+/// The restitution of a scene in `folder`.
+fn restitution(folder: &Folder, scene: &str) -> f64 {
+    number(&folder.json(&format!("predict {scene}")), "laws/0/restitution")
 }
 
 const STEEL: &str = "youngs_modulus = \"210 GPa\"\npoissons_ratio = 0.3\n";
@@ -52,18 +37,13 @@ fn a_tensile_test_in_a_file_beside_the_scene_says_what_its_points_say() {
     );
     let by_file = format!("{BALL}[target]\n{STEEL}tensile_test = \"tests/curve 7.csv\"\n");
     let folder =
-        folder_with(&[("a/scene.toml", &by_file), ("a/tests/curve 7.csv", &curve()), ("points.toml", &by_points)]);
-    let [file, points] = ["a/scene.toml", "points.toml"].map(|scene| predicted(folder.path(), scene));
+        Folder::with(&[("a/scene.toml", &by_file), ("a/tests/curve 7.csv", &curve()), ("points.toml", &by_points)]);
+    let [file, points] = ["a/scene.toml", "points.toml"].map(|scene| folder.json(&format!("predict {scene}")));
     for key in ["restitution", "largest_force", "dent"] {
-        let error = number(&file, key) / number(&points, key) - 1.0;
+        let error = number(&file["laws"][0], key) / number(&points["laws"][0], key) - 1.0;
         assert!(error.abs() < 3e-3, "{key}: {error}");
     }
-    let said = run(folder.path(), ["predict", "a/scene.toml"])
-        .with_status(0)
-        .out
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ");
+    let said = folder.words("predict a/scene.toml");
     for words in [
         "A tensile test is a flow stress of 49",
         "(power law through its",
@@ -96,7 +76,7 @@ fn a_crosshead_is_warned_of_and_its_compliance_can_be_taken_off() {
     let raw = "# travel [mm]\tforce [N]\n".to_string() + &rows.iter().map(raw).collect::<String>();
     let scene = |test: &str| format!("{BALL}[target]\n{STEEL}tensile_test = {test}\n");
     let [right, most, soft] = [1.0, 0.95, 0.5].map(table);
-    let folder = folder_with(&[
+    let folder = Folder::with(&[
         ("right.csv", &right),
         ("most.csv", &most),
         ("soft.csv", &soft),
@@ -107,71 +87,19 @@ fn a_crosshead_is_warned_of_and_its_compliance_can_be_taken_off() {
         ("off.toml", &scene("{ curve = \"soft.csv\", compliance_correction = true }")),
         ("raw.toml", &scene("{ curve = \"raw.csv\", section = \"7.5 mm^2\", gauge_length = \"3 cm\" }")),
     ]);
-    let told = |scene: &str| {
-        let run = run(folder.path(), ["predict", scene]).with_status(0);
-        run.err.split_whitespace().collect::<Vec<_>>().join(" ")
-    };
+    let told = |scene: &str| words(&folder.call(&format!("predict {scene}")).with_status(0).err);
     for scene in ["right.toml", "most.toml", "off.toml", "raw.toml"] {
         assert_eq!(told(scene), "", "{scene}");
     }
     let warning = "target.tensile_test: the curve begins with a slope of 105 GPa, 0.5 of youngs_modulus = 210 GPa; a strain by the crosshead \
                    contains the machine: give that of an extensometer, take the record's own slope off with compliance_correction = true";
     assert!(told("soft.toml").contains(warning), "{}", told("soft.toml"));
-    let restitution = |scene: &str| number(&predicted(folder.path(), scene), "restitution");
-    let expected = restitution("right.toml");
+    let expected = restitution(&folder, "right.toml");
     for (scene, tolerance) in [("off.toml", 1e-3), ("raw.toml", 1e-9)] {
-        let error = restitution(scene) / expected - 1.0;
+        let error = restitution(&folder, scene) / expected - 1.0;
         assert!(error.abs() < tolerance, "{scene}: {error}");
     }
-    assert!(restitution("soft.toml") < 0.995 * expected, "the crosshead makes it softer");
-}
-
-/// Hollomon and Considere: sigma = Rm (e eps/n)^n, n from Rp0.2 and Rm.
-#[test]
-fn two_numbers_of_a_tensile_test_are_a_power_law() {
-    let scene = format!(
-        "{BALL}[target]\n{STEEL}tensile_test = {{ proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }}\n"
-    );
-    let folder = folder_with(&[("scene.toml", &scene)]);
-    let said = run(folder.path(), ["predict", "scene.toml"])
-        .with_status(0)
-        .out
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ");
-    let n = 0.2149_f64;
-    let ratio = n * (1.0 + ((0.002 + 240.0 / 210e3) / n).ln());
-    assert!((ratio - 0.5_f64.ln()).abs() < 2e-3, "{ratio}");
-    let stress = 480.0 * (std::f64::consts::E * 0.03 / n).powf(n);
-    assert!(said.contains(&format!("is a flow stress of {stress:.1}")), "no {stress} in {said}");
-    assert!(said.contains("standard deviation 5 %"), "{said}");
-}
-
-/// A law without hardening takes the flow stress at the strain, beside another law as in a scene of its own; a hardness test takes what belongs
-/// to its own strain. In so wide a dent the fit's tables of hardening are
-/// 5.6 % below Tabor's rule.
-#[test]
-fn a_law_without_hardening_takes_the_flow_stress_of_a_tensile_test() {
-    let scene = |law: &str| {
-        format!(
-            "{BALL}law = {{ loading = \"{law}\" }}\n[target]\n{STEEL}tensile_test = {{ proof_stress = \"240 MPa\", tensile_strength = \"480 MPa\" }}\n"
-        )
-    };
-    let folder = folder_with(&[("johnson.toml", &scene("johnson")), ("brinell.toml", &scene("brinell"))]);
-    let own = number(&predicted(folder.path(), "johnson.toml"), "restitution");
-    let beside = run(folder.path(), ["predict", "brinell.toml", "--laws", "johnson", "--json"]).with_status(0).json();
-    let error = number(&beside, "restitution") / own - 1.0;
-    assert!(error.abs() < 0.02, "the strain is that of the scene's own law: {error}");
-    let hardness = |scene: &str| {
-        let answer = run(folder.path(), ["hardness", scene, "--load", "1000kgf", "--laws", "brinell", "--json"])
-            .with_status(0)
-            .json();
-        answer["laws"][0]["brinell_hardness"].as_f64().unwrap()
-    };
-    let [of_tangent, of_stress] = ["brinell.toml", "johnson.toml"].map(hardness);
-    let said = run(folder.path(), ["hardness", "brinell.toml", "--load", "1000kgf"]).with_status(0).out;
-    assert!(said.contains("note: target: A tensile test with a proof stress of 240 MPa"), "{said}");
-    assert!((of_tangent / of_stress - 1.0).abs() < 0.07, "{of_tangent} and {of_stress}");
+    assert!(restitution(&folder, "soft.toml") < 0.995 * expected, "the crosshead makes it softer");
 }
 
 const MATERIALS: &str = "\
@@ -200,7 +128,7 @@ fn a_unit_has_the_numbers_of_the_files_beside_the_scene_and_not_the_files() {
             "{BALL}[target]\n{STEEL}tensile_test = \"{test}\"\n[[contact]]\nname = \"a\"\n[[contact]]\nname = \"b\"\ntarget = {{ material = \"{material}\" }}\n"
         )
     };
-    let folder = folder_with(&[
+    let folder = Folder::with(&[
         ("one/scene.toml", &scene("curve.csv", "batch 7")),
         ("one/curve.csv", &curve()),
         ("one/materials.toml", MATERIALS),
@@ -216,8 +144,7 @@ fn a_unit_has_the_numbers_of_the_files_beside_the_scene_and_not_the_files() {
             command.env(name, folder.path().join("config"));
         }
         command.env("HOME", folder.path().join("none"));
-        let said = output(finding_no_compiler(&mut command)).with_status(0).out;
-        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let said = words(&output(finding_no_compiler(&mut command)).with_status(0).out);
         let from = if place == "one" {
             "materials.toml beside the scene"
         } else {
@@ -229,51 +156,26 @@ fn a_unit_has_the_numbers_of_the_files_beside_the_scene_and_not_the_files() {
         assert!(said.contains("A tensile test is a flow stress of"), "{said}");
         assert!(said.contains("our steel, 300 HV10, is a flow stress of"), "{said}");
     }
-    let [one, two] = ["one", "two"].map(|place| folder.path().join(place).join("unit.fmu"));
+    let [one, two] = ["one/unit.fmu", "two/unit.fmu"].map(|name| folder.at(name));
     assert_same(&fs::read(&one).unwrap(), &fs::read(&two).unwrap());
     let inside = archive::text(&one, "resources/scene.toml");
     assert!(inside.contains("true_strain = [") && !inside.contains(".csv"), "{inside}");
-    fs::write(folder.path().join("inside.toml"), inside).unwrap();
-    assert_eq!(predicted(folder.path(), "inside.toml")["laws"], predicted(folder.path(), "one/scene.toml")["laws"]);
+    folder.write("inside.toml", &inside);
+    assert_eq!(folder.json("predict inside.toml")["laws"], folder.json("predict one/scene.toml")["laws"]);
     let page = archive::text(&one, "documentation/index.html");
     assert!(page.contains("<h3>Strength</h3>") && page.contains("power law") && page.contains("<svg"), "{page}");
     for text in [page, archive::text(&one, "modelDescription.xml")] {
         assert!(!text.contains("curve.csv") && !text.contains("materials.toml"), "{text}");
     }
-    run(folder.path(), ["check", "one/unit.fmu"]).with_status(0);
+    folder.call("check one/unit.fmu").with_status(0);
 }
 
-#[test]
-fn a_material_of_ones_own_says_where_it_is_from_and_goes_before_the_built_in_one() {
-    let text = |material: &str, more: &str| format!("{BALL}target = {{ material = \"{material}\" }}\n{more}");
-    let own = "[[material]]\nname = \"mild steel\"\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 1e9\ndensity = 7850.0\n";
-    let folder = folder_with(&[
-        ("scene.toml", &text("mild steel", "")),
-        ("inside.toml", &text("mild steel", own)),
-        ("built_in.toml", &text("S355", "")),
-        ("materials.toml", MATERIALS),
-    ]);
-    let said = |scene: &str| {
-        run(folder.path(), ["predict", scene]).with_status(0).out.split_whitespace().collect::<Vec<_>>().join(" ")
-    };
-    let one = said("scene.toml");
-    assert!(
-        one.contains(
-            "Material `mild steel` is that of materials.toml beside the scene, not the built-in one of this name."
-        ),
-        "{one}"
-    );
-    assert!(said("inside.toml").contains("Material `mild steel` is that of the scene, not the built-in"));
-    assert!(!said("built_in.toml").contains("Material `"));
-    let [beside, inside] =
-        ["scene.toml", "inside.toml"].map(|scene| number(&predicted(folder.path(), scene), "restitution"));
-    assert!(beside < 0.9 * inside, "280 MPa and 1 GPa: {beside} and {inside}");
-    let list = run(folder.path(), ["materials", "--json"]).with_status(0).json();
-    assert_eq!(
-        (list[0]["name"].as_str(), list[0]["place"].as_str()),
-        (Some("our steel"), Some("materials.toml beside the scene"))
-    );
-    assert!(list.as_array().unwrap().iter().any(|material| material["place"] == "built in"));
+/// The start value of a variable in the FMU of a scene.
+fn start(folder: &Folder, scene: &str, name: &str) -> f64 {
+    folder.call(&format!("export {scene} --output unit.fmu")).with_status(0);
+    let xml = archive::text(&folder.at("unit.fmu"), "modelDescription.xml");
+    let (_, rest) = xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name} in {xml}"));
+    rest.split_once("start=\"").unwrap().1.split('"').next().unwrap().parse().unwrap()
 }
 
 /// What holds for all contacts of a scene also holds for one of them.
@@ -291,27 +193,18 @@ fn a_contact_has_a_hardness_a_tensile_test_or_a_material_of_its_own() {
         let own = format!(
             "{BALL}[target]\n{STEEL}{none}yield_strength = 9e8\n[[contact]]\nname = \"a\"\ntarget = {{ {strength} }}\n[[contact]]\nname = \"b\"\n"
         );
-        let folder = folder_with(&[("alone.toml", &alone), ("own.toml", &own)]);
-        let value = |scene: &str, name: &str| {
-            let text = run(folder.path(), ["export", scene, "--output", "unit.fmu"]).with_status(0);
-            let xml = archive::text(&folder.path().join("unit.fmu"), "modelDescription.xml");
-            let (_, rest) =
-                xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name}: {text:?}"));
-            let (_, rest) = rest.split_once("start=\"").unwrap();
-            rest.split('"').next().unwrap().parse::<f64>().unwrap()
-        };
-        let alone = value("alone.toml", "target.yield_strength");
-        let own_value = value("own.toml", "a.target.yield_strength");
+        let folder = Folder::with(&[("alone.toml", &alone), ("own.toml", &own)]);
+        let alone = start(&folder, "alone.toml", "target.yield_strength");
+        let own_value = start(&folder, "own.toml", "a.target.yield_strength");
         assert!((own_value / alone - 1.0).abs() < 1e-9, "{strength}: {own_value} and {alone}");
         // that of all others stays
-        assert_eq!(value("own.toml", "target.yield_strength"), 9e8, "{strength}");
+        assert_eq!(start(&folder, "own.toml", "target.yield_strength"), 9e8, "{strength}");
     }
     let impactor = format!(
         "{BALL}[target]\n{STEEL}yield_strength = 9e8\n[[contact]]\nname = \"a\"\nimpactor = {{ material = \"mild steel\", hardness = \"150 HV10\" }}\n"
     );
-    let folder = folder_with(&[("scene.toml", &impactor)]);
-    let said = run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
-    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    let folder = Folder::of(&impactor);
+    let said = folder.words("export scene.toml");
     assert!(said.contains("a: impactor: 150 HV10 is a flow stress of"), "{said}");
 }
 
@@ -321,14 +214,8 @@ fn a_contact_whose_own_strength_has_no_hardening_doesnt_harden_as_the_others_do(
     let scene = format!(
         "{BALL}[target]\n{STEEL}{test}\n[[contact]]\nname = \"a\"\ntarget = {{ hardness = \"300 HV10\" }}\n[[contact]]\nname = \"b\"\n"
     );
-    let folder = folder_with(&[("scene.toml", &scene)]);
-    run(folder.path(), ["export", "scene.toml", "--output", "unit.fmu"]).with_status(0);
-    let xml = archive::text(&folder.path().join("unit.fmu"), "modelDescription.xml");
-    let start = |name: &str| {
-        let (_, rest) = xml.split_once(&format!("name=\"{name}\"")).unwrap_or_else(|| panic!("no {name} in {xml}"));
-        rest.split_once("start=\"").unwrap().1.split('"').next().unwrap().parse::<f64>().unwrap()
-    };
-    assert_eq!(start("a.target.hardening_modulus"), 0.0);
-    assert!(start("target.hardening_modulus") > 1e9);
-    run(folder.path(), ["check", "unit.fmu"]).with_status(0);
+    let folder = Folder::of(&scene);
+    assert_eq!(start(&folder, "scene.toml", "a.target.hardening_modulus"), 0.0);
+    assert!(start(&folder, "scene.toml", "target.hardening_modulus") > 1e9);
+    folder.call("check unit.fmu").with_status(0);
 }

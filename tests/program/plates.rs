@@ -1,8 +1,7 @@
 //! What `predict` says about the size of a plate that gives way, against a plate with an edge.
 
-use crate::command::{empty_folder, run};
+use brinell_testing::folder::{Folder, number};
 use std::f64::consts::PI;
-use std::fs;
 
 /// Number of modes of a plate with an edge.
 const MODES: usize = 3000;
@@ -46,16 +45,14 @@ fn a_thin_sheet_that_bends_for_good_is_told_from_the_force_at_which_it_does() {
     for thickness in [0.8e-3, 2e-3, 5e-3, 20e-3] {
         let mut seen = [false; 2];
         for speed in [1e-4, 1e-3, 0.01, 0.1, 1.0, 10.0, 30.0] {
-            let folder = empty_folder();
             // hail, which is stiffer here than ice would be if it broke
             let text = format!(
                 "name = \"unit\"\nimpactor = {{ radius = {radius:?}, youngs_modulus = 9e9, poissons_ratio = 0.33, density = {density:?} }}\n\
                  target = {{ material = \"aluminium 1100-O\", yield_strength = 35e6, plate_thickness = {thickness:?} }}\n\
                  impact = {{ speed = {speed:?} }}\n"
             );
-            fs::write(folder.path().join("scene.toml"), text).unwrap();
-            let answer = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
-            let force = answer["laws"][0]["largest_force"].as_f64().unwrap();
+            let answer = Folder::of(&text).json("predict scene.toml");
+            let force = number(&answer, "laws/0/largest_force");
             let warned = answer["laws"][0]["warnings"].to_string().contains("itself bends for good from");
             let collapse = collapse(35e6, thickness);
             assert_eq!(warned, force > collapse, "{thickness} m, {speed} m/s: {force} N of {collapse} N");
@@ -71,21 +68,18 @@ fn a_plate_whose_edge_is_where_predict_says_moves_almost_like_an_infinite_one() 
     let roots = roots();
     let (modulus, density, ratio): (f64, f64, f64) = (206e9, 7850.0, 0.3);
     for (thickness, speed) in [(1e-3, 0.1), (4e-3, 3.0), (10e-3, 10.0)] {
-        let folder = empty_folder();
         let text = format!(
             "name = \"unit\"\nimpactor = {{ radius = 5e-3 }}\n\
              target = {{ material = \"mild steel\", plate_thickness = {thickness:?} }}\n\
              impact = {{ mass = 4.11e-3, speed = {speed:?} }}\n"
         );
-        fs::write(folder.path().join("scene.toml"), text).unwrap();
-        let answer = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
+        let answer = Folder::of(&text).json("predict scene.toml");
         let notes = answer["notes"].to_string();
         let (_, rest) = notes.split_once("bending waves spread to a radius of ").expect("the note");
-        let (number, _) = rest.split_once(" mm: the plate must be larger").expect("a radius in millimetres");
-        let law = &answer["laws"][0];
-        let time = law["loading_time"].as_f64().unwrap() + law["unloading_time"].as_f64().unwrap();
+        let (edge, _) = rest.split_once(" mm: the plate must be larger").expect("a radius in millimetres");
+        let time = number(&answer, "laws/0/loading_time") + number(&answer, "laws/0/unloading_time");
         let spread = thickness * (modulus / (12.0 * density * (1.0 - ratio * ratio))).sqrt();
-        let front = 1e-3 * number.parse::<f64>().unwrap() / (spread * time).sqrt();
+        let front = 1e-3 * edge.parse::<f64>().unwrap() / (spread * time).sqrt();
         let [near, at, far] = [0.5, 1.0, 2.0].map(|part| motion_of_the_middle(&roots, part * front) - 1.0);
         assert!((near.abs() - 0.3).abs() < 0.02, "an edge at half of the radius: {near}");
         assert!((at.abs() - 0.05).abs() < 0.005, "an edge at the radius: {at}");

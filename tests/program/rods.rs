@@ -1,13 +1,10 @@
 //! What `predict` and `export` say about rods, against waves in rods that are integrated point by point.
 
 use crate::archive;
-use crate::command::{empty_folder, run};
-use brinell_contact::loading::AnyLoading;
-use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, History, Model, Pair, Surface};
+use brinell_testing::folder::{Folder, number};
+use brinell_testing::physics;
 use serde_json::Value;
-use std::f64::consts::PI;
-use std::fs;
 
 /// A rod of steel or aluminium, or the heavy and rigid body that is none.
 #[derive(Clone, Copy)]
@@ -72,21 +69,18 @@ impl Case {
     }
 
     fn predicted(&self) -> Value {
-        let folder = empty_folder();
-        fs::write(folder.path().join("scene.toml"), self.text()).unwrap();
-        run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json()
+        Folder::of(&self.text()).json("predict scene.toml")
     }
 
     /// The contact by the laws of the scene.
-    fn model(&self) -> Model<AnyLoading, AnyUnloading> {
+    fn model(&self) -> physics::AnyModel {
         let body = |radius, youngs_modulus| Body { radius, youngs_modulus, poissons_ratio: POISSONS_RATIO };
         let impactor = body(self.radius, self.impactor.youngs_modulus);
         let target = body(f64::INFINITY, self.target.map_or(206e9, |rod| rod.youngs_modulus));
         let strength = self.yield_strength.unwrap_or(f64::INFINITY);
         let (loading, unloading) =
             if self.yield_strength.is_some() { ("brinell", "brinell") } else { ("hertz", "contact-radius") };
-        let loading = AnyLoading::ALL.into_iter().find(|(name, _)| *name == loading).unwrap().1;
-        let unloading = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == unloading).unwrap().1;
+        let (loading, unloading) = (physics::loading(loading), physics::unloading(unloading));
         Model { pair: Pair::new(&impactor, &target, strength).unwrap(), loading, unloading, surface: Surface::Dented }
     }
 
@@ -170,10 +164,6 @@ impl Chain {
     }
 }
 
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
-}
-
 fn close(got: f64, expected: f64, tolerance: f64) -> bool {
     (got / expected - 1.0).abs() <= tolerance
 }
@@ -199,7 +189,7 @@ fn no_contact_of_rods_pushes_harder_than_their_waves_until_they_return() {
     for case in cases() {
         let answer = case.predicted();
         let rods = &answer["rods"];
-        let [bound, first, last] = ["largest_force", "first_return", "last_return"].map(|key| number(&rods[key]));
+        let [bound, first, last] = ["largest_force", "first_return", "last_return"].map(|key| number(rods, key));
         let returns =
             [Some(case.impactor), case.target].into_iter().flatten().map(|rod| 2.0 * rod.length / rod.wave_speed());
         assert!(close(returns.clone().fold(f64::INFINITY, f64::min), first, 1e-12), "{}{rods}", case.text());
@@ -219,19 +209,9 @@ fn no_contact_of_rods_pushes_harder_than_their_waves_until_they_return() {
 fn a_rod_with_a_heavy_body_behind_it_pushes_harder_once_the_wave_has_returned() {
     let case = Case { impactor: STEEL, target: None, radius: 1e3, yield_strength: None, speed: 1.0 };
     let rods = &case.predicted()["rods"];
-    let bound = number(&rods["largest_force"]);
-    let (before, whole) = case.largest_forces(number(&rods["first_return"]), true);
+    let bound = number(rods, "largest_force");
+    let (before, whole) = case.largest_forces(number(rods, "first_return"), true);
     assert!(before <= bound && whole > 2.5 * bound, "{before} {whole} {bound}");
-}
-
-/// Two rods of 100 mm diameter that meet at 8 m/s: rho c A v/2.
-#[test]
-fn two_equal_rods_push_with_half_of_what_one_has_on_a_rigid_body() {
-    let case = Case { impactor: STEEL, target: Some(STEEL), radius: 1.0, yield_strength: None, speed: 8.0 };
-    let wave = 7850.0 * (206e9_f64 / 7850.0).sqrt() * PI * 0.05 * 0.05 * 8.0;
-    let bound = |case: Case| number(&case.predicted()["rods"]["largest_force"]);
-    assert!(close(bound(case), 0.5 * wave, 1e-4) && close(bound(case), 1.26e6, 3e-3), "{}", bound(case));
-    assert!(close(bound(Case { target: None, ..case }), wave, 1e-4));
 }
 
 /// In an elastic impact the force of a compact body is 3 % too high if the contact lasts 5 times as long as the wave takes,
@@ -241,9 +221,9 @@ fn the_error_of_a_compact_body_is_what_the_warning_says() {
     let ratio = |case: &Case| {
         let answer = case.predicted();
         let law = &answer["laws"][0];
-        let time = number(&law["loading_time"]) + number(&law["unloading_time"]);
+        let time = number(law, "loading_time") + number(law, "unloading_time");
         let (_, force) = case.largest_forces(0.0, false);
-        (time / number(&answer["rods"]["last_return"]), number(&law["largest_force"]) / force - 1.0)
+        (time / number(&answer, "rods/last_return"), number(law, "largest_force") / force - 1.0)
     };
     for target in [None, Some(STEEL)] {
         for (travels, error, width) in [(5.0, 0.027, 0.003), (2.0, 0.147, 0.005)] {
@@ -266,9 +246,9 @@ fn a_prediction_says_whether_the_waves_allow_its_force() {
     for case in cases() {
         let answer = case.predicted();
         let (law, rods) = (&answer["laws"][0], &answer["rods"]);
-        let time = number(&law["loading_time"]) + number(&law["unloading_time"]);
-        let exceeds = number(&law["largest_force"]) > number(&rods["largest_force"]);
-        let is_short = !exceeds && time < 5.0 * number(&rods["last_return"]);
+        let time = number(law, "loading_time") + number(law, "unloading_time");
+        let exceeds = number(law, "largest_force") > number(rods, "largest_force");
+        let is_short = !exceeds && time < 5.0 * number(rods, "last_return");
         let (warnings, notes) = (law["warnings"].to_string(), answer["notes"].to_string());
         let takes = "the wave in a rod limits the force to";
         assert_eq!(warnings.contains(takes) && warnings.contains("takes the body as compact"), exceeds, "{answer}");
@@ -278,25 +258,16 @@ fn a_prediction_says_whether_the_waves_allow_its_force() {
             !exceeds,
             "{answer}"
         );
-        seen[if exceeds {
-            0
-        } else if is_short {
-            1
-        } else {
-            2
-        }] += 1;
+        seen[usize::from(exceeds) + 2 * usize::from(is_short)] += 1;
     }
     assert!(seen.iter().all(|count| *count > 3), "{seen:?}");
     let no_rods = "name = \"unit\"\n[impactor]\nradius = 0.05\n[target]\nmaterial = \"mild steel\"\n";
-    let folder = empty_folder();
-    fs::write(folder.path().join("scene.toml"), no_rods).unwrap();
-    let answer = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
+    let answer = Folder::of(no_rods).json("predict scene.toml");
     assert!(answer["rods"].is_null() && !answer["notes"].to_string().contains("rod"), "{answer}");
 }
 
 #[test]
 fn a_sweep_counts_the_impacts_that_the_waves_do_not_allow() {
-    let folder = empty_folder();
     let takes = "the wave in a rod limits the force to";
     let case = |modulus: f64| {
         let impactor = Rod { youngs_modulus: modulus, ..STEEL };
@@ -306,27 +277,20 @@ fn a_sweep_counts_the_impacts_that_the_waves_do_not_allow() {
     let moduli = [2e8, 2e9, 2e10, 2e11];
     let count = moduli.iter().filter(|modulus| exceeds(modulus)).count();
     assert!((1..4).contains(&count), "{count}");
-    fs::write(folder.path().join("scene.toml"), case(2e11).text()).unwrap();
-    let sweep = "impactor.youngs_modulus=2e8:2e11:4";
-    let said = run(folder.path(), ["predict", "scene.toml", "--sweep", sweep]).with_status(0).err;
-    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        said.contains(&format!("{count} of 4 impacts")) && said.contains(&format!("at the worst, {takes}")),
-        "{said}"
-    );
+    let said = Folder::of(&case(2e11).text()).words("predict scene.toml --sweep impactor.youngs_modulus=2e8:2e11:4");
+    let told = [format!("{count} of 4 impacts"), format!("at the worst, {takes}")];
+    assert!(told.iter().all(|part| said.contains(part)), "{said}");
 }
 
 #[test]
 fn export_and_its_page_say_what_predict_says_of_rods() {
-    let folder = empty_folder();
     for (radius, expected) in [(1e3, "the wave in a rod limits"), (0.05, "The wave in a rod limits")] {
         let case = Case { impactor: STEEL, target: None, radius, yield_strength: None, speed: 8.0 };
-        fs::write(folder.path().join("scene.toml"), case.text()).unwrap();
-        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
-        assert_eq!(exported["rods"], case.predicted()["rods"]);
-        let said = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
+        let folder = Folder::of(&case.text());
+        assert_eq!(folder.json("export scene.toml")["rods"], case.predicted()["rods"]);
+        let said = folder.words("export scene.toml");
         assert!(said.contains(expected), "{said}");
-        let page = archive::text(&folder.path().join("unit.fmu"), "documentation/index.html");
+        let page = archive::text(&folder.at("unit.fmu"), "documentation/index.html");
         assert!(page.contains(expected), "{page}");
     }
 }
@@ -334,26 +298,10 @@ fn export_and_its_page_say_what_predict_says_of_rods() {
 /// The FMU knows nothing of rods.
 #[test]
 fn length_and_area_change_nothing_in_the_fmu() {
-    let folder = empty_folder();
     let case = Case { impactor: STEEL, target: Some(ALUMINIUM), radius: 0.05, yield_strength: Some(300e6), speed: 1.0 };
-    let written = |text: &str| {
-        fs::write(folder.path().join("scene.toml"), text).unwrap();
-        run(folder.path(), ["constants", "scene.toml"]).with_status(0).out
-    };
+    let written = |text: &str| Folder::of(text).words("constants scene.toml");
     let text = case.text();
     let plain: Vec<_> = text.lines().filter(|line| !line.starts_with("length") && !line.starts_with("area")).collect();
     assert_eq!(plain.len() + 4, text.lines().count());
     assert_eq!(written(&text), written(&plain.join("\n")));
-}
-
-/// Otherwise it would be that of a ball with the radius of the rounded end.
-#[test]
-fn a_rod_without_a_mass_in_its_impact_has_its_own() {
-    let folder = empty_folder();
-    let case = Case { impactor: STEEL, target: None, radius: 0.05, yield_strength: None, speed: 8.0 };
-    let text = case.text().replace(&format!("mass = {:?}\n", case.mass()), "");
-    assert!(!text.contains("mass"));
-    fs::write(folder.path().join("scene.toml"), text).unwrap();
-    let answer = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
-    assert!(close(number(&answer["mass"]), case.mass(), 1e-12), "{answer}");
 }

@@ -2,6 +2,7 @@
 #![cfg(target_os = "linux")]
 
 use crate::command::{brinell, compile, contents, empty_folder, output, run, scene, settled};
+use brinell_testing::folder::{Folder, arguments};
 use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
@@ -38,95 +39,62 @@ fn a_symbolic_link_stays_and_its_target_is_written() {
 
 #[test]
 fn a_scene_is_not_replaced_by_its_fmu() {
-    let folder = empty_folder();
-    let path = folder.path().join("ball.toml");
-    fs::copy(scene("steel_ball"), &path).unwrap();
-    let before = fs::read(&path).unwrap();
-    symlink("ball.toml", folder.path().join("link.fmu")).unwrap();
-    for goal in ["ball.toml", "./ball.toml", "link.fmu"] {
-        let refused = run(folder.path(), ["export", "ball.toml", "-o", goal]).with_status(1);
+    let folder = Folder::of_scene("steel_ball");
+    let before = folder.read("scene.toml");
+    symlink("scene.toml", folder.at("link.fmu")).unwrap();
+    for goal in ["scene.toml", "./scene.toml", "link.fmu"] {
+        let refused = folder.call(&format!("export scene.toml -o {goal}")).with_status(1);
         assert!(refused.err.contains(goal) && refused.err.contains("the scene itself"), "{}", refused.err);
-        assert!(fs::read(&path).unwrap() == before, "{goal}: the scene was overwritten");
+        assert!(folder.read("scene.toml") == before, "{goal}: the scene was overwritten");
     }
 }
 
-/// The name of an FMU is that of the scene, which two scene files may share.
+/// The name of an FMU, and of a system, is that of the scene, which two scene files may share.
 #[test]
 fn an_fmu_of_another_scene_is_replaced_only_where_it_is_named() {
-    let folder = empty_folder();
-    let text = fs::read_to_string(scene("steel_ball")).unwrap();
-    let write = |name: &str, speed: &str| {
-        fs::write(folder.path().join(name), text.replace("speed = 1.0", &format!("speed = {speed}"))).unwrap();
-    };
-    let fmu = folder.path().join("steel_ball.fmu");
-    let export = |arguments: &[&str], status| run(folder.path(), [&["export"], arguments].concat()).with_status(status);
-    assert!(text.contains("speed = 1.0"));
-    write("one.toml", "2.0");
-    write("two.toml", "3.0");
-    export(&["one.toml"], 0);
-    export(&["one.toml"], 0);
-    // a new text of the same scene
-    write("one.toml", "2.5");
-    export(&["one.toml"], 0);
-    let before = fs::read(&fmu).unwrap();
-    let refused = export(&["two.toml"], 1).err;
-    assert!(refused.starts_with("brinell: steel_ball.fmu: this is the FMU of ./one.toml"), "{refused}");
-    assert!(refused.contains("-o FILE"), "{refused}");
-    assert!(fs::read(&fmu).unwrap() == before);
-    export(&["two.toml", "-o", "steel_ball.fmu"], 0);
-    assert!(fs::read(&fmu).unwrap() != before);
-    fs::write(&fmu, "of another program").unwrap();
-    let refused = export(&["two.toml"], 1).err;
-    assert!(refused.starts_with("brinell: steel_ball.fmu: this is no FMU of a scene"), "{refused}");
-    assert_eq!(fs::read_to_string(&fmu).unwrap(), "of another program");
-}
-
-#[test]
-fn a_system_of_another_scene_is_replaced_only_where_it_is_named() {
-    let folder = empty_folder();
-    let text = fs::read_to_string(scene("steel_ball")).unwrap();
-    let write = |name: &str, speed: &str| {
-        fs::write(folder.path().join(name), text.replace("speed = 1.0", &format!("speed = {speed}"))).unwrap();
-    };
-    let system = folder.path().join("steel_ball.ssp");
-    let pack = |arguments: &[&str], status| run(folder.path(), [&["ssp"], arguments].concat()).with_status(status);
-    write("one.toml", "2.0");
-    write("two.toml", "3.0");
-    pack(&["one.toml"], 0);
-    // a new text of the same scene
-    write("one.toml", "2.5");
-    pack(&["one.toml"], 0);
-    let before = fs::read(&system).unwrap();
-    let refused = pack(&["two.toml"], 1).err;
-    assert!(refused.starts_with("brinell: steel_ball.ssp: this is the system of ./one.toml"), "{refused}");
-    assert!(fs::read(&system).unwrap() == before && !refused.contains("building"));
-    pack(&["two.toml", "-o", "steel_ball.ssp"], 0);
-    assert!(fs::read(&system).unwrap() != before);
-    write("steel_ball.ssp", "3.0");
-    let refused = pack(&["two.toml"], 1).err;
-    assert!(refused.starts_with("brinell: steel_ball.ssp: this is no system of a scene"), "{refused}");
-    let refused = pack(&["steel_ball.ssp", "-o", "steel_ball.ssp"], 1).err;
-    assert!(refused.contains("the scene itself"), "{refused}");
+    for (command, what, name) in [("export", "FMU", "steel_ball.fmu"), ("ssp", "system", "steel_ball.ssp")] {
+        let text = fs::read_to_string(scene("steel_ball")).unwrap();
+        let with = |speed: &str| text.replace("speed = 1.0", &format!("speed = {speed}"));
+        assert_ne!(with("2.0"), text);
+        let folder = Folder::with(&[("one.toml", &with("2.0")), ("two.toml", &with("3.0"))]);
+        let (one, two) = (format!("{command} one.toml"), format!("{command} two.toml"));
+        folder.call(&one).with_status(0);
+        folder.call(&one).with_status(0);
+        // a new text of the same scene
+        folder.write("one.toml", &with("2.5"));
+        folder.call(&one).with_status(0);
+        let before = fs::read(folder.at(name)).unwrap();
+        let refused = folder.call(&two).with_status(1).err;
+        assert!(refused.starts_with(&format!("brinell: {name}: this is the {what} of ./one.toml")), "{refused}");
+        assert!(refused.contains("-o FILE") && !refused.contains("building"), "{refused}");
+        assert!(fs::read(folder.at(name)).unwrap() == before);
+        folder.call(&format!("{two} -o {name}")).with_status(0);
+        assert!(fs::read(folder.at(name)).unwrap() != before);
+        folder.write(name, "of another program");
+        let refused = folder.call(&two).with_status(1).err;
+        assert!(refused.starts_with(&format!("brinell: {name}: this is no {what} of a scene")), "{refused}");
+        assert_eq!(folder.read(name), "of another program");
+        folder.write(name, &text);
+        let refused = folder.call(&format!("{command} {name} -o {name}")).with_status(1).err;
+        assert!(refused.contains("the scene itself"), "{refused}");
+    }
 }
 
 #[test]
 fn a_goal_that_can_never_be_written_is_refused_before_any_work() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    let long = "x".repeat(300);
-    let goals = [
-        ("export", "fmu", "File name too long"),
-        ("ssp", "ssp", "File name too long"),
-        ("curve", "csv", "File name too long"),
-        ("report", "d", "File name too long"),
-    ];
-    let named = goals.map(|(command, ending, said)| (command, format!("{long}.{ending}"), said));
-    let full = "there is no space left on this device";
-    for (command, goal, said) in named.into_iter().chain([("export", "/dev/full".into(), full)]) {
-        let refused = run(folder.path(), [command, &scene, "-o", &goal]).with_status(1);
+    let folder = Folder::of_scene("steel_ball");
+    let long = |ending: &str| format!("{}.{ending}", "x".repeat(300));
+    for (command, goal, said) in [
+        ("export", long("fmu"), "File name too long"),
+        ("ssp", long("ssp"), "File name too long"),
+        ("curve", long("csv"), "File name too long"),
+        ("report", long("d"), "File name too long"),
+        ("export", "/dev/full".into(), "there is no space left on this device"),
+    ] {
+        let refused = folder.call(&format!("{command} scene.toml -o {goal}")).with_status(1);
         assert!(refused.err.contains(said) && !refused.err.contains("building"), "{command}: {}", refused.err);
     }
-    assert_eq!(contents(folder.path()), [""; 0]);
+    assert_eq!(folder.names(), ["scene.toml"]);
 }
 
 #[test]
@@ -221,24 +189,20 @@ fn a_new_file_has_the_permissions_of_the_umask_and_an_old_one_keeps_its_own() {
 
 #[test]
 fn a_read_only_file_is_refused_before_any_work_and_stays() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    for (arguments, goal) in
-        [(&["export", &scene, "-o", "old.fmu"][..], "old.fmu"), (&["curve", &scene, "-o", "old.csv"], "old.csv")]
-    {
-        let path = folder.path().join(goal);
-        fs::write(&path, "old").unwrap();
-        fs::set_permissions(&path, fs::Permissions::from_mode(0o444)).unwrap();
-        let refused = run(folder.path(), arguments).with_status(1);
+    let folder = Folder::of_scene("steel_ball");
+    for (command, goal) in [("export", "old.fmu"), ("curve", "old.csv")] {
+        folder.write(goal, "old");
+        fs::set_permissions(folder.at(goal), fs::Permissions::from_mode(0o444)).unwrap();
+        let refused = folder.call(&format!("{command} scene.toml -o {goal}")).with_status(1);
         assert!(refused.err.starts_with(&format!("brinell: {goal}: this file is read-only")), "{}", refused.err);
-        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(folder.read(goal), "old");
     }
 }
 
 /// Runs the program with a pipe that nobody reads.
-fn without_reader(folder: &Path, arguments: &[String], of_errors: bool) -> Option<i32> {
+fn without_reader(folder: &Path, call: &str, of_errors: bool) -> Option<i32> {
     let mut command = brinell(folder);
-    command.args(arguments).stdin(Stdio::null());
+    command.args(arguments(call)).stdin(Stdio::null());
     if of_errors {
         command.stdout(Stdio::null()).stderr(Stdio::piped())
     } else {
@@ -251,45 +215,41 @@ fn without_reader(folder: &Path, arguments: &[String], of_errors: bool) -> Optio
 
 #[test]
 fn a_closed_pipe_ends_quietly_and_the_work_is_done() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    let all = |arguments: &[&str]| arguments.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let folder = Folder::of_scene("steel_ball");
     for of_errors in [false, true] {
-        let _ = fs::remove_file(folder.path().join("steel_ball.fmu"));
-        let status = without_reader(folder.path(), &all(&["export", &scene]), of_errors);
-        assert_eq!(status, Some(0), "of errors: {of_errors}");
-        assert!(folder.path().join("steel_ball.fmu").is_file(), "of errors: {of_errors}");
-        for arguments in [&["laws"][..], &["predict", &scene], &["check", "steel_ball.fmu"], &["completions", "zsh"]] {
-            assert_eq!(without_reader(folder.path(), &all(arguments), of_errors), Some(0), "{arguments:?}");
+        let ended = |call: &str| without_reader(folder.path(), call, of_errors);
+        let _ = fs::remove_file(folder.at("steel_ball.fmu"));
+        assert_eq!(ended("export scene.toml"), Some(0), "of errors: {of_errors}");
+        assert!(folder.at("steel_ball.fmu").is_file(), "of errors: {of_errors}");
+        for call in ["laws", "predict scene.toml", "check steel_ball.fmu", "completions zsh"] {
+            assert_eq!(ended(call), Some(0), "{call}");
         }
         // an error still counts
-        let status = without_reader(folder.path(), &all(&["check", "none.fmu"]), of_errors);
-        assert_eq!(status, Some(1), "of errors: {of_errors}");
-        assert_eq!(without_reader(folder.path(), &all(&["nothing"]), of_errors), Some(2), "of errors: {of_errors}");
+        assert_eq!(ended("check none.fmu"), Some(1), "of errors: {of_errors}");
+        assert_eq!(ended("nothing"), Some(2), "of errors: {of_errors}");
     }
 }
 
 #[test]
 fn a_full_disk_behind_standard_output_is_an_error_with_a_message() {
-    let folder = empty_folder();
-    let scene = scene("steel_ball").display().to_string();
-    run(folder.path(), ["export", &scene]).with_status(0);
-    for arguments in [
-        &["export", &scene][..],
-        &["check", "steel_ball.fmu"],
-        &["predict", &scene],
-        &["predict", &scene, "--json"],
-        &["laws"],
-        &["completions", "bash"],
-        &["--version"],
-        &["--help"],
+    let folder = Folder::of_scene("steel_ball");
+    folder.call("export scene.toml").with_status(0);
+    for call in [
+        "export scene.toml",
+        "check steel_ball.fmu",
+        "predict scene.toml",
+        "predict scene.toml --json",
+        "laws",
+        "completions bash",
+        "--version",
+        "--help",
     ] {
         let mut command = Command::new("sh");
         settled(command.current_dir(folder.path()));
         command.args(["-c", "exec \"$@\" > /dev/full", "sh", env!("CARGO_BIN_EXE_brinell")]);
-        let run = output(command.args(arguments)).with_status(1);
+        let run = output(command.args(arguments(call))).with_status(1);
         let said = "brinell: standard output can't be written to: No space left";
-        assert!(run.err.contains(said) && !run.err.contains("panicked"), "{arguments:?}: {}", run.err);
+        assert!(run.err.contains(said) && !run.err.contains("panicked"), "{call}: {}", run.err);
     }
 }
 

@@ -1,5 +1,6 @@
 //! A browser for tests, in the target folder like all their tools.
 
+use super::pytest;
 use super::python::{environment_beside, keeping_modules};
 use crate::places::root;
 use crate::skips::skipped;
@@ -41,8 +42,7 @@ pub fn pytest(what: &str, files: &[&str], given: impl FnOnce(&mut Command) -> &m
         Ok(browser) => browser,
         Err(why) => return skipped(what, why),
     };
-    let text = run(browser, files, "chromium", given);
-    println!("{text}");
+    run(browser, files, "chromium", given);
 }
 
 /// Runs these files in the Firefox and the WebKit of the system too, as far as it has them.
@@ -56,7 +56,7 @@ pub fn pytest_in_others(what: &str, files: &[&str], given: impl Fn(&mut Command)
             );
             continue;
         }
-        println!("{}", run(browser, files, kind, &given));
+        run(browser, files, kind, &given);
     }
 }
 
@@ -68,16 +68,10 @@ fn is_installed(program: &str) -> bool {
     env::var_os("PATH").is_some_and(|path| env::split_paths(&path).any(|folder| folder.join(program).is_file()))
 }
 
-/// What pytest says of these files in this kind of browser.
-fn run(browser: &Browser, files: &[&str], kind: &str, given: impl FnOnce(&mut Command) -> &mut Command) -> String {
+/// Runs these files in this kind of browser.
+fn run(browser: &Browser, files: &[&str], kind: &str, given: impl FnOnce(&mut Command) -> &mut Command) {
     let mut command = Command::new(&browser.python);
-    command.env("BRINELL_TEST_BROWSER", kind);
-    keeping_modules(&mut command).args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"]).args(files);
-    command.current_dir(root().join("tests/page")).env("BRINELL_TEST_CHROMIUM", &browser.program);
+    keeping_modules(&mut command).env("BRINELL_TEST_BROWSER", kind).env("BRINELL_TEST_CHROMIUM", &browser.program);
     // scenes are UTF-8, whatever the user's language
-    command.env("PYTHONUTF8", "1");
-    let output = given(&mut command).output().expect("the virtual environment has an interpreter");
-    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{files:?} failed in {kind}:\n{text}");
-    text.into_owned()
+    pytest::pytest(given(command.env("PYTHONUTF8", "1")), "page", files);
 }

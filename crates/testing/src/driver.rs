@@ -1,5 +1,7 @@
 //! The C program of `tests/c`, which uses an FMU as an importer in C does.
 
+use super::command::output;
+use super::face::attribute;
 use super::{python, skips, unit};
 use crate::places::{root, temporary};
 use std::fs;
@@ -12,37 +14,36 @@ const SOURCES: [&str; 4] = ["driver.c", "instances.c", "memory.c", "counting.c"]
 /// The exit status of valgrind for its own errors.
 const VALGRIND_ERROR: i32 = 9;
 
-/// The folder of the standard's headers, which are part of fmpy.
-pub fn headers() -> String {
-    let program = "import fmpy, os; print(os.path.join(os.path.dirname(fmpy.__file__), 'c-code'))";
-    let output = Command::new(python::python()).args(["-c", program]).output().expect("python can be started");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8_lossy(&output.stdout).trim().into()
-}
-
 /// Compiles the program as `name` with additional `options`.
 pub fn compile(name: &str, options: &[&str]) -> PathBuf {
-    let program = temporary().join(name);
-    let folder = root().join("tests/c");
-    let mut compiler = Command::new("cc");
-    compiler.args(["-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-pthread"]);
     // the compiler must not replace functions of the program by its knowledge of calloc and free
-    compiler.args(["-rdynamic", "-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-free", "-I"]);
-    compiler.arg(headers()).args(options).arg("-o").arg(&program);
-    compiler.args(SOURCES.map(|source| folder.join(source))).args(["-ldl", "-lm"]);
-    let output = compiler.output().expect("there is a C compiler");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    program
+    let own = [
+        "-D_POSIX_C_SOURCE=200809L",
+        "-g",
+        "-pthread",
+        "-rdynamic",
+        "-fno-builtin-malloc",
+        "-fno-builtin-calloc",
+        "-fno-builtin-free",
+    ];
+    compiled(name, &[&own, options].concat(), &SOURCES)
 }
 
 /// Compiles the program of one file `tests/c/NAME.c`.
 pub fn compile_one(name: &str) -> PathBuf {
+    compiled(name, &[], &[&format!("{name}.c")])
+}
+
+/// Compiles a program of these files of `tests/c`.
+fn compiled(name: &str, options: &[&str], sources: &[&str]) -> PathBuf {
     let program = temporary().join(name);
     let mut compiler = Command::new("cc");
-    compiler.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"]).arg(headers());
-    compiler.arg(root().join(format!("tests/c/{name}.c"))).arg("-o").arg(&program).args(["-ldl", "-lm"]);
-    let output = compiler.output().expect("there is a C compiler");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    compiler
+        .args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"])
+        .arg(python::site_packages_file("fmpy/c-code"));
+    compiler.args(options).arg("-o").arg(&program);
+    output(compiler.args(sources.iter().map(|source| root().join("tests/c").join(source))).args(["-ldl", "-lm"]))
+        .with_status(0);
     program
 }
 
@@ -92,10 +93,6 @@ pub fn arguments() -> Vec<String> {
     });
     let path = library.to_str().expect("a path of plain characters");
     [path, guid].into_iter().chain(references).map(str::to_string).collect()
-}
-
-fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
-    element.split_once(&format!(" {name}=\""))?.1.split('"').next()
 }
 
 /// Verifies the list of checks; returns their number.

@@ -1,5 +1,6 @@
 //! Hosts of several kinds for an FMU's library: tests/platforms/host.c, compiled in different ways, and its output.
 
+use super::face::attribute;
 use super::python::site_packages_file;
 use crate::places::{root, temporary};
 use std::fs::File;
@@ -19,10 +20,6 @@ pub struct Interface {
     pub inputs: String,
     /// The references of the Real outputs.
     pub outputs: Vec<String>,
-}
-
-fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
-    element.split_once(&format!(" {name}=\""))?.1.split('"').next()
 }
 
 impl Interface {
@@ -76,6 +73,12 @@ pub struct Host {
 impl Host {
     pub fn program(program: PathBuf) -> Host {
         Host { command: vec![program], variables: Vec::new() }
+    }
+
+    /// An ordinary program, which loads libraries through the system.
+    pub fn ordinary() -> Host {
+        let program = compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]);
+        Host::program(program.unwrap_or_else(|why| panic!("{why}")))
     }
 
     /// Runs the FMU in `library` on the file `history`.

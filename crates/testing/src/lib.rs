@@ -10,6 +10,7 @@ pub mod debian;
 pub mod driver;
 pub mod face;
 pub mod fmi_crate;
+pub mod folder;
 pub mod friction;
 pub mod functions;
 pub mod histories;

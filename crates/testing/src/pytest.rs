@@ -1,24 +1,39 @@
-//! Tests in Python on existing FMUs.
+//! Tests in Python, and what they are given in the environment.
 
-use super::{prebuilt, python};
+use super::command::output;
+use super::{prebuilt, python, unit};
 use crate::places::{program, root};
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Runs the files of these topics in tests/fmpy/ with `units`. They get their paths as JSON in the variable BRINELL_TEST_UNITS, by
-/// the name of the scene, and the program in BRINELL_TEST_PROGRAM.
-pub fn pytest(topics: &[&str], units: &HashMap<String, PathBuf>) {
-    let folder = root().join("tests/fmpy");
-    let output = prebuilt::finding_no_compiler(python::keeping_modules(&mut Command::new(python::python())))
-        .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
-        .args(topics.iter().map(|topic| format!("test_{topic}.py")))
-        .current_dir(folder)
-        .env("BRINELL_TEST_UNITS", serde_json::to_string(units).unwrap())
+/// An interpreter with the module of the project, the program, which finds libraries and no compiler, and the project's scenes.
+pub fn with_module(interpreter: &Path) -> Command {
+    let mut command = Command::new(interpreter);
+    prebuilt::finding_no_compiler(python::keeping_modules(&mut command))
+        .env("PYTHONPATH", root().join("python"))
+        .env("BRINELL", program())
         .env("BRINELL_TEST_PROGRAM", program())
-        .output()
-        .expect("the virtual environment has an interpreter");
-    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{topics:?} failed:\n{text}");
-    println!("{text}");
+        .env("BRINELL_TEST_SCENES", root().join("scenes"));
+    command
+}
+
+/// The same with the FMUs of these scenes: their paths as JSON in `BRINELL_TEST_UNITS`, by the name of the scene.
+pub fn with_units(scenes: impl IntoIterator<Item = PathBuf>) -> Command {
+    let name = |scene: &Path| scene.file_stem().expect("a scene file has a name").to_string_lossy().into_owned();
+    let units: HashMap<_, _> = scenes.into_iter().map(|scene| (name(&scene), unit::export(&scene))).collect();
+    let mut command = with_module(&python::python());
+    command.env("BRINELL_TEST_UNITS", serde_json::to_string(&units).expect("paths are text"));
+    command
+}
+
+/// Runs these files of tests/`folder` to their end; what they say.
+#[track_caller]
+pub fn pytest(interpreter: &mut Command, folder: &str, files: &[impl AsRef<str>]) -> String {
+    let folder = root().join("tests").join(folder);
+    interpreter.args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"]).current_dir(folder);
+    let said = output(interpreter.args(files.iter().map(AsRef::as_ref)));
+    assert_eq!(said.status, Some(0), "\n{}{}", said.out, said.err);
+    println!("{}", said.out);
+    said.out
 }

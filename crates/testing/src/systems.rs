@@ -19,8 +19,11 @@ pub struct System {
     pub host: Host,
 }
 
-/// The interpreter with the packages for other systems.
-fn tools() -> Result<PathBuf, String> {
+/// The interpreter with the packages for other systems, beside which CMake is.
+///
+/// # Errors
+/// The reason why they can't be installed.
+pub fn tools() -> Result<PathBuf, String> {
     environment_of("platforms-venv", &folder().join("requirements.txt"))
 }
 

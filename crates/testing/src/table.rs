@@ -11,15 +11,24 @@ use std::thread;
 /// A table in a file: `== NAME` begins a good file, `-- ` a claim, and every other line is a case: its parts, and what the program says,
 /// with ` => ` between them.
 pub struct Table {
-    path: &'static str,
+    path: String,
     text: String,
 }
 
 impl Table {
     /// Reads the table at `path` below the project.
-    pub fn read(path: &'static str) -> Table {
+    pub fn read(path: &str) -> Table {
         let text = fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
-        Table { path, text: text.replace("\r\n", "\n") }
+        Table { path: path.into(), text: text.replace("\r\n", "\n") }
+    }
+
+    /// The claims with their cases.
+    pub fn claims(&self) -> &str {
+        &self.text[self.begin()..]
+    }
+
+    fn begin(&self) -> usize {
+        self.text.find("\n-- ").expect("claims") + 1
     }
 
     /// The good files by their names.
@@ -33,8 +42,7 @@ impl Table {
     /// `BRINELL_WRITE`, it is written.
     pub fn check(&self, said: impl Fn(&[&str], &str) -> String + Sync) {
         let (next, wrong) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-        let begin = self.text.find("\n-- ").expect("claims") + 1;
-        let mut lines: Vec<String> = self.text[begin..].lines().map(String::from).collect();
+        let mut lines: Vec<String> = self.claims().lines().map(String::from).collect();
         let told = |line: &str| {
             // an empty text may be at the end of an edit
             let parts: Vec<&str> = line.split(" =>").collect();
@@ -58,8 +66,8 @@ impl Table {
         let wrong = wrong.into_inner().unwrap();
         if env::var_os("BRINELL_WRITE").is_some() {
             wrong.into_iter().for_each(|(place, line)| lines[place] = line);
-            let text = format!("{}{}\n", &self.text[..begin], lines.join("\n"));
-            return fs::write(root().join(self.path), text).unwrap();
+            let text = format!("{}{}\n", &self.text[..self.begin()], lines.join("\n"));
+            return fs::write(root().join(&self.path), text).unwrap();
         }
         let shown = wrong.iter().map(|(place, line)| format!("not {}\nbut {line}", lines[*place]));
         assert!(wrong.is_empty(), "{}", shown.collect::<Vec<_>>().join("\n"));

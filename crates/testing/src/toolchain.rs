@@ -1,11 +1,14 @@
 //! The compilers for all platforms, if available, and the test programs that cargo builds.
 
+use crate::command::{brinell, output};
 use crate::places::{root, temporary};
 use crate::python;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, PoisonError};
 
 /// The folder of the toolchain: that of `BRINELL_TOOLCHAIN`, or one below `target`. With
 /// `BRINELL_PLATFORMS=all`, it is downloaded if missing, about 100 MB. `None`, with a message that no test runner hides, if
@@ -29,6 +32,21 @@ pub fn toolchain_for_c() -> Option<PathBuf> {
     }
     super::skips::skipped("C source", "the toolchain has no wasm2c; BRINELL_PLATFORMS=all fetches a new one (100 MB)");
     None
+}
+
+/// The folder of the prebuilt libraries for these platforms, made once in a process; `None` without a toolchain to make them.
+pub fn store(platforms: &'static str) -> Option<PathBuf> {
+    static MADE: Mutex<BTreeMap<&str, PathBuf>> = Mutex::new(BTreeMap::new());
+    let toolchain = if platforms.contains("c-code") { toolchain_for_c()? } else { toolchain()? };
+    let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let store = made.entry(platforms).or_insert_with(|| {
+        let place = temporary().join("prebuilt").join(platforms);
+        let mut command = brinell(temporary());
+        command.env("BRINELL_TOOLCHAIN", toolchain).args(["prebuild", "--platforms", platforms, "-o"]).arg(&place);
+        output(&mut command).with_status(0);
+        place
+    });
+    Some(store.clone())
 }
 
 /// The folder that the environment `variable` names, or `name` below `target`.

@@ -151,7 +151,7 @@ fn draft_of(path: &Path) -> PathBuf {
 }
 
 /// Unpacks `fmu` into `folder`.
-fn unpack(fmu: &Path, folder: &Path) {
+pub fn unpack(fmu: &Path, folder: &Path) {
     let file = fs::File::open(fmu).unwrap_or_else(|error| panic!("{}: {error}", fmu.display()));
     let unpacked = zip::ZipArchive::new(file).and_then(|mut archive| archive.extract(folder));
     unpacked.unwrap_or_else(|error| panic!("{} isn't unpacked: {error}", fmu.display()));

@@ -1,16 +1,15 @@
 //! `brinell laws`: the list, and one law.
 
-use super::{close, number};
-use crate::command::{empty_folder, run};
 use crate::laws;
+use brinell_testing::folder::{Folder, close, number, words};
 use serde_json::Value;
 use std::sync::LazyLock;
 
 /// Every law as JSON.
-static LAWS: LazyLock<Value> = LazyLock::new(|| run(empty_folder().path(), ["laws", "--json"]).with_status(0).json());
+static LAWS: LazyLock<Value> = LazyLock::new(|| Folder::with(&[]).json("laws"));
 
 /// Every law in words.
-static LIST: LazyLock<String> = LazyLock::new(|| run(empty_folder().path(), ["laws"]).with_status(0).out);
+static LIST: LazyLock<String> = LazyLock::new(|| Folder::with(&[]).call("laws").with_status(0).out);
 
 #[test]
 fn laws_says_what_the_table_of_laws_says_of_accuracy_and_energy() {
@@ -24,26 +23,25 @@ fn laws_says_what_the_table_of_laws_says_of_accuracy_and_energy() {
     }
     let law = |name: &str| LAWS["loading"].as_array().unwrap().iter().find(|law| law["name"] == name).unwrap().clone();
     assert_eq!((&law("brinell")["passive"], &law("brinell")["largest_restitution"]), (&true.into(), &Value::Null));
-    close(number(&law("stronge")["largest_restitution"]), 1.154, 1e-3);
-    close(number(&law("jackson-green")["passive_from_poissons_ratio"]), 0.02, 1e-12);
+    close(number(&law("stronge"), "largest_restitution"), 1.154, 1e-3);
+    close(number(&law("jackson-green"), "passive_from_poissons_ratio"), 0.02, 1e-12);
     assert!(LIST.contains("e up to 1.154") && LIST.contains("e up to 1.002 (nu < 0.02)") && LIST.contains("passive"));
 }
 
 #[test]
 fn laws_lists_constants_validity_and_reference_of_every_law() {
     let laws = &*LAWS;
-    let text = &*LIST;
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = words(&LIST);
     let said = |value: &Value| value.as_str().unwrap().to_string();
     for kind in ["loading", "unloading"] {
         for law in laws[kind].as_array().unwrap() {
             assert!(words.contains(&format!("{}: {}", said(&law["name"]), said(&law["title"]))), "{law}");
             assert!(words.contains(&said(&law["reference"])) && words.contains(&said(&law["notes"])), "{law}");
             for parameter in law["parameters"].as_array().unwrap() {
-                let (name, value) = (said(&parameter["name"]), number(&parameter["value"]));
+                let (name, value) = (said(&parameter["name"]), number(parameter, "value"));
                 let shown = format!("{name} = {value} {}", said(&parameter["unit"]));
                 assert!(words.contains(shown.trim_end()), "nothing of {shown} in {words}");
-                assert!(number(&parameter["minimum"]) <= value && value <= number(&parameter["maximum"]), "{law}");
+                assert!(number(parameter, "minimum") <= value && value <= number(parameter, "maximum"), "{law}");
             }
         }
     }
@@ -55,26 +53,24 @@ fn laws_lists_constants_validity_and_reference_of_every_law() {
 
 #[test]
 fn one_law_is_shown_with_formulas_constants_validity_and_accuracy() {
-    let folder = empty_folder();
+    let folder = Folder::with(&[]);
     for kind in ["loading", "unloading", "damped"] {
         for law in laws::entries(kind) {
             let name = laws::text(law, "name");
-            let text = run(folder.path(), ["laws", name]).with_status(0).out;
-            let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            let words = folder.words(&format!("laws {name}"));
             let parameters = law.get("parameters").and_then(|all| all.as_array()).cloned().unwrap_or_default();
             for parameter in parameters {
-                assert!(words.contains(parameter["name"].as_str().unwrap()), "{parameter} in {text}");
+                assert!(words.contains(parameter["name"].as_str().unwrap()), "{parameter} in {words}");
             }
             for part in ["formulas", laws::text(law, "title"), laws::text(law, "reference")] {
-                assert!(words.contains(part), "nothing of {part} in {text}");
+                assert!(words.contains(part), "nothing of {part} in {words}");
             }
-            let accuracy =
-                text.contains("accuracy") && words.contains("docs/guide/laws.md and docs/guide/validation.md");
+            let accuracy = words.contains("docs/guide/laws.md and docs/guide/validation.md");
             let loads = laws::entries("loading").any(|other| other["name"] == law["name"]);
-            assert_eq!(accuracy, loads, "{text}");
+            assert_eq!(accuracy, loads, "{words}");
         }
         let name = laws::entries(kind).map(|law| laws::text(law, "name")).last().expect("there are some of each kind");
-        let json = run(folder.path(), ["laws", name, "--json"]).with_status(0).json();
+        let json = folder.json(&format!("laws {name}"));
         assert!(!json[kind].is_null() && json[kind] != Value::Array(Vec::new()), "{json}");
     }
 }

@@ -252,34 +252,15 @@ fn a_number_for_one_mass_says_so_and_one_for_every_mass_does_not() {
         let way = OF_STEEL[place].1.ways.iter().find(|one| one.name == way).expect("a way of this name");
         way.notes.iter().any(|note| note.starts_with("The numbers hold for one effective mass"))
     };
-    for (tool, way) in [
-        ("lammps", "hooke"),
-        ("mercurydpm", "linear"),
-        ("bullet", "stiffness"),
-        ("drake", "sap"),
-        ("newton", "semi-implicit"),
-        ("chrono", "hooke"),
-        ("adams", "impact"),
-        ("modelica", "elastogap"),
-        ("simscape", "smooth-spring-damper"),
-        ("ode", "spring"),
-        ("exudyn", "damping"),
-    ] {
-        assert!(says(tool, way), "{tool} {way}");
-    }
-    for (tool, way) in [
-        ("mujoco", "pair"),
-        ("newton", "mujoco-solver"),
-        ("lammps", "hertz"),
-        ("liggghts", "hertz"),
-        ("liggghts", "hooke"),
-        ("yade", "mindlin"),
-        ("chrono", "hertz"),
-        ("exudyn", "sphere"),
-        ("recurdyn", "contact"),
-        ("jolt", "restitution"),
-    ] {
-        assert!(!says(tool, way), "{tool} {way}");
+    let of_one = "lammps hooke, mercurydpm linear, bullet stiffness, drake sap, newton semi-implicit, chrono hooke, adams impact, \
+                  modelica elastogap, simscape smooth-spring-damper, ode spring, exudyn damping";
+    let of_every = "mujoco pair, newton mujoco-solver, lammps hertz, liggghts hertz, liggghts hooke, yade mindlin, chrono hertz, \
+                    exudyn sphere, recurdyn contact, jolt restitution";
+    for (ways, expected) in [(of_one, true), (of_every, false)] {
+        for way in ways.split(", ") {
+            let (tool, name) = way.split_once(' ').expect("a tool and a way");
+            assert_eq!(says(tool, name), expected, "{way}");
+        }
     }
 }
 

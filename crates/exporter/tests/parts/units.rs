@@ -7,17 +7,18 @@ use brinell_exporter::units::*;
 fn a_number_with_a_unit_is_its_number_in_si() {
     let numbers =
         ["0.3", "5", "-7.25", "1_000", "2e3", "1.2E-7", "0.1", "123456789.123456789", "4.11", "9.99e22", "+3."];
-    let powers = [("nm", "m", -9), ("um", "m", -6), ("mm", "m", -3), ("cm", "m", -2), ("km", "m", 3)];
-    let powers = powers.into_iter().chain([("kPa", "Pa", 3), ("MPa", "Pa", 6), ("GPa", "Pa", 9), ("N/mm^2", "Pa", 6)]);
-    let powers =
-        powers.chain([("mg", "kg", -6), ("g", "kg", -3), ("t", "kg", 3), ("kg", "kg", 0), ("\u{b5}m", "m", -6)]);
-    let powers =
-        powers.chain([("mm/s", "m/s", -3), ("m/ms", "m/s", 3), ("g/cm\u{b3}", "kg/m^3", 3), ("kg/dm3", "kg/m^3", 3)]);
-    let powers =
-        powers.chain([("uJ", "J", -6), ("N.mm", "J", -3), ("kN", "N", 3), ("mm2", "m^2", -6), ("kHz", "1/s", 3)]);
-    let powers =
-        powers.chain([("s^-1", "1/s", 0), ("ms", "s", -3), ("kg mm^2", "kg.m^2", -6), ("g*cm**2", "kg.m^2", -7)]);
-    for (unit, si, power) in powers {
+    let powers = "nm m -9, um m -6, \u{b5}m m -6, mm m -3, cm m -2, km m 3, kPa Pa 3, MPa Pa 6, GPa Pa 9, N/mm^2 Pa 6, mg kg -6, g kg -3, \
+                  kg kg 0, t kg 3, mm/s m/s -3, m/ms m/s 3, g/cm\u{b3} kg/m^3 3, kg/dm3 kg/m^3 3, uJ J -6, N.mm J -3, kN N 3, mm2 m^2 -6, \
+                  kHz 1/s 3, s^-1 1/s 0, ms s -3, kg_mm^2 kg.m^2 -6, g*cm**2 kg.m^2 -7";
+    // unit, that of SI, and the number of the second in the first, with a blank as `_`
+    let rows = |table: &'static str| {
+        table.split(", ").map(|row| {
+            let [unit, si, size] = row.split(' ').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            (unit.replace('_', " "), si, size)
+        })
+    };
+    for (unit, si, power) in rows(powers) {
+        let power: i32 = power.parse().unwrap();
         for number in numbers {
             let plain = number.replace('_', "");
             let (digits, exponent) = plain.split_once(['e', 'E']).unwrap_or((&plain, "0"));
@@ -27,37 +28,16 @@ fn a_number_with_a_unit_is_its_number_in_si() {
             }
         }
     }
-    let others = [("in", "m", 0.0254), ("ft", "m", 0.3048), ("mil", "m", 2.54e-5), ("psi", "Pa", 6894.757293168361)];
-    let others = others.into_iter().chain([
-        ("ksi", "Pa", 6894757.293168361),
-        ("lb", "kg", 0.45359237),
-        ("oz", "kg", 0.028349523125),
-    ]);
-    let others = others.chain([
-        ("km/h", "m/s", 1.0 / 3.6),
-        ("mph", "m/s", 0.44704),
-        ("kgf", "N", 9.80665),
-        ("lbf", "N", 4.4482216152605),
-    ]);
-    let others = others.chain([
-        ("kgf/mm^2", "Pa", 9806650.0),
-        ("lb/in^3", "kg/m^3", 27679.90471020312),
-        ("rad", "deg", 57.29577951308232),
-    ]);
-    let others = others.chain([
-        ("rpm", "rad/s", 0.10471975511965977),
-        ("1/min", "1/s", 1.0 / 60.0),
-        ("deg", "deg", 1.0),
-        ("\u{b0}", "deg", 1.0),
-    ]);
-    for (unit, si, size) in others {
+    let others = "in m 0.0254, ft m 0.3048, mil m 2.54e-5, psi Pa 6894.757293168361, ksi Pa 6894757.293168361, lb kg 0.45359237, \
+                  oz kg 0.028349523125, km/h m/s 0.2777777777777778, mph m/s 0.44704, kgf N 9.80665, lbf N 4.4482216152605, \
+                  kgf/mm^2 Pa 9806650, lb/in^3 kg/m^3 27679.90471020312, rad deg 57.29577951308232, rpm rad/s 0.10471975511965977, \
+                  1/min 1/s 0.016666666666666666, deg deg 1, \u{b0} deg 1";
+    for (unit, si, size) in rows(others) {
         for number in numbers {
-            let expected = number.replace('_', "").parse::<f64>().unwrap() * size;
+            let expected = number.replace('_', "").parse::<f64>().unwrap() * size.parse::<f64>().unwrap();
             let found = with_unit(&format!("{number} {unit}"), si).unwrap().unwrap();
-            assert!(
-                (found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(),
-                "{number} {unit}: {found}, not {expected}"
-            );
+            let is_near = (found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs();
+            assert!(is_near, "{number} {unit}: {found}, not {expected}");
         }
     }
 }
