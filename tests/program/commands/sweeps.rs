@@ -33,6 +33,61 @@ fn columns(text: &str, name: &str) -> Vec<f64> {
     text.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap()).collect()
 }
 
+/// Error and warning are the last columns of a table, and the others are those of a sweep with the same numbers.
+#[test]
+fn an_impact_of_a_table_has_the_numbers_of_a_sweep_or_its_error() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let laws = ["predict", &scene, "--laws", "brinell,thornton", "--friction", "0.1"];
+    for (table, sweep, wrong) in [
+        (
+            "speed,mass\n0.1,4 g\n\n-1,4e-3\n40 m/s,4e-3\n",
+            &["speed=0.1,40", "mass=4e-3,"][..],
+            "speed = -1 must be positive",
+        ),
+        (
+            "angle,speed,friction.coefficient\n30,1,0.1\n95,1,0.1\n40,1,0.1\n",
+            &["angle=30:40:2", "speed=1,", "friction.coefficient=0.1,"],
+            "angle = 95",
+        ),
+    ] {
+        let words = if table.starts_with("angle") { &laws[..] } else { &laws[..4] };
+        fs::write(folder.path().join("impacts.csv"), table).unwrap();
+        let listed = run(folder.path(), words.iter().chain(&["--impacts", "impacts.csv", "--json"])).with_status(0);
+        let json = listed.json();
+        let axes: Vec<_> = sweep.iter().flat_map(|axis| ["--sweep", axis]).collect();
+        let swept = run(folder.path(), words.iter().chain(&axes).chain(&["--json"])).with_status(0).json();
+        assert_eq!(json["columns"], swept["columns"]);
+        for (law, expected) in json["laws"].as_array().unwrap().iter().zip(swept["laws"].as_array().unwrap()) {
+            for name in json["columns"].as_array().unwrap().iter().map(|column| column["name"].as_str().unwrap()) {
+                let other = expected[name].as_array().unwrap();
+                let number = &law[name][1];
+                assert_eq!(law[name], json!([other[0], number, other[1]]), "{name}");
+                assert!(table.contains(name) || number.is_null(), "{name} of an impact that can't be: {number}");
+            }
+            let error = law["error"].as_array().unwrap();
+            assert!(error[1].as_str().unwrap().starts_with(wrong), "{error:?}");
+            assert_eq!((&error[0], &error[2]), (&json!(""), &json!("")));
+            assert_eq!(law["warning"][2] != "", law["valid"][2] == 0.0);
+        }
+        let out = run(folder.path(), words.iter().chain(&["--impacts", "impacts.csv", "-o", "answer.csv"]));
+        assert_eq!(out.with_status(0).err, "", "each impact has its own warnings");
+        let csv = fs::read_to_string(folder.path().join("answer.csv")).unwrap();
+        assert!(csv.lines().next().unwrap().ends_with(",valid,error,warning"));
+        assert_eq!(csv.matches(&format!(",\"{wrong}")).count(), 2, "{csv}");
+    }
+    for (table, why) in [
+        ("", "1: there is no heading"),
+        ("speed\n", "1: 0 impacts below the heading"),
+        ("speed,mass\n1\n", "2: 1 cells below a heading of 2"),
+        ("speed\n\n1 kg\n", "3: speed = `1 kg`: kg is a mass"),
+    ] {
+        fs::write(folder.path().join("impacts.csv"), table).unwrap();
+        let told = run(folder.path(), ["predict", &scene, "--impacts", "impacts.csv", "--json"]).with_status(2).err;
+        assert!(told.contains(&format!("impacts.csv:{why}")), "{told}");
+    }
+}
+
 /// Each point equals the prediction for the scene with that number.
 #[test]
 fn a_sweep_over_a_parameter_is_that_of_scenes_with_it() {
