@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..prediction import quantity
-from ..studies.scene import toml
-from .law import with_loading, without_readings
 from .measured import UNITS, Kind
 from .parameters import RATES
+from .scene import toml, with_loading, without_readings
 
 Columns = dict[str, NDArray[np.float64]]
 
