@@ -19,6 +19,7 @@ from .impacts import RESULTS as OF_RUNS
 from .impacts import Numbers, Table, runs
 from .prediction import quantity
 from .program import in_si, of_scene, options_of
+
 Spread = float | str | Sequence[float | str] | Any
 """A standard deviation, as a number in SI units, "5 %" or "10 MPa"; two ends of a range, all of it
 equally likely; or a distribution of `scipy.stats`."""

@@ -96,7 +96,11 @@ class Law:
         self.body = self._softer(path, fitted)
         own: dict[str, Any] = self._data[self.body]
         self.is_power_law = "power_law" in own and "yield_strength" not in own
-        if "hardening_modulus" in fitted and self._name("hardening_modulus") not in self._starts and not self.is_power_law:
+        if (
+            "hardening_modulus" in fitted
+            and self._name("hardening_modulus") not in self._starts
+            and not self.is_power_law
+        ):
             own["hardening_modulus"] = 0.0
             try:
                 self._starts = self._parameters()

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import temporary
 from ..prediction import quantity
 from .measured import UNITS, Kind
 from .parameters import RATES
@@ -143,7 +144,8 @@ class Fit:
         lines = [f"# fitted: {it}" for it in map(str, self.estimates)]
         text = "\n".join(lines) + "\n" + toml(data)
         if path is not None:
-            Path(path).write_text(text, encoding="utf-8")
+            with temporary.draft(Path(path)) as whole:
+                whole.write_text(text, encoding="utf-8")
         return text
 
     def _body(self, given: Mapping[str, Any]) -> dict[str, Any]:

@@ -71,10 +71,11 @@ def study(
     made: pandas.DataFrame = dataframe(table)
     made.attrs["units"] = units
     for path in outputs:
+        if path.suffix in PICTURES:
+            draw(path, made, names)
+            continue
         with temporary.draft(path) as whole:
-            if path.suffix in PICTURES:
-                draw(whole, made, names)
-            elif path.suffix == ".csv":
+            if path.suffix == ".csv":
                 made.to_csv(whole, index=False)
             else:
                 made.to_parquet(whole, index=False)
