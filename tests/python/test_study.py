@@ -187,6 +187,11 @@ def test_a_study_has_the_mass_and_the_speed_that_predictions_of_the_scene_have(i
     assert energy["speed"] == pytest.approx(np.sqrt(0.5), rel=1e-14)
 
 
+def test_an_fmu_is_studied_by_the_scene_in_it(tmp_path):
+    unit = brinell.export(SCENE, tmp_path / "unit.fmu")
+    assert brinell.study(unit, {"speed": "1:2:3"}).equals(brinell.study(SCENE, {"speed": "1:2:3"}))
+
+
 def test_a_study_is_a_table_with_units():
     table = brinell.study(SCENE, {"target.yield_strength": [3e8, 4e8]})
     units = table.attrs["units"]

@@ -268,7 +268,7 @@ class Law:
             own[self._name(f"rate.{self._rate}")] = flow["rate"]
         return own | {f"{body}.yield_strength": UNYIELDING for body in self._harder}
 
-    def _predicted(self, points: Measured, flows: Sequence[Flow], *, is_oblique: bool) -> dict[str, Numbers]:
+    def _predicted(self, points: Measured, flows: Sequence[Flow], *, is_oblique: bool) -> Mapping[str, Numbers]:
         """The columns of the program for all points with each of the `flows`; NaN beyond the law."""
         rows = dict(points.arguments)
         if not is_oblique and "angle" in rows:
