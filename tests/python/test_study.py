@@ -148,6 +148,7 @@ def test_each_run_is_what_is_predicted(name):
         'yield_strength = 300e6\nrate = { model = "cowper-symonds", d = 8000.0, q = 5.0 }\n',
         "power_law = { coefficient = 700e6, exponent = 0.2 }\n" + JOHNSON_COOK,
         'hardness = "200 HBW 10/3000"\n',
+        "yield_strength = 300e6\n" + JOHNSON_COOK + "[coupling]\neffective_mass = 4.11e-3\n",
         "yield_strength = 300e6\nplate_thickness = 0.01\ndensity = 7850.0\n" + JOHNSON_COOK,
     ],
 )

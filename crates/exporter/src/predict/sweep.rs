@@ -81,7 +81,11 @@ impl Sweep {
     ) -> Result<Sweep, PredictError> {
         let choices = depending_on(choices, axes);
         let hard = || PredictError::Beyond { law: choices[0].laws.clone(), mass: impact.mass, speed: impact.speed };
-        let slow = scene.clone().under_slow_load().ok_or_else(hard)?;
+        let mut slow = scene.clone().under_slow_load().ok_or_else(hard)?;
+        if setting.is_none() {
+            // each impact has a scene of its own, and other contacts don't change one along the normal
+            slow.contacts.truncate(1);
+        }
         let normal = |choice: &Choice, values: &[Value]| {
             let Case { scene, choice, impact } = varied(&slow, choice, impact, values, 1.0)?;
             let prediction = one(&choice, &impact)?;
