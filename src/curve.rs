@@ -66,7 +66,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
 
 /// A warning, if laws are not valid up to the indentation `largest` [m].
 fn too_wide(scene: &Scene, choices: &[Choice], largest: f64) -> Option<String> {
-    let size = scene.size_with(0, &[]);
+    let size = scene.size(0);
     let is_wide = |choice: &&Choice| {
         choice.model.elastoplastic().is_some_and(|model| {
             let radius = model.loading.contact_radius(&model.pair, largest);

@@ -120,7 +120,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
 /// Brinell hardness, flow stress \[Pa\] of the scene's target and its strain by the table that readings in scenes use: of this `hardness`,
 /// or of the scene's strength. `None` outside that table.
 fn by_finite_elements(scene: &Scene, hardness: Option<f64>, test: (f64, f64)) -> Option<(f64, f64, f64)> {
-    let [_, target] = scene.bodies_with(0, &[]);
+    let [_, target] = scene.bodies(0);
     let brinell_contact::Body { youngs_modulus, poissons_ratio, .. } = target;
     let metal = Metal { youngs_modulus, poissons_ratio, class: Class::of_modulus(youngs_modulus), exponent: None };
     let strength = scene.group_value(0, Body::Target.yield_strength());

@@ -31,12 +31,12 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         epilog="All other arguments go to the exporter: `python -m brinell help` lists its commands.",
     )
     commands = parser.add_subparsers(dest="command", required=True)
-    text = "run thousands of impacts of a scene's first contact, one step each"
+    text = "predict thousands of impacts of a scene's first contact"
     it = commands.add_parser("study", help=text, description=text)
     add = it.add_argument
-    add("scene", help="the scene file (TOML), or an FMU that knows the mass")
+    add("scene", help="the scene file (TOML)")
     add("--vary", type=command_line.pair, action="append", required=True, metavar="NAME=FROM:TO[:COUNT]",
-        help="speed, mass or a parameter of the FMU, in SI units or with a unit ('speed=10 mm/s:5 m/s:20'); or "
+        help="speed, mass or another quantity of --sweep, in SI units or with a unit ('speed=10 mm/s:5 m/s:20'); or "
         "NAME=VALUE,VALUE,... Ranges of a decade or more are spaced logarithmically, shorter ones linearly; "
         "speed=1:20:8log and 0.1:10:8lin say which")  # fmt: skip
     add("--sample", default="grid", help="grid, sobol:COUNT or lhs:COUNT [default: grid]")
@@ -49,8 +49,6 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--speed", help="closing speed [m/s, or with a unit], instead of the scene's")
     add("-o", "--output", action="append", default=[], metavar="FILE",
         help=".parquet, .csv, .svg or .png; can be repeated")  # fmt: skip
-    add("--workers", type=int, help="processes [default: by the number of runs, at most all cores]")
-    add("--quiet", action="store_true", help="show no progress bar")
     command_line.add_arguments(commands)
     return parser.parse_args(arguments)
 
@@ -74,8 +72,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             parameters=dict(given.set),
             uncertainty=dict(given.uncertain),
             output=given.output,
-            workers=given.workers,
-            progress=not given.quiet,
         )
     except ModuleNotFoundError as error:
         print(f"brinell: {error}: pip install 'brinell[{given.command}]'", file=sys.stderr)

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from . import temporary
+
 
 def logarithmic(axes: Any, which: str) -> None:
     """Make the axis `which`, "x" or "y", of what is drawn logarithmic, with plain numbers."""
@@ -24,11 +26,12 @@ def logarithmic(axes: Any, which: str) -> None:
 
 
 def save(figure: Any, path: str | Path) -> None:
-    """Write a figure, with the same bytes each time; an .svg without what nobody sees."""
+    """Write a figure whole, with the same bytes each time; an .svg without what nobody sees."""
     import matplotlib
 
     if Path(path).suffix != ".svg":
-        figure.savefig(path)
+        with temporary.draft(Path(path)) as whole:
+            figure.savefig(whole)
         return
     drawn = io.StringIO()
     # text stays text; a curve has the points that can be seen
@@ -41,7 +44,8 @@ def save(figure: Any, path: str | Path) -> None:
         }
     ):
         figure.savefig(drawn, format="svg", metadata={"Date": None})
-    Path(path).write_text(compact(drawn.getvalue()), encoding="utf-8")
+    with temporary.draft(Path(path)) as whole:
+        whole.write_text(compact(drawn.getvalue()), encoding="utf-8")
 
 
 def compact(svg: str) -> str:

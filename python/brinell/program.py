@@ -84,11 +84,13 @@ def run(*arguments: str | Path, text: str | None = None) -> tuple[str, tuple[str
     return result.stdout, tuple(doubts)
 
 
-def of_scene(command: str, scene: str | Path, *options: str | Path) -> tuple[str, tuple[str, ...]]:
-    """What a command of the exporter answers about a scene, and its warnings."""
+def of_scene(
+    command: str, scene: str | Path, *options: str | Path, text: str | None = None
+) -> tuple[str, tuple[str, ...]]:
+    """What a command of the exporter answers about a scene, with a `text` as its input, and its warnings."""
     if not Path(scene).exists():
         raise missing("scene", scene)
-    return run(command, scene, *options)
+    return run(command, scene, *options, text=text)
 
 
 def unpack(fmu: str | Path, folder: Path) -> dict[str, str]:

@@ -1,28 +1,25 @@
 """Uncertainty forward: how far an impact spreads, if what is known of it is uncertain.
 
 The inputs are drawn by scrambled Sobol points (`scipy.stats.qmc`), independent of each other, and
-each draw is an impact of the FMU, in some 40 us.
+each draw is an impact that the exporter predicts.
 """
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from . import temporary
-from .errors import ContactError
-from .library import Library
+from .errors import ContactError, UnknownName, nearest
+from .impacts import RESULTS as OF_RUNS
+from .impacts import Numbers, Table, runs
 from .prediction import quantity
-from .program import in_si
-from .studies import impacts, scene
-from .variables import Variables
+from .program import in_si, of_scene, options_of
 
-Numbers = NDArray[np.float64]
 Spread = float | str | Sequence[float | str] | Any
 """A standard deviation, as a number in SI units, "5 %" or "10 MPa"; two ends of a range, all of it
 equally likely; or a distribution of `scipy.stats`."""
@@ -72,33 +69,15 @@ def bands(
 ) -> Bands:
     """The bands of an impact on the first contact of a scene file.
 
-    `uncertainty` maps "speed", "mass" and parameters of the FMU ("target.yield_strength") to their
+    `uncertainty` maps "speed", "mass" and parameters of the scene ("target.yield_strength") to their
     spreads. `draws` is a power of two.
 
-    Raises `UnknownName` for an input that the FMU has not, `ValueError` for a spread out of range,
+    Raises `UnknownName` for an input that the scene has not, `ValueError` for a spread out of range,
     and `ContactError` if a draw is outside the range of the law.
     """
-    with temporary.folder() as folder:
-        unit, usual = scene.unit(Path(path), folder, mass)
-        with scene.naming(path, unit.name):
-            return _drawn(Library.of(unit), usual, uncertainty, speed, draws, seed)
-
-
-def _drawn(
-    library: Library,
-    usual: dict[str, float],
-    uncertainty: Mapping[str, Spread],
-    speed: float | None,
-    draws: int,
-    seed: int,
-) -> Bands:
-    usual |= {"speed": speed} if speed is not None else {}
-    if "speed" not in usual:
-        raise ValueError("speed is needed: the scene has none; pass it")
-    centre = centres(library, usual, uncertainty)
-    names = ["speed", "mass", *(it for it in centre if it not in ("speed", "mass"))]
-    rows = spread(names, np.array([[centre[it] for it in names]]), uncertainty, draws, seed)
-    table = impacts.run(library.path, names, rows)
+    given = {name: np.array([it]) for name, it in (("mass", mass), ("speed", speed)) if it is not None}
+    columns = _spread(_with_centres(path, given, uncertainty), uncertainty, draws, seed)
+    table, _ = runs(path, columns)
     for index, error in enumerate(table["error"]):
         if error:
             shown = ", ".join(f"{it} = {table[it][index]:.4g}" for it in uncertainty)
@@ -113,22 +92,25 @@ def _drawn(
     )
 
 
-def centres(library: Library, usual: Mapping[str, float], uncertainty: Mapping[str, Spread]) -> dict[str, float]:
-    """The values around which inputs spread: those of the scene."""
-    variables = Variables(library)
-    found = dict(usual)
+def _with_centres(
+    path: str | Path, columns: Mapping[str, Numbers], uncertainty: Mapping[str, Spread]
+) -> dict[str, Numbers]:
+    """The `columns` with those around which inputs spread: the values of the scene."""
+    said = json.loads(of_scene("predict", path)[0])
+    known = {name: said[name] for name in ("speed", "mass")} | said["parameters"]
+    count = len(next(iter(columns.values()))) if columns else 1
+    found = dict(columns)
     for name in uncertainty:
-        if name in found:
-            continue
-        if name not in variables.parameters:
-            raise variables.unknown("parameter", name, ("speed", "mass", *variables.parameters))
-        found[name] = float(library.variables[name].start)
+        if name not in known and name not in columns:
+            raise UnknownName(f"{path} has no parameter {name!r}{nearest(name, known)}; it has {', '.join(known)}")
+        found.setdefault(name, np.full(count, known.get(name)))
     return found
 
 
-def spread(names: Sequence[str], rows: Numbers, uncertainty: Mapping[str, Spread], draws: int, seed: int) -> Numbers:
-    """Each of the `rows` as often as there are draws, with the uncertain columns spread around its
-    values."""
+def _spread(
+    columns: Mapping[str, Numbers], uncertainty: Mapping[str, Spread], draws: int, seed: int
+) -> dict[str, Numbers]:
+    """Each row of the `columns` as often as there are draws, with what is uncertain spread around its value."""
     from scipy.stats import qmc
 
     if not uncertainty:
@@ -138,11 +120,9 @@ def spread(names: Sequence[str], rows: Numbers, uncertainty: Mapping[str, Spread
     sobol = qmc.Sobol(len(uncertainty), rng=seed)
     # open ends: a draw at 0 would be infinitely far
     places = np.clip(sobol.random(draws), 0.5**33, 1.0 - 0.5**33)
-    found = np.repeat(rows, draws, axis=0)
+    found = {name: np.repeat(column, draws) for name, column in columns.items()}
     for place, (name, one) in zip(places.T, uncertainty.items(), strict=True):
-        column = list(names).index(name)
-        values = [_values(name, one, float(row[column]), place) for row in rows]
-        found[:, column] = np.concatenate(values)
+        found[name] = np.concatenate([_values(name, one, float(centre), place) for centre in columns[name]])
     return found
 
 
@@ -184,22 +164,25 @@ def _share(one: Numbers, other: Numbers) -> float:
     return float(np.corrcoef(*ranks)[0, 1] ** 2)
 
 
-def banded(table: impacts.Table, rows: Numbers, names: Sequence[str], draws: int) -> impacts.Table:
-    """The table of a study whose runs were drawn so often: one row for each run, with the medians
-    and, beside each result, its band in `NAME_low` and `NAME_high`.
+def banded(
+    path: str | Path, columns: Mapping[str, Numbers], uncertainty: Mapping[str, Spread], draws: int, seed: int
+) -> tuple[Table, dict[str, str]]:
+    """The table of a study whose runs are drawn so often, and its units: one row for each run, with the
+    medians and, beside each result, its band in `NAME_low` and `NAME_high`.
 
     A run of which a draw failed has the reason of the first in `error`, and no results.
     """
-    found: impacts.Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
-    shape = (len(rows), draws)
-    errors = table["error"].reshape(shape)
-    bad = (errors != "").any(axis=1)
-    for name in impacts.RESULTS:
+    centres = _with_centres(path, columns, uncertainty)
+    table, units = runs(path, _spread(centres, uncertainty, draws, seed))
+    shape = (-1, draws)
+    found = {name: table[name].reshape(shape)[:, 0] for name in ("speed", "mass", *centres)} | centres
+    bad = (table["error"].reshape(shape) != "").any(axis=1)
+    for name in OF_RUNS:
         values = np.asarray(table[name], dtype=float).reshape(shape)
         for column, part in ((name, 0.5), (f"{name}_low", 0.5 - 0.5 * LEVEL), (f"{name}_high", 0.5 + 0.5 * LEVEL)):
             found[column] = np.where(bad, np.nan, np.quantile(values, part, axis=1))
+            units[column] = units[name]
     for name in ("error", "warning"):
         texts = table[name].reshape(shape)
-        firsts = [next((it for it in row if it), "") for row in texts]
-        found[name] = np.array(firsts, dtype=object)
-    return found
+        found[name] = np.array([next((it for it in row if it), "") for row in texts], dtype=object)
+    return found, {name: units[name] for name in found}

@@ -80,7 +80,7 @@ impl Question<'_> {
         };
         for (choice, impact, answer) in speeds.iter().filter_map(at).chain(strengths.iter().filter_map(with)) {
             let Ok(prediction) = one(&choice, &impact) else { continue };
-            for limit in beyond(scene, &choice.model.pair(), impact.speed, &prediction, &[]) {
+            for limit in beyond(scene, &choice.model.pair(), impact.speed, &prediction) {
                 crate::messages::warn(&format!("{}, {answer}: {}", choice.laws, validity::words(limit)));
             }
         }

@@ -17,7 +17,7 @@ use brinell_exporter::layout::{json_line, shown};
 use brinell_exporter::predict::answer::Answer;
 use brinell_exporter::predict::axis::Axis;
 use brinell_exporter::predict::oblique::{self, Setting};
-use brinell_exporter::predict::sweep::Sweep;
+use brinell_exporter::predict::sweep::{Impacts, Sweep};
 use brinell_exporter::predict::time_history;
 use serde_json::json;
 use std::error::Error;
@@ -33,8 +33,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
         ending(Some(path), &["csv"]).map_err(WrongCall)?;
         files::check_goal(path)?;
     }
-    let axes = arguments.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>();
-    let axes = axes.map_err(WrongCall::of)?;
+    let (axes, impacts) = arguments.varied()?;
     let scene = scene_file::read_aloud(&arguments.scene)?;
     let impact = impact(&scene, arguments).map_err(WrongCall::of)?;
     implausible(&scene, arguments, impact.mass, &axes).iter().for_each(|doubt| crate::messages::warn(doubt));
@@ -51,10 +50,10 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     }
     let question = Question { scene: &scene, choices: &choices, impact, as_json };
     if !axes.is_empty() {
-        return question.sweep(setting, &axes, output);
+        return question.sweep(setting, (&axes, impacts), output);
     }
     if let Some(setting) = setting {
-        let answer = ObliqueAnswer::of(&scene, &choices, (impact, setting)).map_err(failed)?;
+        let answer = ObliqueAnswer::of(&scene, &choices, (impact, setting)).map_err(|error| failed(error, impacts))?;
         match as_json {
             true => print!("{}", json_line(&answer.json())),
             false => print!("{}", answer.text()),
@@ -84,18 +83,26 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
 }
 
 impl Question<'_> {
-    /// Impacts over ranges of quantities, oblique ones with a `setting`: as a table, CSV or JSON.
-    fn sweep(&self, setting: Option<Setting>, axes: &[Axis], output: Option<&Path>) -> Result<(), Box<dyn Error>> {
+    /// Impacts over ranges of quantities or one by one, oblique ones with a `setting`: as a table, CSV or JSON.
+    fn sweep(
+        &self,
+        setting: Option<Setting>,
+        axes: (&[Axis], Impacts),
+        output: Option<&Path>,
+    ) -> Result<(), Box<dyn Error>> {
         let Question { scene, impact, .. } = *self;
         let each = |values: &[_], work: &(dyn Fn(&_) -> _ + Sync)| parallel::each(values, work);
         let sweep = Sweep::of_impacts((scene, self.choices), (impact, setting), axes, &each);
-        let sweep = sweep.map_err(failed)?;
-        sweep.limits.warnings().iter().for_each(|warning| crate::messages::warn(warning));
+        let sweep = sweep.map_err(|error| failed(error, axes.1))?;
+        // a program has those of each listed impact
+        if sweep.said.is_empty() || output.is_none() && !self.as_json {
+            sweep.warnings().iter().for_each(|warning| crate::messages::warn(warning));
+        }
         let Impact { mass, speed } = impact;
         let text = match output {
-            Some(_) => sweep.columns.csv(),
+            Some(_) => sweep.csv(),
             None if self.as_json => {
-                let mut object = sweep.columns.json();
+                let mut object = sweep.json();
                 (object["mass"], object["speed"]) = (json!(mass), json!(speed));
                 json_line(&object)
             }

@@ -34,11 +34,11 @@ impl Arguments {
                 None => Ok(None),
             };
         }
-        let coefficient = self.friction.or(varied(FRICTION)).or(scene.group_value(0, FRICTION));
+        let coefficient = self.friction.or(scene.group_value(0, FRICTION)).or(varied(FRICTION).map(|_| 0.0));
         let missing = || WrongCall::of(PredictError::NoCoefficient);
         let setting = Setting {
-            angle: self.angle.or(varied("angle")).unwrap_or(0.0),
-            spin: self.spin.or(varied("spin")).unwrap_or(0.0),
+            angle: self.angle.unwrap_or(0.0),
+            spin: self.spin.unwrap_or(0.0),
             coefficient: coefficient.ok_or_else(missing)?,
             inertia: self.inertia,
         };

@@ -1,10 +1,12 @@
 //! What `brinell predict` is asked: its arguments, and the impact on a scene that they mean.
 
 use crate::messages::WrongCall;
+use crate::scene_file;
 use brinell_contact::impact::Impact;
 use brinell_exporter::laws::Choice;
 use brinell_exporter::model::check_energy;
 use brinell_exporter::predict::axis::Axis;
+use brinell_exporter::predict::sweep::Impacts;
 use brinell_exporter::predict::{PredictError, positive, speed_of_energy, speed_of_height};
 use brinell_exporter::scene::{Scene, plausible};
 use brinell_exporter::units;
@@ -36,11 +38,15 @@ pub struct Arguments {
     /// are spaced logarithmically, shorter ones linearly; speed=1:20:8log and 0.1:10:8lin say which
     #[arg(long, value_name = "NAME=FROM:TO[:COUNT]")]
     pub sweep: Vec<String>,
-    /// Write the sweep with all digits [default: print a short table]
-    #[arg(short, long, value_name = "FILE.csv", requires = "sweep")]
+    /// Predict the impacts of a table, each on its own: a CSV file with the names of quantities above its columns, such as speed,mass;
+    /// `-` is standard input. An impact that can't be has its error, and the others are predicted
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "sweep")]
+    pub impacts: Option<PathBuf>,
+    /// Write the sweep or the impacts with all digits [default: print a short table]
+    #[arg(short, long, value_name = "FILE.csv")]
     pub output: Option<PathBuf>,
     /// Write force, indentation and speed over time
-    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["sweep", "dent", "restitution"])]
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["sweep", "impacts", "dent", "restitution"])]
     pub time_history: Option<PathBuf>,
     /// Angle of incidence from the normal [degrees], for an oblique impact; the speed is then that along the path
     #[arg(long, value_name = "DEGREES", value_parser = units::numbers_in("deg"), allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
@@ -55,11 +61,32 @@ pub struct Arguments {
     #[arg(long, allow_hyphen_values = true, value_parser = units::numbers_in("kg.m^2"))]
     pub inertia: Option<f64>,
     /// A measured dent [m]: print the speed and the yield strength that explain it
-    #[arg(long, allow_hyphen_values = true, value_parser = units::numbers_in("m"), conflicts_with = "sweep")]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::numbers_in("m"), conflicts_with_all = ["sweep", "impacts"])]
     pub dent: Option<f64>,
     /// A measured restitution: print the speeds and yield strengths that explain it
-    #[arg(long, allow_hyphen_values = true, conflicts_with_all = ["sweep", "dent"])]
+    #[arg(long, allow_hyphen_values = true, conflicts_with_all = ["sweep", "impacts", "dent"])]
     pub restitution: Option<f64>,
+}
+
+impl Arguments {
+    /// The quantities that vary, and how.
+    ///
+    /// # Errors
+    /// A wrong range or table, or a file for the numbers where nothing varies.
+    pub fn varied(&self) -> Result<(Vec<Axis>, Impacts), Box<dyn Error>> {
+        let Some(path) = &self.impacts else {
+            if self.output.is_some() && self.sweep.is_empty() {
+                return Err(WrongCall("-o FILE.csv needs --sweep or --impacts".into()).into());
+            }
+            let axes = self.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>();
+            return Ok((axes.map_err(|error| failed(error, Impacts::Combined))?, Impacts::Combined));
+        };
+        let is_file = path.as_os_str() != "-";
+        let bytes = scene_file::bytes_or_standard_input(is_file.then_some(path.as_path()))?;
+        let name = if is_file { path.display().to_string() } else { "standard input".into() };
+        let columns = Axis::columns(&String::from_utf8_lossy(&bytes));
+        Ok((columns.map_err(|why| WrongCall(format!("{name}:{why}")))?, Impacts::Listed))
+    }
 }
 
 /// The scene's impact, with the changes from the arguments.
@@ -103,9 +130,10 @@ pub fn implausible(scene: &Scene, arguments: &Arguments, mass: f64, axes: &[Axis
 }
 
 /// An impossible quantity or range is a wrong call. A law that can't be evaluated is not.
-pub fn failed(error: PredictError) -> Box<dyn Error> {
+pub fn failed(error: PredictError, impacts: Impacts) -> Box<dyn Error> {
     match error {
         PredictError::Beyond { .. } => error.into(),
+        PredictError::Varied(why) => WrongCall(format!("{} {why}", impacts.option())).into(),
         error => WrongCall::of(error).into(),
     }
 }

@@ -235,7 +235,7 @@ impl Bodies {
             parameters.push((parameter.name, parameter.value));
         }
         let impact = Impact { mass: scene.impact.mass * larger.powi(3), speed: speed.unwrap_or(scene.impact.speed) };
-        let size = changed.smaller_radius_with(0, &[]);
+        let size = changed.smaller_radius(0);
         Some(Bodies {
             parameters,
             model: changed.any_model(),

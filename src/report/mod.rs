@@ -145,7 +145,7 @@ impl Report {
         law.extend(accuracy(&alone, &prediction));
         law.extend(card::readings(&alone));
         law.extend(spread::note(&alone, None));
-        let warnings = beyond(&alone, &model.pair(), impact.speed, &prediction, &[]).into_iter().map(validity::words);
+        let warnings = beyond(&alone, &model.pair(), impact.speed, &prediction).into_iter().map(validity::words);
         let mut coupling = choice::sentences(&ways);
         coupling.extend(stability.sentence());
         coupling.extend((scene.contact_count() > 1).then(|| NOT_FOR_SEVERAL.to_string()));

@@ -152,7 +152,7 @@ fn the_page_by_trade_has_the_numbers_of_its_scenes() {
         )
     });
     shown("hammer_drill", &|it| {
-        let waves = Waves::of(&it.scene, it.impact.speed, &[]).expect("rods");
+        let waves = Waves::of(&it.scene, it.impact.speed).expect("rods");
         format!(
             "rho c A v/(1 + rho c A/(rho c A')) = {} is the largest force before a wave returns",
             quantity(waves.largest_force, "N")

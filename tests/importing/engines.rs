@@ -287,7 +287,7 @@ pub fn with_scipy(variable: &str, folder: &Path, file: &str) {
 
 #[test]
 fn studies_run_completely() {
-    pytest(&["test_study.py", "test_study_command.py"], &["scipy", "pyarrow", "tqdm", "matplotlib"], "studies");
+    pytest(&["test_study.py"], &["scipy", "pyarrow", "matplotlib"], "studies");
 }
 
 const FOR_FITS: [&str; 5] = ["scipy", "matplotlib", "pandas", "openpyxl", "pyarrow"];
@@ -316,7 +316,7 @@ fn intervals_of_fits_contain_what_made_a_measurement() {
 
 #[test]
 fn uncertain_inputs_give_bands() {
-    pytest(&["test_uncertainty.py"], &["scipy", "pyarrow", "tqdm", "matplotlib"], "uncertainty");
+    pytest(&["test_uncertainty.py"], &["scipy", "pyarrow", "matplotlib"], "uncertainty");
 }
 
 #[test]
@@ -324,7 +324,7 @@ fn the_notebooks_show_what_they_print() {
     if long::leaves_out("the notebooks") {
         return;
     }
-    let packages = ["nbclient", "ipykernel", "scipy", "pyarrow", "tqdm", "matplotlib"];
+    let packages = ["nbclient", "ipykernel", "scipy", "pyarrow", "matplotlib"];
     pytest(&["test_notebook.py"], &packages, "the notebooks");
 }
 

@@ -67,9 +67,9 @@ def simulated(path, case, count):
         force = points.arguments["force"]
         for _ in range(30):
             own = replace(points, arguments={**points.arguments, "force": force})
-            force = law.values(own, exact.flow(true))[name]
+            force = law.values(own, [exact.flow(true)])[name][0]
         points = own
-    values = law.values(points, exact.flow(true))[name]
+    values = law.values(points, [exact.flow(true)])[name][0]
     random = np.random.default_rng(len(case))
     inside = {"linearised": np.zeros(len(true)), "bootstrap": np.zeros(len(true))}
     drawn = np.zeros(len(true))

@@ -339,7 +339,7 @@ def test_the_program_says_what_is_wrong(call, words):
         lambda: brinell.export("nowhere.toml"),
         lambda: brinell.curve("nowhere.toml"),
         lambda: brinell.sweep("nowhere.toml", {"speed": "1:2"}),
-        lambda: brinell.study("nowhere.toml", {"speed": "1:2"}, progress=False),
+        lambda: brinell.study("nowhere.toml", {"speed": "1:2"}),
         lambda: brinell.Contact("nowhere.toml"),
         lambda: brinell.Contact("nowhere.fmu"),
         lambda: brinell.export(SCENE, "nowhere.toml/x.fmu"),

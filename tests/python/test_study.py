@@ -1,33 +1,39 @@
-"""Studies: plans, runs, failures and files."""
+"""Studies: plans, runs, failures, files, and the command line."""
 
-import multiprocessing
 import os
-import shutil
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import brinell
 import numpy as np
 import pandas
 import pytest
-from brinell import ContactError, ProgramError, ProgramWarning, Range, library
-from brinell.studies import plan, scene, study
+from brinell import ProgramError, ProgramWarning, Range
+from brinell import __main__ as line
+from brinell.studies import plan
 
 SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
 SCENE = SCENES / "mass_known.toml"
+BALL = """name = "ball"
+impactor = { radius = "5 mm", material = "mild steel" }
+target = { material = "mild steel", yield_strength = 200e6 }
+"""
+STEEL = """name = "ball"
+impactor = { radius = 5e-3 }
+impact = { mass = 4.11e-3, speed = 1.0 }
+[target]
+youngs_modulus = 206e9
+poissons_ratio = 0.3
+"""
+JOHNSON_COOK = 'rate = { model = "johnson-cook", c = 0.03, reference_rate = 1.0 }\n'
 
 
-@pytest.fixture(scope="module")
-def unit(tmp_path_factory):
-    return scene.unit(SCENE, tmp_path_factory.mktemp("unit"), None)[0]
-
-
-def quick(unit, vary, **arguments):
-    arguments = {"mass": 4e-3, "progress": False, "workers": 1} | arguments
-    if "speed" not in vary:
-        arguments.setdefault("speed", 1.0)
-    return brinell.study(unit, vary, **arguments)
+def written(folder, text):
+    path = folder / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
 
 
 # plans
@@ -115,162 +121,137 @@ def test_plans_that_are_refused(vary, sample, words):
 # runs
 
 
-@pytest.mark.parametrize(
-    ("impact", "speed"),
-    [("speed = 0.7", None), ('drop_height = "3 cm"', None), ("", 0.3), ("mass = 5e-3, speed = 0.7", None)],
-)
-def test_a_study_has_the_mass_and_the_speed_that_predictions_of_the_scene_have(impact, speed, tmp_path):
-    file = tmp_path / "ball.toml"
-    file.write_text(
-        'name = "ball"\nimpactor = { radius = "5 mm", material = "mild steel" }\n'
-        'target = { material = "mild steel", yield_strength = 200e6 }\n'
-        + (f"impact = {{ {impact} }}\n" if impact else ""),
-        encoding="utf-8",
-    )
-    expected = brinell.predict(file, speed=speed)
-    vary = {"target.yield_strength": [200e6]}
-    run = brinell.study(file, vary, speed=speed, progress=False, workers=1).iloc[0]
-    assert (run["mass"], run["speed"]) == (expected.mass, expected.speed)
-    assert run["restitution"] == pytest.approx(expected.restitution, rel=1e-9)
-    heavier = brinell.study(file, vary, speed=speed, mass="1 kg", progress=False, workers=1).iloc[0]
-    assert (heavier["mass"], heavier["speed"]) == (1.0, expected.speed)
-
-
-def test_a_mass_that_is_unknown_is_asked_for(tmp_path):
-    file = tmp_path / "ball.toml"
-    text = 'name = "ball"\nimpactor = { radius = "5 mm" }\ntarget = { material = "mild steel" }\n'
-    file.write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=r"no density of \[impactor\]: pass mass= \(--mass\)"):
-        brinell.study(file, {"speed": "1:2:3"}, progress=False)
-    assert len(brinell.study(file, {"speed": "1:2:3"}, mass="4 g", progress=False)) == 3
-    assert len(brinell.study(file, {"speed": "1:2:3", "mass": [1e-3]}, progress=False)) == 3
+def is_predicted(table, path, rel=1e-13, **more):
+    """Each run is what is predicted of the same impact."""
+    assert list(table["error"]) == [""] * len(table)
+    for _, run in table.iterrows():
+        expected = brinell.predict(path, speed=run["speed"], mass=run["mass"], **more)
+        for name in ("restitution", "dent", "energy_lost", "rebound_speed"):
+            assert run[name] == pytest.approx(getattr(expected, name), rel=rel, abs=1e-18), name
+        assert run["max_indentation"] == pytest.approx(expected.largest_indentation, rel=rel)
+        momentum = run["mass"] * (run["speed"] + expected.rebound_speed)
+        assert run["impulse"] == pytest.approx(momentum, rel=rel)
 
 
 @pytest.mark.parametrize(
     "name", ["steel_ball", "coupled", "mass_known", "elastic", "two_contacts", "everything", "damped"]
 )
 def test_each_run_is_what_is_predicted(name):
-    # rate-dependent laws are integrated
-    rel = 1e-8 if name == "damped" else 1e-9
-    vary = {"speed": "0.01:10:5log", "mass": [4e-3]}
-    table = brinell.study(SCENES / f"{name}.toml", vary, workers=1, progress=False)
-    assert list(table["error"]) == [""] * 5
-    for index, speed in enumerate(table["speed"]):
-        expected = brinell.predict(SCENES / f"{name}.toml", speed=speed, mass=4e-3)
-        assert table["restitution"][index] == pytest.approx(expected.restitution, rel=rel)
-        assert table["max_indentation"][index] == pytest.approx(expected.largest_indentation, rel=rel)
-        assert table["dent"][index] == pytest.approx(expected.dent, rel=rel, abs=1e-18)
-        assert table["energy_lost"][index] == pytest.approx(expected.energy_lost, rel=rel, abs=1e-15)
+    path = SCENES / f"{name}.toml"
+    is_predicted(brinell.study(path, {"speed": "0.01:10:5log", "mass": [1e-3, 4e-3]}), path)
 
 
-def test_the_impulse_makes_the_rebound(unit):
-    table = quick(unit, {"mass": "1e-6:1e3:10log", "target.yield_strength": "1e8:1e9:3"})
-    momentum = table["mass"] * (table["rebound_speed"] + 1.0)
-    assert table["impulse"].to_numpy() == pytest.approx(momentum.to_numpy(), rel=1e-14)
-    assert table["restitution"].to_numpy() == pytest.approx(table["rebound_speed"].to_numpy())
+@pytest.mark.parametrize(
+    "own",
+    [
+        "yield_strength = 300e6\n" + JOHNSON_COOK,
+        'yield_strength = 300e6\nrate = { model = "cowper-symonds", d = 8000.0, q = 5.0 }\n',
+        "power_law = { coefficient = 700e6, exponent = 0.2 }\n" + JOHNSON_COOK,
+        'hardness = "200 HBW 10/3000"\n',
+        "yield_strength = 300e6\n" + JOHNSON_COOK + "[coupling]\neffective_mass = 4.11e-3\n",
+        "yield_strength = 300e6\nplate_thickness = 0.01\ndensity = 7850.0\n" + JOHNSON_COOK,
+    ],
+)
+def test_each_run_has_the_strength_at_its_own_rate_and_strain(own, tmp_path):
+    path = written(tmp_path, STEEL + own)
+    vary = {"speed": "0.05:20:6log", "mass": [1e-3, 4e-3]}
+    table = brinell.study(path, vary)
+    is_predicted(table, path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ProgramWarning)
+        swept = brinell.sweep(path, vary)
+    # the speeds of the two are the same to rounding
+    assert swept["restitution"].to_numpy() == pytest.approx(table["restitution"].to_numpy(), rel=1e-13)
 
 
-def test_an_impact_that_is_longer_than_a_step_is_run_to_its_end(unit):
-    table = quick(unit, {"mass": [4e-3, 1e7]}, speed=1e-6, parameters={"target.youngs_modulus": 1e3})
-    assert list(table["error"]) == ["", ""]
-    assert (table["restitution"] > 0.0).all() and (table["restitution"] <= 1.0 + 1e-12).all()
+def test_a_parameter_says_what_the_scene_would_say(tmp_path):
+    strengths, constants = (200e6, 900e6), (0.0, 0.05)
+    path = written(tmp_path, STEEL + "yield_strength = 300e6\n" + JOHNSON_COOK)
+    table = brinell.study(path, {"target.yield_strength": strengths, "target.rate.c": constants, "speed": [0.2, 5.0]})
+    for (strength, constant), runs in table.groupby(["target.yield_strength", "target.rate.c"]):
+        other = STEEL + f"yield_strength = {strength!r}\n" + JOHNSON_COOK.replace("0.03", repr(constant))
+        is_predicted(runs, written(tmp_path, other))
 
 
-def test_a_study_is_a_table_with_units(unit):
-    table = quick(unit, {"target.yield_strength": [3e8, 4e8]})
+@pytest.mark.parametrize(
+    ("impact", "speed"),
+    [("speed = 0.7", None), ('drop_height = "3 cm"', None), ("", 0.3), ("", None), ("mass = 5e-3, speed = 0.7", None)],
+)
+def test_a_study_has_the_mass_and_the_speed_that_predictions_of_the_scene_have(impact, speed, tmp_path):
+    file = written(tmp_path, BALL + (f"impact = {{ {impact} }}\n" if impact else ""))
+    expected = brinell.predict(file, speed=speed)
+    run = brinell.study(file, {"target.yield_strength": [200e6]}, speed=speed).iloc[0]
+    assert (run["mass"], run["speed"]) == (expected.mass, expected.speed)
+    heavier = brinell.study(file, {"target.yield_strength": [200e6]}, speed=speed, mass="1 kg").iloc[0]
+    assert (heavier["mass"], heavier["speed"]) == (1.0, expected.speed)
+    energy = brinell.study(file, {"energy": [1e-3], "mass": [4e-3]}).iloc[0]
+    assert energy["speed"] == pytest.approx(np.sqrt(0.5), rel=1e-14)
+
+
+def test_an_fmu_is_studied_by_the_scene_in_it(tmp_path):
+    unit = brinell.export(SCENE, tmp_path / "unit.fmu")
+    assert brinell.study(unit, {"speed": "1:2:3"}).equals(brinell.study(SCENE, {"speed": "1:2:3"}))
+
+
+def test_a_study_is_a_table_with_units():
+    table = brinell.study(SCENE, {"target.yield_strength": [3e8, 4e8]})
     units = table.attrs["units"]
     assert list(units) == list(table) and table["restitution"].between(0.0, 1.0).all()
     assert [units[name] for name in ("target.yield_strength", "speed", "dent")] == ["Pa", "m/s", "m"]
 
 
-def test_numbers_of_a_study_are_texts_with_a_unit(unit):
+def test_numbers_of_a_study_are_texts_with_a_unit():
     vary = {"speed": "10 mm/s:1 m/s:3log", "target.yield_strength": ["300 MPa", 4e8]}
-    texts = quick(unit, vary, mass="4 g", parameters={"impactor.radius": "4 mm"})
+    texts = brinell.study(SCENE, vary, mass="4 g", parameters={"impactor.radius": "4 mm"})
     vary = {"speed": "0.01:1:3log", "target.yield_strength": [3e8, 4e8]}
-    assert texts.equals(quick(unit, vary, mass=4e-3, parameters={"impactor.radius": 4e-3}))
+    assert texts.equals(brinell.study(SCENE, vary, mass=4e-3, parameters={"impactor.radius": 4e-3}))
     with pytest.raises(ValueError, match="speed = '1 kg:2' is not a range .*kg is a mass"):
-        quick(unit, {"speed": "1 kg:2"})
+        brinell.study(SCENE, {"speed": "1 kg:2"})
     with pytest.raises(ProgramError, match="impactor.radius = 4 kg: kg is a mass"):
-        quick(unit, {"speed": "1:2:2"}, parameters={"impactor.radius": "4 kg"})
+        brinell.study(SCENE, {"speed": "1:2:2"}, parameters={"impactor.radius": "4 kg"})
 
 
-def test_failed_runs_have_a_reason_and_the_others_their_results(unit):
-    table = quick(unit, {"target.yield_strength": [3e8, -1.0, 4e8], "speed": [1.0, 0.0]})
+def test_failed_runs_have_a_reason_and_the_others_their_results():
+    table = brinell.study(SCENE, {"target.yield_strength": [3e8, -1.0, 4e8], "speed": [1.0, 0.0]})
     good = (table["target.yield_strength"] > 0.0) & (table["speed"] > 0.0)
     assert np.array_equal(table["error"] == "", good)
     assert np.isfinite(table["restitution"][good]).all() and np.isnan(table["restitution"][~good]).all()
-    assert "yield_strength" in table["error"][2] and "speed = 0.0 m/s" in table["error"][1]
+    assert "yield_strength" in table["error"][2] and "speed = 0 must be positive" in table["error"][1]
+    none = brinell.study(SCENE, {"speed": [-1.0, 0.0]})
+    assert none["restitution"].isna().all() and (none["error"] != "").all()
 
 
-def test_warnings_belong_to_their_run(unit):
-    table = quick(unit, {"speed": [1.0, 40.0, 1.0, 40.0]})
+def test_warnings_belong_to_their_run():
+    table = brinell.study(SCENE, {"speed": [1.0, 40.0, 1.0, 40.0]})
     assert [bool(text) for text in table["warning"]] == [False, True, False, True]
-
-
-@pytest.mark.skipif(multiprocessing.get_start_method() != "fork", reason="no process is forked")
-def test_the_processes_of_a_study_do_not_unpack_the_unit_again(unit, tmp_path, monkeypatch):
-    unpack, log = library.unpack, tmp_path / "log"
-
-    def logged(*arguments, **more):
-        with open(log, "a") as file:
-            file.write(f"{os.getpid()}\n")
-        return unpack(*arguments, **more)
-
-    monkeypatch.setattr(library, "unpack", logged)
-    # one that this process hasn't unpacked yet
-    fresh = Path(shutil.copy(unit, tmp_path / "fresh.fmu"))
-    quick(fresh, {"speed": "1:2:400"}, workers=2)
-    assert log.read_text() == f"{os.getpid()}\n"
-
-
-def test_a_short_study_has_one_process_and_a_long_one_all_cores(monkeypatch):
-    monkeypatch.setattr(os, "cpu_count", lambda: 4)
-    assert [study._workers(runs) for runs in (1, 1999, 2000, 3999, 10**6)] == [1, 1, 2, 3, 4]
-
-
-def test_more_processes_change_nothing(unit):
-    vary = {"speed": "0.1:10:30log", "target.yield_strength": "2e8:9e8:11"}
-    assert quick(unit, vary, workers=2).equals(quick(unit, vary))
 
 
 @pytest.mark.parametrize(
     ("arguments", "error", "words"),
     [
-        ({"vary": {"hardness": "1:2"}}, KeyError, "speed, mass, impactor.radius"),
+        ({"vary": {"hardness": [1.0]}}, ProgramError, "^no quantity is called `hardness`"),
+        ({"vary": {"speed": [1.0], "energy": [1.0]}}, ProgramError, "determine each other"),
         ({"output": "x.txt"}, ValueError, ".parquet, .csv"),
         ({"output": "/nowhere/at/all/x.csv"}, FileNotFoundError, "no folder"),
+        ({"scene_file": "nowhere.toml"}, FileNotFoundError, "no scene"),
     ],
 )
-def test_studies_that_are_refused(unit, arguments, error, words):
+def test_studies_that_are_refused(arguments, error, words):
     with pytest.raises(error, match=words):
-        quick(unit, **({"vary": {"speed": "1:2:4"}} | arguments))
+        brinell.study(**({"scene_file": SCENE, "vary": {"speed": "1:2:4"}} | arguments))
 
 
 def test_what_the_program_doubts_about_the_scene_is_a_warning_of_the_study(tmp_path):
-    path = tmp_path / "wide.toml"
-    path.write_text(SCENE.read_text().replace("radius = 5e-3", "radius = 5"))
+    path = written(tmp_path, SCENE.read_text().replace("radius = 5e-3", "radius = 5"))
     with pytest.warns(ProgramWarning, match="radius = 5 m; did you mean 5e-3") as told:
-        brinell.study(path, {"speed": "1:2:2"}, progress=False, workers=1)
+        brinell.study(path, {"speed": "1:2:2"})
     assert len(told) == 1
-
-
-def test_scenes_that_are_refused(tmp_path):
-    with pytest.raises(FileNotFoundError):
-        brinell.study(tmp_path / "nowhere.toml", {"speed": "1:2:2"}, progress=False)
-    plain = brinell.export(SCENES / "coupled.toml", tmp_path / "plain.fmu")
-    with pytest.raises(ContactError, match="knows the mass"):
-        quick(plain, {"speed": "1:2:2"})
-    (tmp_path / "bare.toml").write_text(
-        'name = "x"\nimpactor = { radius = 5e-3 }\ntarget = { material = "mild steel" }'
-    )
-    with pytest.raises(ValueError, match="mass"):
-        brinell.study(tmp_path / "bare.toml", {"speed": "1:2:2"}, progress=False)
 
 
 # files
 
 
-def test_tables_and_pictures_are_written(unit, tmp_path):
+def test_tables_and_pictures_are_written(tmp_path):
     files = [tmp_path / name for name in ("x.parquet", "x.csv", "x.svg", "x.png")]
     for vary in (
         {"speed": "0.1:1:4log", "mass": "1e-3:1e-2:3"},
@@ -278,7 +259,7 @@ def test_tables_and_pictures_are_written(unit, tmp_path):
         {"speed": "1:2", "mass": "1:2", "target.yield_strength": "1e8:2e8"},
     ):
         sample = "grid" if len(vary) < 3 else "lhs:20"
-        table = quick(unit, vary, output=files, sample=sample)
+        table = brinell.study(SCENE, vary, output=files, sample=sample)
         assert all(file.stat().st_size > 100 for file in files)
         assert pandas.read_parquet(files[0]).equals(table)
         lines = files[1].read_text().splitlines()
@@ -286,37 +267,20 @@ def test_tables_and_pictures_are_written(unit, tmp_path):
         assert sorted(path.name for path in tmp_path.iterdir()) == sorted(file.name for file in files)
 
 
-@pytest.mark.parametrize("ending", [".csv", ".parquet", ".svg"])
-def test_a_table_that_cannot_be_written_whole_leaves_the_one_before(ending, unit, tmp_path, monkeypatch):
+@pytest.mark.parametrize("ending", [".csv", ".parquet", ".png"])
+def test_a_table_that_cannot_be_written_whole_leaves_the_one_before(ending, tmp_path, monkeypatch):
     def half(path, *_, **__):
         Path(path).write_text("half")
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("pandas.DataFrame.to_csv", lambda _, path, **__: half(path))
     monkeypatch.setattr("pandas.DataFrame.to_parquet", lambda _, path, **__: half(path))
-    monkeypatch.setattr("brinell.studies.picture.draw", half)
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", lambda _, path, **__: half(path))
     before = tmp_path / f"table{ending}"
     before.write_text("an older one")
     with pytest.raises(OSError, match="No space"):
-        brinell.study(unit, {"speed": "1:2:2"}, mass=4e-3, output=before, progress=False)
+        brinell.study(SCENE, {"speed": "1:2:2"}, output=before)
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [(before.name, "an older one")]
-
-
-@pytest.mark.skipif(os.name == "nt", reason="needs SIGKILL")
-def test_the_processes_of_a_killed_study_end_with_it(unit, tmp_path):
-    program = f"""
-import os, signal, brinell, tqdm
-tqdm.tqdm.update = lambda *_: os.kill(os.getpid(), signal.SIGKILL)
-brinell.study({str(unit)!r}, {{"speed": "0.1:10:400"}}, mass=4e-3, workers=2)
-"""
-    # the output ends when the last process that could write to it has ended
-    killed = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, timeout=60, check=False)
-    assert killed.returncode < 0, killed.stderr
-
-
-def test_progress_is_counted_in_runs(unit, capsys):
-    quick(unit, {"speed": "1:2:7"}, progress=True)
-    assert "7/7" in capsys.readouterr().err
 
 
 BODIES = """\
@@ -340,20 +304,80 @@ speed = 1
 
 
 def test_a_study_of_a_scene_with_bodies_has_the_mass_of_its_contact(tmp_path):
-    path = tmp_path / "slope.toml"
-    path.write_text(BODIES)
-    table = brinell.study(path, {"speed": [0.5, 2.0]}, progress=False)
-    for speed, found in zip(table["speed"], table["restitution"], strict=True):
-        assert found == pytest.approx(brinell.predict(path, speed=speed).restitution, rel=1e-9)
+    path = written(tmp_path, BODIES)
+    table = brinell.study(path, {"speed": [0.5, 2.0]})
+    is_predicted(table, path)
     assert set(table["mass"]) == {4.1e-3}
-    with pytest.raises(ContactError) as told:
-        brinell.study(path, {"target.strength": [1.0]}, progress=False)
-    assert str(told.value).startswith(f"{path} has no parameter 'target.strength'")
 
 
-def test_what_is_wrong_with_a_scene_that_was_made_names_the_file_of_the_user(tmp_path):
-    made = tmp_path / "made.toml"
-    made.write_text(BODIES.replace("speed = 1", "speed = -1"))
-    with pytest.raises(ProgramError) as told, scene.naming("mine.toml", made):
-        brinell.export(made, tmp_path / "unit.fmu")
-    assert str(told.value).startswith("mine.toml: impact.speed = -1"), told.value
+# the command
+
+
+def test_the_command_line(tmp_path):
+    table, picture = tmp_path / "x.parquet", tmp_path / "x.svg"
+    call = ["study", SCENE, "--vary", "target.yield_strength=200 MPa:900 MPa:4", "--vary", "speed=0.1:10:5log"]
+    call += ["--set", "impactor.radius=4 mm", "--mass", "4 g", "-o", table, "-o", picture]
+    call = [sys.executable, "-m", "brinell", *map(str, call)]
+    done = subprocess.run(call, capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("20 runs, 0 failed")
+    found = pandas.read_parquet(table)
+    assert set(found["impactor.radius"]) == {4e-3} and len(found["speed"]) == 20
+    assert found["target.yield_strength"].max() == 900e6 and set(found["mass"]) == {4e-3}
+
+
+def test_the_command_names_failed_runs_with_their_parameters(capsys):
+    strengths = ["target.yield_strength=3e8,-1,-2,4e8", "speed=1,2,3,4,5,6"]
+    vary = [word for name in strengths for word in ("--vary", name)]
+    assert line.main(["study", str(SCENE), *vary]) == 0
+    done = capsys.readouterr()
+    assert done.out.startswith("24 runs, 12 failed")
+    lines = done.err.splitlines()
+    assert lines[0].startswith("failed: target.yield_strength = -1, speed = 1: ")
+    assert "allowed is" in lines[0] and len(lines) == 11 and "2 more" in lines[-1]
+
+
+def test_samples_and_spreads_are_taken(tmp_path, capsys):
+    path = tmp_path / "x.csv"
+    call = ["study", str(SCENE), "--vary", "speed=0.5:1", "--sample", "sobol:8"]
+    call += ["--uncertain", "target.yield_strength=8 %", "-o", str(path)]
+    assert line.main(call) == 0
+    done = capsys.readouterr()
+    assert done.err == "" and done.out.startswith("8 runs")
+    assert "restitution_low" in path.read_text().splitlines()[0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "words"),
+    [
+        (["study"], 2, "scene"),
+        ([], 2, "command"),
+        (["study", SCENE], 2, "--vary"),
+        (["study", SCENE, "--vary", "speed"], 2, "NAME=VALUE"),
+        (["study", SCENE, "--vary", "speed=x"], 1, "is not a range"),
+        (["study", "nowhere.toml", "--vary", "speed=1:2"], 1, "nowhere.toml"),
+        (["study", SCENE, "--vary", "speed=1:2", "--set", "hardness=1"], 1, "no quantity is called `hardness`"),
+    ],
+)
+def test_mistakes_on_the_command_line(arguments, status, words, capsys):
+    try:
+        assert line.main([*map(str, arguments)]) == status
+    except SystemExit as ended:
+        assert ended.code == status
+    assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "words"),
+    [
+        (KeyboardInterrupt(), 130, ""),
+        (ModuleNotFoundError("No module named 'pyarrow'", name="pyarrow"), 1, "pip install 'brinell[study]'"),
+    ],
+)
+def test_a_command_that_can_not_go_on_says_how_to(error, status, words, monkeypatch, capsys):
+    def stopped(*_, **__):
+        raise error
+
+    monkeypatch.setattr(line, "study", stopped)
+    assert line.main(["study", str(SCENE), "--vary", "speed=1:2"]) == status
+    assert words in capsys.readouterr().err

@@ -46,7 +46,7 @@ def test_a_range_is_spread_evenly_and_draws_are_kept():
 
 def test_a_study_has_bands_beside_its_results(tmp_path):
     path = tmp_path / "x.parquet"
-    more = {"uncertainty": {STRENGTH: "8 %"}, "output": [path, tmp_path / "x.svg"], "progress": False}
+    more = {"uncertainty": {STRENGTH: "8 %"}, "output": [path, tmp_path / "x.svg"]}
     table = brinell.study(SCENE, {"speed": [0.5, 1.0]}, **more)
     one = brinell.predict(SCENE, speed=1.0, uncertainty={STRENGTH: "8 %"}).bands
     assert len(table["speed"]) == 2 and list(table[STRENGTH]) == [300e6] * 2
@@ -59,7 +59,7 @@ def test_a_study_has_bands_beside_its_results(tmp_path):
 
 
 def test_a_study_spreads_around_each_value_that_varies():
-    table = brinell.study(SCENE, {STRENGTH: [200e6, 800e6]}, speed=1.0, uncertainty={STRENGTH: "5 %"}, progress=False)
+    table = brinell.study(SCENE, {STRENGTH: [200e6, 800e6]}, speed=1.0, uncertainty={STRENGTH: "5 %"})
     assert np.all(table["restitution_low"] < table["restitution"])
     assert table["restitution_high"][0] < table["restitution_low"][1]
 

@@ -126,7 +126,7 @@ pub fn accuracy(scene: &Scene, prediction: &Prediction) -> Option<String> {
         return Some(of_line(scene, size));
     }
     if let Some(elliptic) = &scene.contacts[0].ellipse {
-        let [impactor, target] = scene.bodies_with(0, &[]);
+        let [impactor, target] = scene.bodies(0);
         let softer = if scene.softer(0) == Body::Impactor { impactor } else { target };
         return Some(elliptic.words(scene.laws.unloading().map(|_| softer.poissons_ratio)));
     }

@@ -114,6 +114,13 @@ impl<T> Both<T> {
             Body::Target => &self.target,
         }
     }
+
+    pub fn of_mut(&mut self, body: Body) -> &mut T {
+        match body {
+            Body::Impactor => &mut self.impactor,
+            Body::Target => &mut self.target,
+        }
+    }
 }
 
 /// A long body of constant cross-section, such as the piston of a hammer, a chisel or a pin.

@@ -144,17 +144,6 @@ impl AnyModel {
         Some(self.with_plastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }.prepared()))
     }
 
-    /// The law on the bodies `pair`, with the given yield strength \[Pa\]; without one, the yield strength stays the same.
-    pub fn on(&self, pair: Pair, yield_strength: Option<f64>) -> AnyModel {
-        let pair = Pair { yield_strength: yield_strength.unwrap_or(self.pair().yield_strength), ..pair };
-        match self {
-            AnyModel::Lossy(_, Some(law)) => law.on(pair),
-            AnyModel::Elastoplastic(model) | AnyModel::Lossy(losses::Model { plastic: model, .. }, None) => {
-                self.with_plastic(Model { pair, ..*model }.prepared())
-            }
-        }
-    }
-
     /// The model with what its law needs to know of these bodies; `None` if it needs nothing beside their pair.
     pub fn with_bodies(&self, bodies: TwoBodies, softer: Body) -> Option<AnyModel> {
         let model = self.elastoplastic().filter(|model| model.loading.takes_both_bodies())?;

@@ -84,7 +84,7 @@ pub fn experiment(scene: &Scene) -> Experiment {
     let value = |name| scene.group_value(0, name).unwrap_or(0.0).max(0.0);
     let longest = match &scene.coupling {
         Some(_) => {
-            let radius = scene.group_value(0, "impactor.radius").unwrap_or_else(|| scene.smaller_radius_with(0, &[]));
+            let radius = scene.group_value(0, "impactor.radius").unwrap_or_else(|| scene.smaller_radius(0));
             (TRAVEL * radius / speed).min(LONGEST_STEP)
         }
         None => contact_time / STEPS_PER_CONTACT,

@@ -54,7 +54,7 @@ impl Plan<'_> {
     pub fn of(scene: &Scene) -> Plan<'_> {
         let model = scene.any_model();
         let (prediction, speed) = (&scene.predictions[0], scene.impact.speed);
-        let warnings = predict::beyond(scene, &model.pair(), speed, prediction, &[]).into_iter().map(validity::words);
+        let warnings = predict::beyond(scene, &model.pair(), speed, prediction).into_iter().map(validity::words);
         let energy = energy::of(scene);
         Plan {
             scene,
@@ -64,7 +64,7 @@ impl Plan<'_> {
             experiment: experiment(scene),
             guard: Guard::of(scene),
             warnings: warnings.collect(),
-            waves: Waves::of(scene, speed, &[]),
+            waves: Waves::of(scene, speed),
             shared_bodies: moves_separately(scene).then_some(SHARED_BODIES),
             valid: validity::limits(scene),
         }

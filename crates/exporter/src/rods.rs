@@ -33,11 +33,10 @@ pub struct Waves {
 pub const COMPACT: f64 = 5.0;
 
 impl Waves {
-    /// The waves in the rods of the first contact of `scene` at this closing `speed` \[m/s\], with other values for some of the
-    /// parameters. `None` without rods.
-    pub fn of(scene: &Scene, speed: f64, values: &[(&str, f64)]) -> Option<Waves> {
+    /// The waves in the rods of the first contact of `scene` at this closing `speed` \[m/s\]. `None` without rods.
+    pub fn of(scene: &Scene, speed: f64) -> Option<Waves> {
         let rods = scene.contacts[0].rods;
-        let bodies = [rods.impactor, rods.target].into_iter().zip(scene.bodies_with(0, values));
+        let bodies = [rods.impactor, rods.target].into_iter().zip(scene.bodies(0));
         let rods = bodies.filter_map(|(rod, body)| Some((rod?, wave_speed(body.youngs_modulus, rod?.density))));
         let rods: Vec<_> = rods.collect();
         let mobility: f64 = rods.iter().map(|(rod, wave)| 1.0 / (rod.density * wave * rod.area)).sum();

@@ -95,7 +95,7 @@ pub fn bends(thickness: f64, strength: f64, force: f64) -> Option<Beyond> {
     (force > collapse).then_some(Beyond::Bends { thickness, collapse, excess: force / collapse })
 }
 
-/// The limits that each impact of a sweep exceeds, with the values of the varied quantities.
+/// The limits that each impact of a sweep or a table exceeds, with the values of the varied quantities.
 #[derive(Default)]
 pub struct SweepLimits {
     /// Name and unit of each varied quantity.
@@ -104,11 +104,6 @@ pub struct SweepLimits {
 }
 
 impl SweepLimits {
-    /// Whether each impact is within all limits, as numbers: 1 or 0.
-    pub fn valid(&self) -> impl Iterator<Item = f64> {
-        self.impacts.iter().map(|(_, beyond)| f64::from(u8::from(beyond.is_empty())))
-    }
-
     /// A warning for each limit that some impacts exceed: how many, in which range, and the worst in words.
     pub fn warnings(&self) -> Vec<String> {
         (0..Beyond::KINDS).filter_map(|kind| self.warning(kind)).collect()
@@ -139,7 +134,7 @@ impl SweepLimits {
 
 /// A warning that the first contact of a scene is too wide for these `laws`.
 pub fn too_wide(scene: &Scene, laws: &[&str]) -> String {
-    let size = scene.size_with(0, &[]);
+    let size = scene.size(0);
     let (what, of) = if scene.contacts[0].ellipse.is_some() {
         ("a half-axis of the contact", SMALLEST.into())
     } else if size < scene.model().pair.radius {
@@ -207,7 +202,7 @@ pub fn words(beyond: Beyond) -> String {
 
 /// The limits of validity of the first contact of an FMU, in words. Beyond them, the FMU logs a warning.
 pub fn limits(scene: &Scene) -> String {
-    let (model, size) = (scene.any_model(), scene.smaller_radius_with(0, &[]));
+    let (model, size) = (scene.any_model(), scene.smaller_radius(0));
     let (pair, depth, density) = (model.pair(), model.valid_depth(size), scene.contacts[0].density);
     let (what, of) = match &scene.contacts[0].ellipse {
         Some(_) => ("half-axis", SMALLEST),

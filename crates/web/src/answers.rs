@@ -10,7 +10,7 @@ use brinell_exporter::model::check_energy;
 use brinell_exporter::predict::answer::Answer;
 use brinell_exporter::predict::axis::Axis;
 use brinell_exporter::predict::spread::{self, Bands};
-use brinell_exporter::predict::sweep::Sweep;
+use brinell_exporter::predict::sweep::{Impacts, Sweep};
 use brinell_exporter::predict::{positive, time_history};
 use brinell_exporter::scene::{Body, Scene};
 use brinell_exporter::translate::{Request, speeds, text, translate};
@@ -156,8 +156,8 @@ pub fn sweep(asked: &Asked) -> Result<Value, Refused> {
     let Question { scene, choices, impact } = Question::of(asked)?;
     let axes = asked.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>()?;
     let each = |values: &[Vec<f64>], work: &(dyn Fn(&Vec<f64>) -> _ + Sync)| values.iter().map(work).collect();
-    let sweep = Sweep::of_impacts((&scene, &choices), (impact, None), &axes, &each)?;
-    let mut said = sweep.columns.json();
+    let sweep = Sweep::of_impacts((&scene, &choices), (impact, None), (&axes, Impacts::Combined), &each)?;
+    let mut said = sweep.json();
     (said["mass"], said["speed"]) = (json!(impact.mass), json!(impact.speed));
     Ok(said)
 }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -300,15 +299,8 @@ def parts(depth: Numbers, force: Numbers) -> NDArray[np.int_]:
 
 def _has_unloading(depth: Numbers, force: Numbers) -> bool:
     """Whether a point has much less force than the first loading at the same depth."""
-    loading = list[tuple[float, float]]()
-    scatter = TURNED * float(force.max())
-    for at, value in zip(depth.tolist(), force.tolist(), strict=True):
-        deeper = bisect_left(loading, at, key=lambda point: point[0])
-        if deeper == len(loading):
-            loading.append((at, value))
-        elif deeper > 0:
-            (before, low), (after, high) = loading[deeper - 1], loading[deeper]
-            expected = low + (at - before) / (after - before) * (high - low)
-            if value < UNLOADED * expected - scatter:
-                return True
-    return False
+    is_loading = depth > np.concatenate(([-np.inf], np.maximum.accumulate(depth)[:-1]))
+    loading = depth[is_loading], force[is_loading]
+    expected = np.interp(depth, *loading)
+    less = force < UNLOADED * expected - TURNED * float(force.max())
+    return bool(np.any(less & ~is_loading & (depth > loading[0][0])))

@@ -64,7 +64,7 @@ def fitted(problem: Problem, *, leave_out: bool, draws: int, seed: int) -> Fit:
     ]
     scene = problem.of(problem.given)
     left = problem.of(flow)
-    values = problem.law.values(problem.points, flow)
+    values = {name: it[0] for name, it in problem.law.values(problem.points, [flow]).items()}
     return Fit(
         kind=problem.points.kind,
         law=problem.law.law,
@@ -103,7 +103,7 @@ def _finite(problem: Problem) -> None:
     start = problem.given
     if problem.points.kind == "record" and {"zero_point", "preload"} & {*problem.names}:
         return
-    if not np.all(np.isfinite(problem.differences(start))):
+    if not np.all(np.isfinite(problem.differences([start]))):
         raise ValueError(BEYOND)
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .law import Law
+from .law import OBLIQUE, Law
 from .measured import Measured
 from .near import Near, Numbers
 from .parameters import parameter
@@ -22,10 +23,11 @@ COMPLIANCES = (0.0, 0.15, 0.5)
 """Compliances that the search may start at, relative to depth over force of the whole record."""
 MOST_FOR_START = 40
 """Number of points that a search for a start takes."""
-TOLERANCE = 1e-10
-"""Relative change at which the search ends."""
 AT_BOUND = 1e-9
 """Distance from a bound, in the variables of the search, that is rounding."""
+EXACT, STEPPED = (float(np.cbrt(np.finfo(float).eps)), 1e-10), (1e-3, 1e-6)
+"""Distance of the neighbours by which derivatives are taken, relative to a variable above 1, and relative change
+at which the search ends: where impacts are predicted to rounding, and for oblique ones, which are moved in steps."""
 ROUNDS = 12
 """Most rounds of weights for several kinds of results."""
 BEYOND = "the law of the scene can't be evaluated for all points of the measurement"
@@ -45,6 +47,7 @@ class Problem:
     accuracy: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self.step, self.tolerance = STEPPED if OBLIQUE & {*self.points.results} else EXACT
         self.given = {**self.law.given, **self.fixed}
         ones = [parameter(name, self.law.model) for name in self.names]
         self.logarithmic = np.array([one.is_logarithmic for one in ones])
@@ -93,15 +96,29 @@ class Problem:
 
     def of(self, flow: Mapping[str, float]) -> dict[str, Numbers]:
         """The law's values minus the measured ones, for each kind of result, in SI units."""
-        values = self.law.values(self.points, flow)
-        return {name: values[name] - it for name, it in self.points.results.items()}
+        values = self.law.values(self.points, [flow])
+        return {name: values[name][0] - it for name, it in self.points.results.items()}
 
-    def differences(self, flow: Mapping[str, float]) -> Numbers:
-        """All differences in units of their sizes, and those from priors."""
-        found = self.of(flow)
-        parts = [found[name][self.known[name]] / self.sizes[name] for name in found]
-        parts.append(np.array([(flow[it] - mean) / sd for it, (mean, sd) in self.priors.items()]))
-        return np.concatenate(parts)
+    def differences(self, flows: Sequence[Mapping[str, float]]) -> Numbers:
+        """All differences in units of their sizes, and those from priors: a row for each of the `flows`."""
+        values = self.law.values(self.points, flows)
+        parts = [
+            (values[name] - it)[:, self.known[name]] / self.sizes[name] for name, it in self.points.results.items()
+        ]
+        far = [[(flow[it] - mean) / sd for it, (mean, sd) in self.priors.items()] for flow in flows]
+        return np.hstack([*parts, np.reshape(far, (len(flows), -1))])
+
+    def linear(self, at: Numbers) -> tuple[Numbers, Numbers]:
+        """The differences at these variables, and their derivatives: of the parabola through the values here and at
+        two neighbours within the bounds, all from one table."""
+        size = self.step * np.maximum(1.0, np.abs(at))
+        one = np.where(at - size < self.low, 2.0 * size, -size)
+        other = np.where(at + size > self.high, -2.0 * size, size)
+        steps = np.vstack([0.0 * at, np.diag(one), np.diag(other)])
+        left = self.differences([self.flow(at + step) for step in steps])
+        here, before, after = left[0], left[1 : 1 + len(at)].T, left[1 + len(at) :].T
+        slope = (before - here[:, None]) * other / one - (after - here[:, None]) * one / other
+        return here, slope / (other - one)
 
     def groups(self) -> list[NDArray[np.int_]]:
         """The places of each kind of result in the differences."""
@@ -122,10 +139,6 @@ class Problem:
         only = replace(self, points=few)
         only.sizes = self.sizes
 
-        def squares(start: Numbers) -> float:
-            left = only.differences(self.flow(start))
-            return float(left @ left) if np.all(np.isfinite(left)) else np.inf
-
         found = []
         for part in COMPLIANCES if "compliance" in place else (0.0,):
             group = [own.copy()]
@@ -137,7 +150,9 @@ class Problem:
                     start[place["compliance"]] = part
                 if "zero_point" in place:
                     start[place["zero_point"]] = self._zero(start) / self.scales[place["zero_point"]]
-            found.append(min((np.clip(it, self.low, self.high) for it in group), key=squares))
+            group = [np.clip(it, self.low, self.high) for it in group]
+            squares = np.sum(only.differences([self.flow(it) for it in group]) ** 2, axis=1)
+            found.append(group[int(np.argmin(np.where(np.isfinite(squares), squares, np.inf)))])
         return found
 
     def _zero(self, start: Numbers) -> float:
@@ -148,28 +163,26 @@ class Problem:
         return float(np.median(deep - self.points.arguments["depth"][loading]))
 
     def solve(self, start: Numbers | None = None) -> Any:
-        """The optimum within the bounds, by scipy: first with derivatives of one side from each start,
-        then of both from the best."""
+        """The optimum within the bounds, by scipy: roughly from each start, then exactly from the best."""
         try:
-            rough = [self._least("2-point", 1e-6, it) for it in (self.starts() if start is None else [start])]
+            rough = [self._least(1e-6, it) for it in (self.starts() if start is None else [start])]
             best = min(rough, key=lambda it: float(it.cost))
-            found = self._least("3-point", TOLERANCE, self._snapped(best.x))
+            found = self._least(self.tolerance, self._snapped(best.x))
         except (ValueError, np.linalg.LinAlgError) as error:
             # derivatives at the end of the law's range
             raise ValueError(BEYOND) from error
         found.x = self._snapped(found.x)
         return found
 
-    def _least(self, jac: Any, tolerance: float, start: Numbers) -> Any:
+    def _least(self, tolerance: float, start: Numbers) -> Any:
         from scipy.optimize import least_squares
 
-        def differences(variables: Numbers) -> Numbers:
-            return self.differences(self.flow(variables))
-
+        # derivatives are those at the last variables
+        linear = lru_cache(1)(lambda *variables: self.linear(np.array(variables)))
         return least_squares(
-            differences,
+            lambda it: linear(*it)[0],
             start,
-            jac=jac,
+            jac=lambda it: linear(*it)[1],
             bounds=(self.low, self.high),
             method="dogbox",
             x_scale="jac",

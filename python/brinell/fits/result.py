@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import temporary
 from ..prediction import quantity
-from ..studies.scene import toml
-from .law import with_loading, without_readings
 from .measured import UNITS, Kind
 from .parameters import RATES
+from .scene import toml, with_loading, without_readings
 
 Columns = dict[str, NDArray[np.float64]]
 
@@ -144,7 +144,8 @@ class Fit:
         lines = [f"# fitted: {it}" for it in map(str, self.estimates)]
         text = "\n".join(lines) + "\n" + toml(data)
         if path is not None:
-            Path(path).write_text(text, encoding="utf-8")
+            with temporary.draft(Path(path)) as whole:
+                whole.write_text(text, encoding="utf-8")
         return text
 
     def _body(self, given: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 //! `brinell predict` over ranges: each point of a table is the prediction for a scene with these numbers.
 
 use brinell_testing::folder::{Folder, column, number};
+use serde_json::json;
 use std::collections::BTreeSet;
 
 #[test]
@@ -26,6 +27,59 @@ fn scene(impactor: &str, target: &str, law: &str) -> String {
         "name = \"ball\"\nimpactor = {{ {impactor} }}\ntarget = {{ {target} }}\nlaw = {{ {law} }}\n\
          impact = {{ mass = 4e-3, speed = 1.0 }}\n"
     )
+}
+
+/// Error and warning are the last columns of a table, and the others are those of a sweep with the same numbers.
+#[test]
+fn an_impact_of_a_table_has_the_numbers_of_a_sweep_or_its_error() {
+    let folder = Folder::of_scene("steel_ball");
+    for (table, more, sweep, wrong) in [
+        (
+            "speed,mass\n0.1,4 g\n\n-1,4e-3\n40 m/s,4e-3\n",
+            "",
+            "--sweep speed=0.1,40 --sweep mass=4e-3,",
+            "speed = -1 must be positive",
+        ),
+        (
+            "angle,speed,friction.coefficient\n30,1,0.1\n95,1,0.1\n40,1,0.1\n",
+            "--friction 0.1",
+            "--sweep angle=30,40 --sweep speed=1, --sweep friction.coefficient=0.1,",
+            "angle = 95",
+        ),
+    ] {
+        let call = format!("predict scene.toml --laws brinell,thornton {more}");
+        folder.write("impacts.csv", table);
+        let json = folder.json(&format!("{call} --impacts impacts.csv"));
+        let swept = folder.json(&format!("{call} {sweep}"));
+        assert_eq!(json["columns"], swept["columns"]);
+        for (law, expected) in json["laws"].as_array().unwrap().iter().zip(swept["laws"].as_array().unwrap()) {
+            for name in json["columns"].as_array().unwrap().iter().map(|column| column["name"].as_str().unwrap()) {
+                let other = expected[name].as_array().unwrap();
+                let number = &law[name][1];
+                assert_eq!(law[name], json!([other[0], number, other[1]]), "{name}");
+                assert!(table.contains(name) || number.is_null(), "{name} of an impact that can't be: {number}");
+            }
+            let error = law["error"].as_array().unwrap();
+            assert!(error[1].as_str().unwrap().starts_with(wrong), "{error:?}");
+            assert_eq!((&error[0], &error[2]), (&json!(""), &json!("")));
+            assert_eq!(law["warning"][2] != "", law["valid"][2] == 0.0);
+        }
+        let out = folder.call(&format!("{call} --impacts impacts.csv -o answer.csv"));
+        assert_eq!(out.with_status(0).err, "", "each impact has its own warnings");
+        let csv = folder.read("answer.csv");
+        assert!(csv.lines().next().unwrap().ends_with(",valid,error,warning"));
+        assert_eq!(csv.matches(&format!(",\"{wrong}")).count(), 2, "{csv}");
+    }
+    for (table, why) in [
+        ("", "1: there is no heading"),
+        ("speed\n", "1: 0 impacts below the heading"),
+        ("speed,mass\n1\n", "2: 1 cells below a heading of 2"),
+        ("speed\n\n1 kg\n", "3: speed = `1 kg`: kg is a mass"),
+    ] {
+        folder.write("impacts.csv", table);
+        let told = folder.call("predict scene.toml --impacts impacts.csv --json").with_status(2).err;
+        assert!(told.contains(&format!("impacts.csv:{why}")), "{told}");
+    }
 }
 
 /// The scene with the number of a sweep in place of `#`.

@@ -8,10 +8,11 @@ use crate::numbers::{Prefixed, cell, prefixed, quantity, with_band};
 use crate::regime;
 use crate::rods::Waves;
 use crate::scene::{InImpact, Rate, Scene};
+use crate::table::VARIABLES;
 use crate::validity::{self, Beyond};
 use brinell_contact::Regime;
 use brinell_contact::impact::{Impact, Prediction};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// Predictions of one impact with several laws.
 pub struct Answer<'a> {
@@ -41,7 +42,7 @@ impl Answer<'_> {
         let predictions: Vec<_> = choices.iter().map(|choice| one(choice, &impact)).collect::<Result<_, _>>()?;
         // a table of laws shows how far they are apart, also where one of them has no such contact
         if let ([choice], [prediction]) = (choices, &predictions[..]) {
-            check_width(scene, 0, &choice.laws, &impact, prediction, &[])?;
+            check_width(scene, 0, &choice.laws, &impact, prediction)?;
         }
         let bands = Vec::new();
         Ok(Answer { scene, choices, impact, fall, predictions, deviation: None, bands }.with_deviation(None))
@@ -61,7 +62,7 @@ impl Answer<'_> {
 
     /// The limits of the law that its prediction exceeds.
     fn beyond(&self, choice: &Choice, prediction: &Prediction) -> Vec<Beyond> {
-        beyond(self.scene, &choice.model.pair(), self.impact.speed, prediction, &[])
+        beyond(self.scene, &choice.model.pair(), self.impact.speed, prediction)
     }
 
     /// The quantities outside the validity of the law, in words.
@@ -101,6 +102,13 @@ impl Answer<'_> {
     /// Strength of the target in this impact, if it depends on the impact.
     fn strength(&self) -> Option<InImpact> {
         self.scene.depends_on_impact().then(|| self.scene.in_impact(0, &self.impact)).flatten()
+    }
+
+    /// The parameters of the first contact with their values, of strengths those under a slow load.
+    fn parameters(&self) -> Option<Map<String, Value>> {
+        let slow = self.scene.clone().under_slow_load()?;
+        let value = |name: &String| Some((name.clone(), slow.group_value(0, name)?.into()));
+        Some(VARIABLES.iter().filter_map(|variable| value(&variable.name)).collect())
     }
 
     /// Height of the rebound [m].
@@ -256,8 +264,8 @@ impl Answer<'_> {
         json!({
             "mass": mass, "speed": speed, "drop_height": self.fall, "laws": self.laws().zip(&self.bands).map(law).collect::<Vec<_>>(),
             "notes": self.notes(),
-            "strength": self.strength(), "rates": { "target": rate(&rates.target), "impactor": rate(&rates.impactor) },
-            "rods": Waves::of(self.scene, self.impact.speed, &[]),
+            "parameters": self.parameters(), "strength": self.strength(), "rates": { "target": rate(&rates.target), "impactor": rate(&rates.impactor) },
+            "rods": Waves::of(self.scene, self.impact.speed),
         })
     }
 }

@@ -3,13 +3,14 @@
 use super::constants;
 use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_height};
 use crate::laws::Choice;
-use crate::model::{AnyModel, RateLaw};
+use crate::model::RateLaw;
 use crate::nearest::{nearest, one_of};
 use crate::numbers::{in_message, out_of_range};
 use crate::scene::{Body, Scene};
 use crate::table::{self, Causality, VARIABLES};
 use crate::units;
 use brinell_contact::impact::Impact;
+use std::borrow::Cow;
 
 /// A quantity with its range.
 #[derive(Clone, Debug)]
@@ -34,6 +35,10 @@ const OF_IMPACT: [(&str, &str); 4] = [("speed", "m/s"), ("mass", "kg"), ("energy
 /// Those that only oblique impacts have.
 pub const OF_OBLIQUE_IMPACT: [(&str, &str); 2] = [("angle", "deg"), ("spin", "rad/s")];
 
+/// Constants of rate models, with their units, for a body that has the model.
+const OF_RATE: [(&str, &str); 4] =
+    [("target.rate.c", ""), ("target.rate.d", "1/s"), ("impactor.rate.c", ""), ("impactor.rate.d", "1/s")];
+
 /// A parameter that only some laws have, whether or not a scene contains it.
 const HARDENING: &str = Body::Target.hardening_modulus();
 
@@ -43,21 +48,24 @@ const WITHOUT_EFFECT: [&str; 1] = ["initial_gap"];
 /// Largest number of values of a sweep.
 const MOST: usize = 10_000;
 
+/// Largest number of impacts in a table.
+const MOST_IMPACTS: usize = 1_000_000;
+
 impl Axis {
     /// The axis described by `words`: NAME=FROM:TO, NAME=FROM:TO:COUNT, or NAME=VALUE,VALUE,...; behind the number of values, or in
     /// its place, `log` or `lin`.
     ///
     /// # Errors
-    /// [`PredictError::Sweep`] with the mistake and the expected form.
+    /// [`PredictError::Varied`] with the mistake and the expected form.
     pub fn parse(words: &str) -> Result<Axis, PredictError> {
         let wrong = |why: &str| {
-            PredictError::Sweep(format!(
+            PredictError::Varied(format!(
                 "{words}: {why}; expected NAME=FROM:TO, NAME=FROM:TO:COUNT or NAME=VALUE,VALUE,..., such as speed=0.01:10, \
                  speed=1:20:8log or \"target.yield_strength=200 MPa:900 MPa:8\""
             ))
         };
         let (name, range) = words.split_once('=').ok_or_else(|| wrong("no `=`"))?;
-        let (name, unit) = find(name).map_err(|why| PredictError::Sweep(format!("{words}: {why}")))?;
+        let (name, unit) = find(name).map_err(|why| PredictError::Varied(format!("{words}: {why}")))?;
         let number = |text: &str| {
             let number = units::number(text, unit).map_err(|why| wrong(&format!("`{text}`: {why}")))?;
             if number.is_finite() { Ok(number) } else { Err(wrong(&format!("`{text}` is no finite number"))) }
@@ -75,9 +83,7 @@ impl Axis {
             if listed.len() > MOST {
                 return Err(wrong(&format!("{} values: at most {MOST} are allowed", listed.len())));
             }
-            let from = listed.iter().copied().fold(f64::INFINITY, f64::min);
-            let to = listed.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            return Ok(Axis { name, unit, from, to, count: None, logarithmic: None, listed: Some(listed) });
+            return Ok(Axis::listing((name, unit), listed));
         }
         let (from, to, count) = match parts.as_slice() {
             [from, to] => (from, to, None),
@@ -102,6 +108,44 @@ impl Axis {
             _ => Err(wrong(&format!("COUNT = {text} must be a whole number from 2 to {MOST}"))),
         });
         Ok(Axis { name, unit, from, to, count: count.transpose()?, logarithmic, listed: None })
+    }
+
+    /// The axis of these values.
+    fn listing((name, unit): (&'static str, &'static str), listed: Vec<f64>) -> Axis {
+        let from = listed.iter().copied().fold(f64::INFINITY, f64::min);
+        let to = listed.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Axis { name, unit, from, to, count: None, logarithmic: None, listed: Some(listed) }
+    }
+
+    /// The columns of a table of impacts: a heading with the names of quantities, and a line of numbers for each impact, in SI units or
+    /// with a unit; between them commas.
+    ///
+    /// # Errors
+    /// The line and the mistake.
+    pub fn columns(table: &str) -> Result<Vec<Axis>, String> {
+        let mut lines = table.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        let cells = |line: &'_ str| line.split(',').map(|cell| cell.trim().to_string()).collect::<Vec<_>>();
+        let (_, heading) =
+            lines.next().ok_or("1: there is no heading; expected the names of quantities, such as speed,mass")?;
+        let names = cells(heading).iter().map(|name| find(name)).collect::<Result<Vec<_>, _>>();
+        let names = names.map_err(|why| format!("1: {why}"))?;
+        let mut columns = vec![Vec::new(); names.len()];
+        for (index, line) in lines {
+            let row = cells(line);
+            if row.len() != names.len() {
+                return Err(format!("{}: {} cells below a heading of {}", index + 1, row.len(), names.len()));
+            }
+            for ((column, (name, unit)), cell) in columns.iter_mut().zip(&names).zip(&row) {
+                column
+                    .push(units::number(cell, unit).map_err(|why| format!("{}: {name} = `{cell}`: {why}", index + 1))?);
+            }
+        }
+        match columns[0].len() {
+            1..=MOST_IMPACTS => {
+                Ok(names.into_iter().zip(columns).map(|(name, listed)| Axis::listing(name, listed)).collect())
+            }
+            count => Err(format!("1: {count} impacts below the heading; allowed is 1 to {MOST_IMPACTS}")),
+        }
     }
 
     /// Whether the values are spaced logarithmically: as the user says, else if the range has a decade or more, and is not one of angles.
@@ -131,7 +175,7 @@ impl Axis {
 fn find(name: &str) -> Result<(&'static str, &'static str), String> {
     let parameters = VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter);
     let parameters = parameters.map(|variable| (variable.name.as_str(), variable.unit.as_deref().unwrap_or("")));
-    let known: Vec<_> = OF_IMPACT.into_iter().chain(OF_OBLIQUE_IMPACT).chain(parameters).collect();
+    let known: Vec<_> = OF_IMPACT.into_iter().chain(OF_OBLIQUE_IMPACT).chain(parameters).chain(OF_RATE).collect();
     let constants: Vec<_> = constants::names().collect();
     let found = known.iter().chain(&constants).find(|(known, _)| *known == name);
     let names: Vec<_> = known.iter().map(|(name, _)| *name).filter(|name| !WITHOUT_EFFECT.contains(name)).collect();
@@ -171,96 +215,120 @@ pub fn in_si(words: &str) -> Result<f64, String> {
     units::number(text, unit).map_err(|why| format!("{name} = {text}: {why}"))
 }
 
-/// Law and impact for these values of the quantities, on the bodies of the first contact of `scene`.
+/// A quantity with its value.
+pub type Value = (&'static str, f64);
+
+/// The first contact of a scene in an impact of its own: bodies, laws, and the strengths that the bodies have in it.
+pub struct Case<'a> {
+    pub scene: Cow<'a, Scene>,
+    pub choice: Choice,
+    pub impact: Impact,
+}
+
+/// The first contact of `scene`, under a slow load, with the law of `choice` in an `impact` with these values of some quantities, as a scene
+/// has it that says so. The part `along` of the speed is along the normal.
 ///
 /// # Errors
 /// The impossible value, with the allowed ones.
-pub fn varied(
-    scene: &Scene,
+pub fn varied<'a>(
+    scene: &'a Scene,
     choice: &Choice,
-    impact: Impact,
-    values: &[(&Axis, f64)],
-) -> Result<(Choice, Impact), PredictError> {
-    let (mut choice, mut impact) = (choice.clone(), impact);
+    mut impact: Impact,
+    values: &[Value],
+    along: f64,
+) -> Result<Case<'a>, PredictError> {
     let mut bodies = Vec::new();
-    for (axis, value) in values {
-        let value = *value;
-        match axis.name {
+    for &(name, value) in values {
+        match name {
             "speed" => impact.speed = positive("speed", value)?,
             "mass" => impact.mass = positive("mass", value)?,
             "energy" => impact.speed = speed_of_energy(impact.mass, positive("energy", value)?),
             "drop_height" => impact.speed = speed_of_height(positive("drop_height", value)?),
-            name if constants::is_one(name) => constants::set(scene, &mut choice, name, value)?,
+            name if constants::is_one(name) => {}
+            name if OF_RATE.iter().any(|(known, _)| *known == name) => {
+                // no dependence is a rate, too, and an infinitely slow one is none
+                let least = if name.ends_with('c') { 0.0 } else { f64::MIN_POSITIVE };
+                if !(least..=f64::MAX).contains(&value) {
+                    let allowed = out_of_range(value, &(least..=f64::MAX), "");
+                    return Err(PredictError::Varied(format!("{name} {allowed}")));
+                }
+                bodies.push((name, value));
+            }
             name => {
                 check_limits(name, value)?;
-                let pair = choice.model.pair();
-                match (name, choice.model.rate_law()) {
-                    ("effective_mass", Some(law)) => {
-                        (choice.model, impact.mass) = (RateLaw { mass: value, ..law }.on(pair), value);
-                    }
-                    ("effective_mass", None) => impact.mass = value,
-                    ("restitution", Some(law)) => choice.model = RateLaw { restitution: value, ..law }.on(pair),
-                    ("restitution", None) => {
+                match name {
+                    "effective_mass" => impact.mass = value,
+                    "restitution" if choice.model.rate_law().is_none() => {
                         let why = format!("restitution is a parameter of rate-dependent laws, not of {}", choice.laws);
-                        return Err(PredictError::Sweep(why));
+                        return Err(PredictError::Varied(why));
                     }
-                    _ => bodies.push((name, value)),
+                    "restitution" => {}
+                    name => bodies.push((name, value)),
                 }
             }
         }
     }
     // an energy refers to the mass, whichever comes first
-    if let Some((_, energy)) = values.iter().find(|(axis, _)| axis.name == "energy") {
+    if let Some((_, energy)) = values.iter().find(|(name, _)| *name == "energy") {
         impact.speed = speed_of_energy(impact.mass, *energy);
     }
-    if !bodies.is_empty() {
-        choice.model = with_bodies(scene, &choice, &bodies)?;
-    }
     check_energy(&impact)?;
-    Ok((choice, impact))
+    let (mut scene, mut choice) = (Cow::Borrowed(scene), choice.clone());
+    if !bodies.is_empty() || scene.depends_on_impact() {
+        let hard = || PredictError::Beyond { law: choice.laws.clone(), mass: impact.mass, speed: impact.speed };
+        let own = with_bodies(&scene, &choice, &bodies)?;
+        let own = own.with_strengths_for(Some(&Impact { speed: along * impact.speed, ..impact })).ok_or_else(hard)?;
+        choice = match choice.model.rate_law() {
+            Some(law) => Choice { model: law.on(own.model().pair), ..choice },
+            None => choice.on(&own).ok_or_else(hard)?,
+        };
+        scene = Cow::Owned(own);
+    }
+    for &(name, value) in values {
+        match (name, choice.model.rate_law()) {
+            ("effective_mass", Some(law)) => choice.model = RateLaw { mass: value, ..law }.on(choice.model.pair()),
+            ("restitution", Some(law)) => choice.model = RateLaw { restitution: value, ..law }.on(choice.model.pair()),
+            (name, _) if constants::is_one(name) => constants::set(&scene, &mut choice, name, value)?,
+            _ => {}
+        }
+    }
+    Ok(Case { scene, choice, impact })
 }
 
-/// The law with bodies of these parameters.
-fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result<AnyModel, PredictError> {
-    let missing = |name: &str| PredictError::Sweep(format!("{name}: {}", why_absent(name)));
+/// The scene with bodies of these parameters, of which the law of `choice` must have each.
+fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[Value]) -> Result<Scene, PredictError> {
     for (name, _) in bodies {
+        let follows =
+            |what: &str| Err(PredictError::Varied(format!("{name}: {what} follows from it, and would not change")));
         if scene.is_line() && (name.ends_with("radius") || name.ends_with("poissons_ratio")) {
-            let message = format!("{name}: the constant C of a line contact follows from it, and would not change");
-            return Err(PredictError::Sweep(message));
+            return follows("the constant C of a line contact");
         }
         if scene.contacts[0].ellipse.is_some() && (name.ends_with("radius") || name.ends_with("poissons_ratio")) {
-            let message =
-                format!("{name}: the ball that has the force of an ellipse follows from it, and would not change");
-            return Err(PredictError::Sweep(message));
+            return follows("the ball that has the force of an ellipse");
         }
-        // a rigid impactor has no modulus, a flat target no radius, and an elastic law no strength
-        let is_there = scene.group_value(0, name).is_some() || ["target.radius", HARDENING].contains(name);
-        let strength = *name == Body::Target.yield_strength();
-        if if strength { !choice.yields() } else { !is_there } {
-            return Err(missing(name));
+        // a rigid impactor has no modulus, a flat target no radius, and an elastic law neither strength nor hardening
+        let is_there = match *name {
+            "target.yield_strength" => choice.yields(),
+            "target.radius" => true,
+            name if Body::ALL.iter().any(|body| body.hardening_modulus() == name) => {
+                let hardens = choice.model.elastoplastic().is_some_and(|model| model.loading.takes_both_bodies());
+                hardens && (name == HARDENING || scene.group_value(0, name).is_some())
+            }
+            name if OF_RATE.iter().any(|(known, _)| *known == name) => scene.rate_constant(name).is_some(),
+            name => scene.group_value(0, name).is_some(),
+        };
+        if !is_there {
+            return Err(PredictError::Varied(format!("{name}: {}", why_absent(name))));
         }
     }
-    let pair = scene.pair_with(0, bodies).ok_or_else(|| {
+    scene.clone().with_values(bodies).ok_or_else(|| {
         let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
         let words = bodies.iter().map(|(name, value)| format!("{name} = {}", in_message(*value))).collect::<Vec<_>>().join(", ");
-        PredictError::Sweep(format!(
+        PredictError::Varied(format!(
             "{words}: these bodies don't touch in one point (impactor.radius = {}); a socket must be wider than the impactor",
             in_message(radius)
         ))
-    })?;
-    let is_strength = |name: &str| [Body::Impactor, Body::Target].iter().any(|body| body.yield_strength() == name);
-    let strength = bodies.iter().any(|(name, _)| is_strength(name)).then_some(pair.yield_strength);
-    let mut model = choice.model.on(pair, strength);
-    if let (AnyModel::Lossy(lossy, None), Some(loss)) = (&mut model, scene.loss_with(0, bodies)) {
-        lossy.loss = loss;
-    }
-    match model.with_bodies(scene.two_bodies_with(0, bodies), scene.softer_with(0, bodies)) {
-        Some(model) => Ok(model),
-        None => match bodies.iter().find(|(name, _)| Body::ALL.iter().any(|body| body.hardening_modulus() == *name)) {
-            Some((name, _)) => Err(missing(name)),
-            None => Ok(model),
-        },
-    }
+    })
 }
 
 fn why_absent(name: &str) -> &'static str {
@@ -268,6 +336,7 @@ fn why_absent(name: &str) -> &'static str {
         "target.yield_strength" => "the law has no yield strength",
         "impactor.yield_strength" => "the scene doesn't give it, so that the impactor never yields",
         "elastic_restitution" | "target.plate_thickness" => "the scene has no such loss below yield",
+        name if name.contains(".rate.") => "the scene gives the body no rate with this constant",
         HARDENING | "impactor.hardening_modulus" => "the law has no hardening, or the scene gives none; brinell has",
         _ => "the impactor of the scene is rigid; give youngs_modulus and poissons_ratio, or a material",
     }
@@ -280,5 +349,5 @@ fn check_limits(name: &'static str, value: f64) -> Result<(), PredictError> {
         return Ok(());
     }
     let unit = variable.unit.as_deref().unwrap_or("");
-    Err(PredictError::Sweep(format!("{name} {}", out_of_range(value, &(minimum..=maximum), unit))))
+    Err(PredictError::Varied(format!("{name} {}", out_of_range(value, &(minimum..=maximum), unit))))
 }

@@ -67,10 +67,10 @@ pub fn has(choice: &Choice, name: &str) -> bool {
 pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result<(), PredictError> {
     let wrong = |Mistake(_, message): Mistake| {
         let is_named = message.starts_with(name);
-        PredictError::Sweep(if is_named { message } else { format!("{name}: {message}") })
+        PredictError::Varied(if is_named { message } else { format!("{name}: {message}") })
     };
     let Some(law) = law_with(choice, name) else {
-        return Err(PredictError::Sweep(format!("{name}: {} has no unloading law with constants", choice.laws)));
+        return Err(PredictError::Varied(format!("{name}: {} has no unloading law with constants", choice.laws)));
     };
     let constant = name.rsplit('.').next().unwrap_or_default();
     let number = Spanned::new(0..0, toml::Value::Float(value));
@@ -94,9 +94,9 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
         let changed = apply(own, "law.unloading", Some(&given), law).map_err(wrong)?;
         model.unloading = if guarded { changed.guarded().unwrap_or(changed) } else { changed };
     }
-    let refused = |message: String| PredictError::Sweep(format!("with {name} = {} {message}", in_message(value)));
+    let refused = |message: String| PredictError::Varied(format!("with {name} = {} {message}", in_message(value)));
     if let Some(unloading) = unloading.filter(|_| !guarded) {
-        check_ties((loading, model.loading), (unloading, model.unloading)).map_err(PredictError::Sweep)?;
+        check_ties((loading, model.loading), (unloading, model.unloading)).map_err(PredictError::Varied)?;
     }
     law_check::check_loading(&model, published(loading)).map_err(refused)?;
     law_check::check_unloading(&model).map_err(refused)?;

@@ -61,8 +61,8 @@ pub enum PredictError {
     NoRebound { goal: f64, searched: String },
     #[error("the law {0} is rate-dependent: it leaves no dent and has no yield strength to look for")]
     NoDent(String),
-    #[error("--sweep {0}")]
-    Sweep(String),
+    #[error("{0}")]
+    Varied(String),
     #[error("angle = {} must be above -90 and below 90 degrees from the normal", in_message(*.0))]
     Angle(f64),
     #[error("spin = {} rad/s must be finite", in_message(*.0))]
@@ -95,8 +95,7 @@ pub fn one(choice: &Choice, impact: &Impact) -> Result<Prediction, PredictError>
     choice.model.predict(impact).ok_or_else(beyond)
 }
 
-/// Rejects a `prediction` of `impact` by `law` on the contacts of `group`, with these values of some parameters, in which the contact is as
-/// wide as the smaller body.
+/// Rejects a `prediction` of `impact` by `law` on the contacts of `group` in which the contact is as wide as the smaller body.
 ///
 /// # Errors
 /// [`PredictError::TooWide`]
@@ -106,9 +105,8 @@ pub fn check_width(
     law: &str,
     impact: &Impact,
     prediction: &Prediction,
-    values: &[(&str, f64)],
 ) -> Result<(), PredictError> {
-    let (radius, size) = (prediction.max_contact_radius, scene.smaller_radius_with(group, values));
+    let (radius, size) = (prediction.max_contact_radius, scene.smaller_radius(group));
     let Impact { mass, speed } = *impact;
     if radius >= size { Err(PredictError::TooWide { law: law.into(), mass, speed, radius, size }) } else { Ok(()) }
 }
@@ -134,22 +132,20 @@ pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
     Ok(layout::paragraph("  ", &text))
 }
 
-/// The limits of validity that this impact at `speed` \[m/s\] exceeds on the first contact of `scene`, which has the bodies
-/// `pair` by these values of some parameters.
-pub fn beyond(scene: &Scene, pair: &Pair, speed: f64, prediction: &Prediction, values: &[(&str, f64)]) -> Vec<Beyond> {
-    let bodies = (pair, scene.size_with(0, values));
+/// The limits of validity that this impact at `speed` \[m/s\] exceeds on the first contact of `scene`, which has the bodies `pair`.
+pub fn beyond(scene: &Scene, pair: &Pair, speed: f64, prediction: &Prediction) -> Vec<Beyond> {
+    let bodies = (pair, scene.size(0));
     let limits =
         validity::beyond(bodies, scene.line_size(0), scene.contacts[0].density, prediction.max_contact_radius, speed);
     let of_shape = |beyond| match beyond {
         Beyond::Size { ratio, .. } if scene.contacts[0].ellipse.is_some() => Beyond::HalfAxis(ratio),
         beyond => beyond,
     };
-    let waves = Waves::of(scene, speed, values).and_then(|waves| waves.beyond(prediction));
-    let plate = match scene.loss_with(0, values) {
+    let waves = Waves::of(scene, speed).and_then(|waves| waves.beyond(prediction));
+    let plate = match scene.loss_of(0) {
         Some(AnyLoss::Plate(Plate { thickness, .. })) => {
-            let name = Body::Target.yield_strength();
-            let given = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
-            let strength = given.or_else(|| scene.group_value(0, name)).unwrap_or(pair.yield_strength);
+            let own = scene.group_value(0, Body::Target.yield_strength());
+            let strength = own.unwrap_or(pair.yield_strength);
             validity::bends(thickness, strength, prediction.max_force)
         }
         _ => None,

@@ -30,7 +30,7 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
     let what = if scene.is_line() { "cylinder" } else { "ball" };
     let endless = (dents && keeps && scene.laws.loss().is_none()).then(|| ENDLESS.replace("ball", what));
     let softer = predictions.first().map(|prediction| accuracy::notes(scene, prediction)).unwrap_or_default();
-    let rods = Waves::of(scene, impact.speed, &[]).and_then(|waves| waves.note(predictions));
+    let rods = Waves::of(scene, impact.speed).and_then(|waves| waves.note(predictions));
     let notes = scene.materials.iter().cloned().chain(endless).chain(loss(scene, impact, predictions));
     let notes = notes.chain(softer).chain(strength(scene, impact));
     notes.chain(rods).chain(bodies::held(scene, impact.mass)).collect()
@@ -56,7 +56,7 @@ fn loss(scene: &Scene, impact: &Impact, predictions: &[Prediction]) -> Option<St
     let loss = scene.laws.loss()?;
     let elastic = scene.with_loss(0, Model { loading: AnyLoading::Hertz(Hertz), ..scene.model() });
     let restitution = elastic.restitution(impact).map_or("unknown".into(), |restitution| cell(restitution, 1.0));
-    let more = match scene.loss_with(0, &[]) {
+    let more = match scene.loss_of(0) {
         Some(AnyLoss::Plate(plate)) => format!(
             " The plate gives way at {} m/s per newton. Until the bodies part, its bending waves spread to a radius of {}: the \
              plate must be larger, or they return from its edge during the contact.",

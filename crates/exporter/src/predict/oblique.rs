@@ -1,6 +1,6 @@
 //! The rebound of a ball that hits a surface obliquely, with friction.
 
-use super::axis::{Axis, OF_OBLIQUE_IMPACT, varied};
+use super::axis::{Case, OF_OBLIQUE_IMPACT, Value, varied};
 use super::{PredictError, Quantity, positive};
 use crate::laws::Choice;
 use crate::scene::{GROUND, InverseMasses, Meeting, Scene, place};
@@ -159,24 +159,24 @@ pub fn one(
     scene: &Scene,
     choice: &Choice,
     (impact, setting): (Impact, Setting),
-    values: &[(&Axis, f64)],
+    values: &[Value],
 ) -> Result<Outcome, PredictError> {
-    let setting = values.iter().fold(setting, |setting, (axis, value)| setting.with(axis.name, *value));
+    let setting = values.iter().fold(setting, |setting, (name, value)| setting.with(name, *value));
     setting.check()?;
-    let others: Vec<_> = values.iter().copied().filter(|(axis, _)| !is_quantity(axis.name)).collect();
-    let (choice, impact) = varied(scene, choice, impact, &others)?;
-    let named: Vec<_> = others.iter().map(|(axis, value)| (axis.name, *value)).collect();
-    let model = frictional(scene, &choice, setting.coefficient, &named)?;
-    let moving = Moving::of(scene, impact, &setting, &named)?;
+    let others: Vec<_> = values.iter().copied().filter(|(name, _)| !is_quantity(name)).collect();
+    let along = setting.angle.to_radians().cos();
+    let Case { scene, choice, impact } = varied(scene, choice, impact, &others, along)?;
+    let model = frictional(&scene, &choice, setting.coefficient)?;
+    let moving = Moving::of(&scene, impact, &setting)?;
     let Impact { mass, speed } = impact;
     let normal = Impact { mass, speed: moving.rates[0] };
     let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass, speed };
     let prediction = choice.model.predict(&normal);
     // a sweep shows where it leaves the range of the law
     if let Some(prediction) = prediction.as_ref().filter(|_| values.is_empty()) {
-        super::check_width(scene, 0, &choice.laws, &normal, prediction, &named)?;
+        super::check_width(&scene, 0, &choice.laws, &normal, prediction)?;
     }
-    let limits = |prediction| super::beyond(scene, &choice.model.pair(), normal.speed, &prediction, &named);
+    let limits = |prediction| super::beyond(&scene, &choice.model.pair(), normal.speed, &prediction);
     let limits = prediction.map_or(Vec::new(), limits);
     let friction = model.friction;
     let Moving { before, masses, rates, bodies } = moving;
@@ -232,12 +232,12 @@ struct Moving {
 
 impl Moving {
     /// The bodies of the first contact of `scene` in this `impact`, whose speed is along the path, with this `setting`.
-    fn of(scene: &Scene, impact: Impact, setting: &Setting, values: &[(&str, f64)]) -> Result<Moving, PredictError> {
+    fn of(scene: &Scene, impact: Impact, setting: &Setting) -> Result<Moving, PredictError> {
         let Impact { mass, speed } = impact;
         let angle = setting.angle.to_radians();
         let [along, across] = [speed * angle.cos(), speed * angle.sin()];
         let Some(InverseMasses::Constant { entries, meeting: Some(meeting) }) = scene.inverse_masses() else {
-            let [impactor, _] = scene.bodies_with(0, values);
+            let [impactor, _] = scene.bodies(0);
             let radius = impactor.radius;
             let inertia = setting.inertia.unwrap_or(SOLID_SPHERE * mass * radius * radius);
             let before = Ball { mass, inertia, radius, normal: along, tangential: across, spin: setting.spin };
@@ -276,7 +276,7 @@ impl Moving {
     }
 }
 
-/// The law of `choice` with friction, for these values of parameters of the scene's bodies.
+/// The law of `choice` with friction.
 ///
 /// # Errors
 /// [`PredictError::NoFriction`]
@@ -284,11 +284,10 @@ pub fn frictional(
     scene: &Scene,
     choice: &Choice,
     coefficient: f64,
-    values: &[(&str, f64)],
 ) -> Result<FrictionalModel<AnyLoading, AnyUnloading>, PredictError> {
     let none = || PredictError::NoFriction { law: choice.laws.clone(), why: refusal(choice).unwrap_or_default() };
     let normal = choice.model.elastoplastic().filter(|_| refusal(choice).is_none()).ok_or_else(none)?;
-    let [impactor, target] = scene.bodies_with(0, values);
+    let [impactor, target] = scene.bodies(0);
     let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
     Ok(FrictionalModel { normal: *normal, friction, loss: () })
 }

@@ -1,14 +1,15 @@
-//! `brinell predict --sweep`: impacts over ranges of one or several quantities, as a table.
+//! `brinell predict --sweep` and `--impacts`: impacts over ranges of quantities, or one by one, as a table.
 
-use super::axis::{Axis, varied};
+use super::axis::{Axis, Case, Value, varied};
 use super::oblique::{self, Setting};
 use super::{PredictError, Quantity, beyond, constants, one, quantities};
 use crate::columns::{Column, Columns};
 use crate::laws::Choice;
 use crate::layout;
 use crate::scene::Scene;
-use crate::validity::{Beyond, SweepLimits};
+use crate::validity::{self, Beyond, SweepLimits};
 use brinell_contact::impact::Impact;
+use serde_json::Value as Json;
 
 /// Number of values of a quantity without a number of its own: alone (with normal impacts), with another one, with several.
 const VALUES: usize = 201;
@@ -27,94 +28,169 @@ const NUMBER: usize = 9;
 /// Quantities that determine each other.
 const SAME: [&[&str]; 2] = [&["speed", "energy", "drop_height"], &["mass", "effective_mass"]];
 
-/// Impacts for each combination of values; the last quantity varies fastest.
+/// Which impacts have the values of several quantities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Impacts {
+    /// Each combination; the last quantity varies fastest. The first impact without a prediction ends the sweep.
+    Combined,
+    /// Each row of the columns. An impact without a prediction has its error.
+    Listed,
+}
+
+impl Impacts {
+    /// The option of the program that asks for them.
+    pub fn option(self) -> &'static str {
+        match self {
+            Impacts::Combined => "--sweep",
+            Impacts::Listed => "--impacts",
+        }
+    }
+}
+
+/// Impacts with what is said of them.
 pub struct Sweep {
     pub columns: Columns,
     /// The limits of validity that each impact exceeds.
     pub limits: SweepLimits,
+    /// Error and warnings of each listed impact, in the order of `limits`.
+    pub said: Vec<[String; 2]>,
 }
 
 /// What an impact says, and the limits of validity that it exceeds.
 pub type Said = Result<(Vec<Quantity>, Vec<Beyond>), PredictError>;
 
-/// Predicts for all values of a list, in any order, on as many processors as the caller has.
-pub type Each<'a> = &'a dyn Fn(&[Vec<f64>], &(dyn Fn(&Vec<f64>) -> Said + Sync)) -> Result<Vec<Answered>, PredictError>;
-
-/// What one impact says.
-pub type Answered = (Vec<Quantity>, Vec<Beyond>);
+/// Predicts for all values of a list, in any order, on as many processors as the caller has, until one has an error.
+pub type Each<'a> = &'a dyn Fn(
+    &[Vec<f64>],
+    &(dyn Fn(&Vec<f64>) -> Result<Said, PredictError> + Sync),
+) -> Result<Vec<Said>, PredictError>;
 
 impl Sweep {
-    /// What the laws of `choices` say of `impact` on `scene` for all values of `axes`; of an oblique one with a `setting`. Of several
-    /// laws, those that depend on what varies.
+    /// What the laws of `choices` say of `impact` on `scene` for values of `axes`; of an oblique one with a `setting`. Of several
+    /// laws, those that depend on what varies. Each impact is what is predicted of a scene with its numbers: the strengths are at its own
+    /// strain and rate.
     ///
     /// # Errors
-    /// Axes that determine each other, too many impacts, or [`PredictError`] for the first values that are impossible or beyond
+    /// Axes that determine each other, too many impacts, or [`PredictError`] for the first combination that is impossible or beyond
     /// the range of a law.
     pub fn of_impacts(
         (scene, choices): (&Scene, &[Choice]),
         (impact, setting): (Impact, Option<Setting>),
-        axes: &[Axis],
+        (axes, impacts): (&[Axis], Impacts),
         each: Each,
     ) -> Result<Sweep, PredictError> {
-        let normal = |choice: &Choice, values: &[(&Axis, f64)]| {
-            let (choice, impact) = varied(scene, choice, impact, values)?;
+        let choices = depending_on(choices, axes);
+        let hard = || PredictError::Beyond { law: choices[0].laws.clone(), mass: impact.mass, speed: impact.speed };
+        let mut slow = scene.clone().under_slow_load().ok_or_else(hard)?;
+        if setting.is_none() {
+            // each impact has a scene of its own, and other contacts don't change one along the normal
+            slow.contacts.truncate(1);
+        }
+        let normal = |choice: &Choice, values: &[Value]| {
+            let Case { scene, choice, impact } = varied(&slow, choice, impact, values, 1.0)?;
             let prediction = one(&choice, &impact)?;
             let regime = ("regime", f64::from(prediction.regime as i32), "");
             let quantities = quantities(&prediction).into_iter().chain([regime]).collect();
-            let named: Vec<_> = values.iter().map(|(axis, value)| (axis.name, *value)).collect();
-            Ok((quantities, beyond(scene, &choice.model.pair(), impact.speed, &prediction, &named)))
+            Ok((quantities, beyond(&scene, &choice.model.pair(), impact.speed, &prediction)))
         };
         let oblique = |setting| {
-            move |choice: &Choice, values: &[(&Axis, f64)]| {
-                let outcome = oblique::one(scene, choice, (impact, setting), values)?;
+            let slow = &slow;
+            move |choice: &Choice, values: &[Value]| {
+                let outcome = oblique::one(slow, choice, (impact, setting), values)?;
                 Ok((outcome.quantities(), outcome.beyond))
             }
         };
-        let choices = depending_on(choices, axes);
         match setting {
-            None => Sweep::of(axes, &choices, (VALUES, each), normal),
-            Some(setting) => Sweep::of(axes, &choices, (oblique::VALUES, each), oblique(setting)),
+            None => Sweep::of((axes, impacts), &choices, (VALUES, each), normal),
+            Some(setting) => Sweep::of((axes, impacts), &choices, (oblique::VALUES, each), oblique(setting)),
         }
     }
 
-    /// What `predict` says of the laws of `choices` for all values of `axes`. A quantity that varies alone has `usual` values, if the
+    /// What `predict` says of the laws of `choices` for the values of `axes`. A quantity that varies alone has `usual` values, if the
     /// user gives no number.
     fn of(
-        axes: &[Axis],
+        (axes, impacts): (&[Axis], Impacts),
         choices: &[Choice],
         (usual, each): (usize, Each),
-        predict: impl Fn(&Choice, &[(&Axis, f64)]) -> Said + Sync,
+        predict: impl Fn(&Choice, &[Value]) -> Said + Sync,
     ) -> Result<Sweep, PredictError> {
         check(axes)?;
         let usual = [usual, VALUES_OF_TWO].get(axes.len() - 1).copied().unwrap_or(VALUES_OF_MORE);
         let values: Vec<Vec<f64>> = axes.iter().map(|axis| axis.values(usual)).collect();
-        let count = values.iter().try_fold(1, |count: usize, values| count.checked_mul(values.len()));
-        let count = count.filter(|count| *count <= MOST).ok_or_else(|| {
-            let counts: Vec<_> = values.iter().map(|values| values.len().to_string()).collect();
-            PredictError::Sweep(format!("{} values: at most {MOST} impacts are allowed", counts.join(" x ")))
-        })?;
-        let points: Vec<Vec<f64>> = (0..count).map(|index| values_at(&values, index)).collect();
+        let points: Vec<Vec<f64>> = match impacts {
+            Impacts::Listed => {
+                (0..values[0].len()).map(|row| values.iter().map(|values| values[row]).collect()).collect()
+            }
+            Impacts::Combined => (0..combinations(&values)?).map(|index| values_at(&values, index)).collect(),
+        };
         let mut columns: Vec<_> = axes.iter().map(|axis| Column::new(axis.name, axis.unit)).collect();
         let names = axes.iter().map(|axis| (axis.name, axis.unit)).collect();
         let mut limits = SweepLimits { names, impacts: Vec::new() };
-        let mut laws = Vec::new();
+        let (mut laws, mut valid, mut all_said) = (Vec::new(), Vec::new(), Vec::new());
         for choice in choices {
-            let impacts = each(&points, &|at| {
-                let varied: Vec<_> = axes.iter().zip(at.iter().copied()).collect();
-                predict(choice, &varied)
+            let answers = each(&points, &|at| {
+                let varied: Vec<_> = axes.iter().map(|axis| axis.name).zip(at.iter().copied()).collect();
+                let said = predict(choice, &varied);
+                if impacts == Impacts::Combined { said.map(Ok) } else { Ok(said) }
             })?;
             let mut rows = Vec::new();
-            for (at, (mut quantities, beyond)) in points.iter().zip(impacts) {
+            for (at, said) in points.iter().zip(answers) {
+                valid.push(said.as_ref().map_or(f64::NAN, |(_, beyond)| f64::from(u8::from(beyond.is_empty()))));
+                let error = said.as_ref().err().map(ToString::to_string).unwrap_or_default();
+                let (mut quantities, beyond) = said.unwrap_or_default();
                 quantities.retain(|(name, ..)| axes.iter().all(|axis| axis.name != *name));
                 if columns.len() == axes.len() {
                     columns.extend(quantities.iter().map(|(name, _, unit)| Column::new(*name, unit)));
                 }
-                rows.push(at.iter().copied().chain(quantities.iter().map(|(_, number, _)| *number)).collect());
+                rows.push(
+                    at.iter().copied().chain(quantities.iter().map(|(_, number, _)| *number)).collect::<Vec<_>>(),
+                );
+                if impacts == Impacts::Listed {
+                    let warnings: Vec<_> = beyond.iter().copied().map(validity::words).collect();
+                    all_said.push([error, warnings.join("; ")]);
+                }
                 limits.impacts.push((at.clone(), beyond));
             }
             laws.push((choice.laws.clone(), rows));
         }
-        Ok(Sweep { columns: Columns { columns, laws }.with_valid(limits.valid()), limits })
+        // an impact without a prediction has no other numbers
+        laws.iter_mut().flat_map(|(_, rows)| rows).for_each(|row| row.resize(columns.len(), f64::NAN));
+        Ok(Sweep { columns: Columns { columns, laws }.with_valid(valid.into_iter()), limits, said: all_said })
+    }
+
+    /// For programs: the columns, with the lists `error` and `warning` of listed impacts.
+    pub fn json(&self) -> Json {
+        let mut object = self.columns.json();
+        let mut said = self.said.iter();
+        for (index, (_, rows)) in self.columns.laws.iter().enumerate().filter(|_| !self.said.is_empty()) {
+            let own: Vec<_> = said.by_ref().take(rows.len()).collect();
+            for (place, name) in ["error", "warning"].into_iter().enumerate() {
+                object["laws"][index][name] = own.iter().map(|said| said[place].as_str()).collect();
+            }
+        }
+        object
+    }
+
+    /// CSV with all digits, with the columns `error` and `warning` of listed impacts.
+    pub fn csv(&self) -> String {
+        let quoted = |text: &String| format!("\"{}\"", text.replace('"', "\"\""));
+        let ends = self.said.iter().map(|said| said.each_ref().map(quoted).join(","));
+        let mut ends = std::iter::once("error,warning".to_string()).chain(ends);
+        match self.said.is_empty() {
+            true => self.columns.csv(),
+            false => {
+                self.columns.csv().lines().map(|line| format!("{line},{}\n", ends.next().unwrap_or_default())).collect()
+            }
+        }
+    }
+
+    /// What people are to know beside the numbers.
+    pub fn warnings(&self) -> Vec<String> {
+        let failed: Vec<_> = self.said.iter().filter(|[error, _]| !error.is_empty()).collect();
+        let first = |[error, _]: &&[String; 2]| {
+            format!("{} of {} impacts have no prediction; the first: {error}", failed.len(), self.said.len())
+        };
+        failed.first().map(first).into_iter().chain(self.limits.warnings()).collect()
     }
 
     /// A short table of each law for a terminal, with the varied quantities and as many of these others as fit.
@@ -152,6 +228,15 @@ fn depending_on(choices: &[Choice], axes: &[Axis]) -> Vec<Choice> {
     choices
 }
 
+/// The number of combinations of `values`.
+fn combinations(values: &[Vec<f64>]) -> Result<usize, PredictError> {
+    let count = values.iter().try_fold(1, |count: usize, values| count.checked_mul(values.len()));
+    count.filter(|count| *count <= MOST).ok_or_else(|| {
+        let counts: Vec<_> = values.iter().map(|values| values.len().to_string()).collect();
+        PredictError::Varied(format!("{} values: at most {MOST} impacts are allowed", counts.join(" x ")))
+    })
+}
+
 /// The combination of `values` with this index.
 fn values_at(values: &[Vec<f64>], index: usize) -> Vec<f64> {
     let mut rest = index;
@@ -170,11 +255,11 @@ fn check(axes: &[Axis]) -> Result<(), PredictError> {
     for (index, one) in axes.iter().enumerate() {
         for other in &axes[..index] {
             if one.name == other.name {
-                return Err(PredictError::Sweep(format!("{} is given twice", one.name)));
+                return Err(PredictError::Varied(format!("{} is given twice", one.name)));
             }
             if SAME.iter().any(|same| same.contains(&one.name) && same.contains(&other.name)) {
                 let why = format!("{} and {} determine each other: give one of them", other.name, one.name);
-                return Err(PredictError::Sweep(why));
+                return Err(PredictError::Varied(why));
             }
         }
     }

@@ -15,35 +15,22 @@ use std::f64::consts::PI;
 impl Scene {
     /// The bodies of the contacts of `group`; `None` if they do not fit.
     pub(super) fn pair_of(&self, group: usize) -> Option<Pair> {
-        self.pair_with(group, &[])
-    }
-
-    /// The same bodies with other values for some of their parameters.
-    pub fn pair_with(&self, group: usize, values: &[(&str, f64)]) -> Option<Pair> {
-        let [impactor, target] = self.as_balls(group, self.bodies_with(group, values));
-        let softer = self.softer_with(group, values);
-        let other = values.iter().find(|(known, _)| *known == softer.yield_strength()).map(|(_, value)| *value);
+        let [impactor, target] = self.as_balls(group, self.bodies(group));
+        let softer = self.softer(group);
         let factor = self.factors[group].softer;
-        let own = || self.group_value(group, softer.yield_strength()).map(|strength| strength * factor);
-        let strength = other.or_else(own).unwrap_or(f64::INFINITY);
+        let own = self.group_value(group, softer.yield_strength()).map(|strength| strength * factor);
+        let strength = own.unwrap_or(f64::INFINITY);
         let pair = Pair::new(&impactor, &target, strength)?;
         Some(if softer == Body::Impactor { pair.yielding_in(&impactor, strength) } else { pair })
     }
 
     /// What the law `brinell` needs to know of the bodies of `group` beside their pair.
     pub fn two_bodies(&self, group: usize) -> TwoBodies {
-        self.two_bodies_with(group, &[])
-    }
-
-    /// The same bodies with other values for some of their parameters.
-    pub fn two_bodies_with(&self, group: usize, values: &[(&str, f64)]) -> TwoBodies {
         let Factors { softer: factor, harder: others } = self.factors[group];
-        let value = |name: &str, without: f64, factor: f64| {
-            let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
-            other.or_else(|| self.group_value(group, name).map(|own| own * factor)).unwrap_or(without)
-        };
-        let softer = self.softer_with(group, values);
-        let [impactor, target] = self.as_balls(group, self.bodies_with(group, values));
+        let value =
+            |name: &str, without: f64, factor: f64| self.group_value(group, name).map_or(without, |own| own * factor);
+        let softer = self.softer(group);
+        let [impactor, target] = self.as_balls(group, self.bodies(group));
         let harder = self.hardening_factor(group);
         let (soft, body) = if softer == Body::Impactor { (impactor, target) } else { (target, impactor) };
         TwoBodies {
@@ -58,10 +45,9 @@ impl Scene {
         }
     }
 
-    /// Impactor and target of `group`, with other values for some of their parameters. An impactor without moduli is rigid, a target
-    /// without a radius is flat.
-    pub fn bodies_with(&self, group: usize, values: &[(&str, f64)]) -> [brinell_contact::Body; 2] {
-        let value = |name, without| self.value_with(group, name, values).unwrap_or(without);
+    /// Impactor and target of `group`. An impactor without moduli is rigid, a target without a radius is flat.
+    pub fn bodies(&self, group: usize) -> [brinell_contact::Body; 2] {
+        let value = |name, without| self.group_value(group, name).unwrap_or(without);
         let of = |body: Body, [radius, youngs_modulus, poissons_ratio]: [f64; 3]| brinell_contact::Body {
             radius: value(body.radius(), radius),
             youngs_modulus: value(body.youngs_modulus(), youngs_modulus),
@@ -70,9 +56,9 @@ impl Scene {
         [of(Body::Impactor, [f64::NAN, f64::INFINITY, 0.0]), of(Body::Target, [f64::INFINITY, f64::NAN, f64::NAN])]
     }
 
-    /// The smaller radius of the bodies of `group` \[m\], with other values for some of the parameters: no contact is wider.
-    pub fn smaller_radius_with(&self, group: usize, values: &[(&str, f64)]) -> f64 {
-        let balls = self.as_balls(group, self.bodies_with(group, values));
+    /// The smaller radius of the bodies of `group` \[m\]: no contact is wider.
+    pub fn smaller_radius(&self, group: usize) -> f64 {
+        let balls = self.as_balls(group, self.bodies(group));
         let size = size_of(balls.map(|body| body.radius));
         let size = self.contacts[group].ellipse.as_ref().map_or(size, |elliptic| size.min(elliptic.size));
         self.line_size(group).map_or(size, |line| size.min(line))
@@ -87,15 +73,9 @@ impl Scene {
     }
 
     /// The size of the smaller body of `group` \[m\]: the same, or the radius of a rod, of which the FMU doesn't know.
-    pub fn size_with(&self, group: usize, values: &[(&str, f64)]) -> f64 {
-        let size = self.smaller_radius_with(group, values);
+    pub fn size(&self, group: usize) -> f64 {
+        let size = self.smaller_radius(group);
         self.contacts[group].rod_radius().map_or(size, |radius| size.min(radius))
-    }
-
-    /// The number `name` of `group`: the one in `values`, otherwise that of the scene.
-    pub(super) fn value_with(&self, group: usize, name: &str, values: &[(&str, f64)]) -> Option<f64> {
-        let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
-        other.or_else(|| self.group_value(group, name))
     }
 
     /// The result of `of` for each group. Ten thousand groups may have the same bodies. A result that follows only from the
@@ -109,7 +89,7 @@ impl Scene {
                     let Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio } = pair;
                     let restitution = self.group_value(group, "restitution").unwrap_or(f64::NAN);
                     // it follows from the density, which the pair doesn't know
-                    let loss = self.loss_with(group, &[]).map_or(f64::NAN, |loss| loss.factor());
+                    let loss = self.loss_of(group).map_or(f64::NAN, |loss| loss.factor());
                     let TwoBodies { hardening_modulus, curvature, other } = self.two_bodies(group);
                     let softer = [yield_strength, youngs_modulus, poissons_ratio, hardening_modulus];
                     let harder = [other.yield_strength, other.modulus, other.poissons_ratio, other.hardening_modulus];
@@ -123,12 +103,7 @@ impl Scene {
 
     /// The body of `group` that yields.
     pub fn softer(&self, group: usize) -> Body {
-        self.softer_with(group, &[])
-    }
-
-    /// The same with other values for some of the parameters.
-    pub fn softer_with(&self, group: usize, values: &[(&str, f64)]) -> Body {
-        let strength = |body: Body| self.value_with(group, body.yield_strength(), values).unwrap_or(f64::INFINITY);
+        let strength = |body: Body| self.group_value(group, body.yield_strength()).unwrap_or(f64::INFINITY);
         if strength(Body::Impactor) < strength(Body::Target) { Body::Impactor } else { Body::Target }
     }
 
@@ -155,7 +130,7 @@ impl Scene {
     /// The constant in place of the parameter `name` in the library, if the contacts of `group` are ellipses.
     pub fn constant_of_ball(&self, group: usize, name: &str) -> Option<f64> {
         self.contacts[group].ellipse.as_ref()?;
-        let balls = self.as_balls(group, self.bodies_with(group, &[]));
+        let balls = self.as_balls(group, self.bodies(group));
         Body::ALL.iter().zip(balls).find_map(|(body, ball)| match name {
             name if name == body.radius() => Some(ball.radius),
             name if name == body.youngs_modulus() => Some(ball.youngs_modulus),
@@ -186,7 +161,7 @@ pub fn held(scene: &Scene, mass: f64) -> Option<String> {
         Some(rod) => rod.length * rod.area,
         None => 4.0 / 3.0 * PI * radius * radius * radius,
     };
-    let [impactor, target] = scene.bodies_with(0, &[]);
+    let [impactor, target] = scene.bodies(0);
     let volumes = [volume(rods.impactor, impactor.radius), volume(rods.target, target.radius)];
     // a half-space and a socket have no volume
     let is_ball = !scene.is_line() && scene.contacts[0].ellipse.is_none();

@@ -424,16 +424,16 @@ impl Scene {
 
     /// The contact of `group` by an elastoplastic `model`, with the loss of the scene.
     pub fn with_loss(&self, group: usize, model: Model<AnyLoading, AnyUnloading>) -> AnyModel {
-        match self.loss_with(group, &[]) {
+        match self.loss_of(group) {
             None => AnyModel::Elastoplastic(model),
             Some(loss) => AnyModel::Lossy(brinell_contact::losses::Model { plastic: model, loss }, None),
         }
     }
 
-    /// The loss of the contacts of `group`, with other values for some of the parameters.
-    pub fn loss_with(&self, group: usize, values: &[(&str, f64)]) -> Option<AnyLoss> {
-        let value = |name| self.value_with(group, name, values).unwrap_or(f64::NAN);
-        let [_, target] = self.bodies_with(group, values);
+    /// The loss of the contacts of `group`.
+    pub fn loss_of(&self, group: usize) -> Option<AnyLoss> {
+        let value = |name| self.group_value(group, name).unwrap_or(f64::NAN);
+        let [_, target] = self.bodies(group);
         let density = self.contacts[group].density.unwrap_or(f64::NAN);
         let target = Solid { density, youngs_modulus: target.youngs_modulus, poissons_ratio: target.poissons_ratio };
         Some(match self.laws.loss()? {

@@ -220,7 +220,7 @@ fn settle(mut scene: Scene, contacts: &Contacts, place: &Range<usize>) -> Result
     // an impact that nobody has asked for may be
     if !scene.impact_is_assumed {
         for (group, prediction) in scene.predictions.iter().enumerate() {
-            let checked = check_width(&scene, group, scene.laws.name(), &scene.impact_of(group), prediction, &[]);
+            let checked = check_width(&scene, group, scene.laws.name(), &scene.impact_of(group), prediction);
             checked.map_err(|error| Mistake(place.clone(), contacts.said(group, &error.to_string())))?;
         }
     }
@@ -307,7 +307,7 @@ fn settle_ellipses(scene: &mut Scene, file: &SceneFile, contacts: &Contacts) -> 
         let elliptic = Elliptic::of(Both::each(|body| values(*radii.of(body))));
         let elliptic = elliptic.map_err(|why| Mistake(two.span(), contacts.said(group, &why)))?;
         scene.contacts[group].ellipse = Some(elliptic);
-        let [_, target] = scene.bodies_with(group, &[]);
+        let [_, target] = scene.bodies(group);
         let [_, ball] = scene.as_balls(group, [target; 2]);
         // the speed of waves is that of the body
         let density = &mut scene.contacts[group].density;

@@ -77,7 +77,7 @@ impl<'a> Cylinders<'a> {
 
     /// The sizes of impactor and target of a group; that of a rigid impactor has no effect.
     fn sizes(&self, scene: &Scene, group: usize) -> Result<[Size; 2], Mistake> {
-        let [impactor, target] = scene.bodies_with(group, &[]);
+        let [impactor, target] = scene.bodies(group);
         let own = match impactor.youngs_modulus < f64::INFINITY {
             true => Cylinders::roller(impactor.radius),
             false => Size { reach: impactor.radius, tension: 0.0, words: "a rigid cylinder".into() },

@@ -201,8 +201,7 @@ impl Scene {
         let is_softer = body == self.softer(0);
         if let Some(flow) = self.flow_of(0, body) {
             let scaled = flow.times(factor).into();
-            let flows = &mut self.contacts[0].flows;
-            *(if body == Body::Impactor { &mut flows.impactor } else { &mut flows.target }) = Some(scaled);
+            *self.contacts[0].flows.of_mut(body) = Some(scaled);
             return Some(self);
         }
         self.group_value(0, body.yield_strength())?;
@@ -211,10 +210,54 @@ impl Scene {
         for parameter in self.parameters.iter_mut().chain(own).filter(|parameter| strengths.contains(&parameter.name)) {
             parameter.value *= factor;
         }
-        let slow = &mut self.quasi_static[0];
-        let slow = if body == Body::Impactor { &mut slow.impactor } else { &mut slow.target };
+        let slow = self.quasi_static[0].of_mut(body);
         *slow = slow.times(factor);
         self.yield_strength = self.yield_strength.map(|strength| if is_softer { factor * strength } else { strength });
+        Some(self)
+    }
+
+    /// The constant `target.rate.c` or `d` of a body's rate model in `rates`.
+    fn constant_in<'a>(rates: &'a mut Both<Option<Rate>>, name: &str) -> Option<&'a mut f64> {
+        let (body, constant) = name.split_once(".rate.")?;
+        let body = Body::ALL.into_iter().find(|known| known.name() == body)?;
+        match (rates.of_mut(body), constant) {
+            (Some(Rate::JohnsonCook { c, .. }), "c") => Some(c),
+            (Some(Rate::CowperSymonds { d, .. }), "d") => Some(d),
+            _ => None,
+        }
+    }
+
+    /// The constant of a body's rate model with this `name`, if the body has it.
+    pub fn rate_constant(&self, name: &str) -> Option<f64> {
+        Self::constant_in(&mut self.rates.clone(), name).copied()
+    }
+
+    /// The scene with these values of parameters of its first contact, whether or not it names them. A strength is that under a slow
+    /// load, in place of any reading or power law. `None` if the bodies then don't touch in one point.
+    pub fn with_values(mut self, values: &[(&'static str, f64)]) -> Option<Scene> {
+        for &(name, value) in values {
+            if let Some(constant) = Self::constant_in(&mut self.rates, name) {
+                *constant = value;
+                continue;
+            }
+            let own = self.contacts[0].own.iter_mut();
+            if let Some(parameter) = own.chain(&mut self.parameters).find(|parameter| parameter.name == name) {
+                parameter.value = value;
+            } else {
+                self.contacts[0].own.push(Parameter::shared(name, value, false));
+            }
+        }
+        for body in Body::ALL {
+            let names = [body.yield_strength(), body.hardening_modulus()];
+            if values.iter().any(|(name, _)| names.contains(name)) {
+                let [strength, hardening] = names.map(|name| self.group_value(0, name));
+                let (yield_strength, hardening_modulus) = (strength.unwrap_or(f64::INFINITY), hardening.unwrap_or(0.0));
+                *self.quasi_static[0].of_mut(body) = Hardening { yield_strength, hardening_modulus };
+                *self.contacts[0].flows.of_mut(body) = None;
+            }
+        }
+        self.yield_strength = self.group_value(0, self.softer(0).yield_strength()).or(self.yield_strength);
+        self.pair_of(0)?;
         Some(self)
     }
 

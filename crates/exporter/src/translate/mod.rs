@@ -386,7 +386,7 @@ fn of_law(scene: &Scene, impact: Impact, is_asked: bool) -> Result<Outcome, Tran
     let own = scene.clone().with_strengths_for(Some(&impact)).ok_or_else(beyond)?;
     let prediction = own.any_model().predict(&impact).ok_or_else(beyond)?;
     if is_asked {
-        check_width(&own, 0, own.laws.name(), &impact, &prediction, &[])?;
+        check_width(&own, 0, own.laws.name(), &impact, &prediction)?;
     }
     Ok(Outcome {
         restitution: prediction.restitution,
@@ -402,7 +402,7 @@ fn beyond_validity(scene: &Scene, impact: Impact) -> Vec<String> {
     let found = own.and_then(|own| {
         let model = own.any_model();
         let prediction = model.predict(&impact)?;
-        Some(beyond(&own, &model.pair(), impact.speed, &prediction, &[]))
+        Some(beyond(&own, &model.pair(), impact.speed, &prediction))
     });
     let words = |one| format!("At {}, {}.", crate::numbers::quantity(impact.speed, "m/s"), validity::words(one));
     found.unwrap_or_default().into_iter().map(words).collect()
