@@ -43,7 +43,7 @@ fn an_impact_of_a_table_has_the_numbers_of_a_sweep_or_its_error() {
         (
             "angle,speed,friction.coefficient\n30,1,0.1\n95,1,0.1\n40,1,0.1\n",
             "--friction 0.1",
-            "--sweep angle=30,40 --sweep speed=1, --sweep friction.coefficient=0.1,",
+            "--sweep angle=30,40, --sweep speed=1, --sweep friction.coefficient=0.1,",
             "angle = 95",
         ),
     ] {
