@@ -225,11 +225,13 @@ struct Player<'a, 'b> {
     random: &'a mut Random,
     calls: Vec<Call>,
     tally: &'a mut Tally,
+    /// Whether a step has had a warning. A contact then looks for the next limit, and one that was restored for the first.
+    was_warned: bool,
 }
 
 /// Plays a random history of some calls on all `ways`; what the FMU has is on its `face`.
 pub fn play(face: &Face, ways: Vec<Box<dyn Way + '_>>, calls: usize, random: &mut Random, tally: &mut Tally) {
-    let mut player = Player { face, ways, random, calls: Vec::new(), tally };
+    let mut player = Player { face, ways, random, calls: Vec::new(), tally, was_warned: false };
     player.play(calls);
 }
 
@@ -240,14 +242,28 @@ impl Player<'_, '_> {
         let mut answers = self.ways.iter_mut().map(|way| way.answer(&call)).collect::<Vec<_>>().into_iter();
         let first = answers.next().expect("there are ways");
         for (place, other) in answers.enumerate() {
-            let same = (first.is_done, &first.bits) == (other.is_done, &other.bits)
-                && (other.words.is_none() || other.words == first.words);
+            let is_alike = first.bits == other.bits || (self.was_warned && matches!(call, Call::Save));
+            let same =
+                first.is_done == other.is_done && is_alike && (other.words.is_none() || other.words == first.words);
             if !same {
                 let last = self.calls.iter().skip(self.calls.len().saturating_sub(30));
                 let last: Vec<String> = last.map(|call| format!("{call:?}")).collect();
-                panic!("way {}: {other:?}, not {first:?}, after\n{}", place + 1, last.join("\n"));
+                let pairs = first.bits.iter().zip(&other.bits).enumerate().filter(|(_, (one, other))| one != other);
+                let differ: Vec<_> =
+                    pairs.map(|(at, (one, other))| (at, f64::from_bits(*one), f64::from_bits(*other))).collect();
+                panic!(
+                    "way {} answers otherwise: {:?} and {:?}, {:?} and {:?}, in {differ:?}, after\n{}",
+                    place + 1,
+                    first.is_done,
+                    other.is_done,
+                    first.words,
+                    other.words,
+                    last.join("\n")
+                );
             }
         }
+        let is_warned = first.is_done && first.words.as_ref().is_some_and(|words| !words.is_empty());
+        self.was_warned = !matches!(call, Call::Reset) && (self.was_warned || is_warned);
         self.tally.messages += usize::from(first.words.as_ref().is_some_and(|words| !words.is_empty()));
         self.tally.refused += usize::from(!first.is_done);
         first

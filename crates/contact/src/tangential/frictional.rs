@@ -139,8 +139,8 @@ impl<const D: usize, const N: usize, const LATTICE: bool> SpringsOf<D, N, LATTIC
         let scaled = |lengths| times(scale, lengths);
         let way = Motion { from, to, shift: scaled(slip), normal: rates.0, tangential: scaled(rates.1) };
         let pull = self.go_along(model, (&way, scaled(bend)), asked);
-        // a fresh surface forgets the dent once the bodies separate beyond the original surface
-        if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
+        // a fresh surface forgets the dent as soon as the bodies have parted and are not below the original surface
+        if model.normal.surface == Surface::Fresh && to <= 0.0 && to <= self.curve.lower {
             self.curve = model.curve_below(0.0);
         }
         times(model.friction.coefficient, pull)
