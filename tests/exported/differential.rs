@@ -36,7 +36,7 @@ fn any_scene_gives_the_same_bits_by_c_in_rust_and_after_any_detour() {
         let (fmu, kind) = export_by_kind(&text, store());
         let unit = Unit::open(&fmu);
         for history in 0..2 {
-            let (in_rust, own_kind) = in_rust::of(&scene, true);
+            let (in_rust, own_kind) = in_rust::of(&scene);
             assert_eq!(own_kind, kind);
             let ways: Vec<Box<dyn crate::histories::Way>> =
                 vec![Box::new(ByC::new(&unit, false)), Box::new(ByC::new(&unit, true)), in_rust];

@@ -4,17 +4,14 @@
 //! some memory for ever: the page loads its module anew for each.
 
 use brinell_exporter::prebuilt::PrebuiltUnit;
-use brinell_fmu::c::span::Free;
-use brinell_fmu::fmi2::component::Component;
+use brinell_fmu::fmi2::component::{instance_in, words_of_instance};
+use brinell_fmu::for_library;
 use brinell_fmu::instance::{Fault, Instance, Warning};
 use brinell_fmu::scene::Real;
 use brinell_fmu::scene::Scene;
+use brinell_fmu::scene::library::Memory;
 use brinell_fmu::scene::library::block::Block;
 use brinell_fmu::scene::library::block::Contents;
-use brinell_fmu::scene::library::kinds::{
-    Friction, Friction2, Losses, LossyFriction, LossyFriction2, LossyStrengths, Momentum, Moved, State, Strengths,
-};
-use brinell_fmu::scene::library::{LibraryScene, Memory};
 use std::cell::Cell;
 
 thread_local! {
@@ -88,44 +85,24 @@ impl<S: Scene> Unit for Instance<S> {
     }
 }
 
+/// An instance, or why there is none.
+type Made = Result<&'static mut dyn Unit, String>;
+
 /// As many instances of the FMU `unit`, before their start. Those of another FMU must not be used any more.
 ///
 /// # Errors
 /// A reason in words, if the page does not know its library.
 pub fn instances(unit: &PrebuiltUnit, count: usize) -> Result<Vec<&'static mut dyn Unit>, String> {
     BLOCK.set(Box::leak(Box::new(unit.block(LIBRARY))));
-    let make = match unit.library.name {
-        "state" => made::<LibraryScene<State, Place>>,
-        "momentum" => made::<LibraryScene<Momentum, Place>>,
-        "moved" => made::<LibraryScene<Moved, Place>>,
-        "lossy" => made::<LibraryScene<Losses, Place>>,
-        "rate" => made::<LibraryScene<Strengths, Place>>,
-        "lossy-rate" => made::<LibraryScene<LossyStrengths, Place>>,
-        "friction" => made::<LibraryScene<Friction, Place>>,
-        "friction-2" => made::<LibraryScene<Friction2, Place>>,
-        "lossy-friction" => made::<LibraryScene<LossyFriction, Place>>,
-        "lossy-friction-2" => made::<LibraryScene<LossyFriction2, Place>>,
-        other => return Err(format!("the page does not know the library `{other}`")),
-    };
+    let name = unit.library.name;
+    let make: Option<fn() -> Made> = for_library!(name, Place, made);
+    let make = make.ok_or_else(|| format!("the page does not know the library `{name}`"))?;
     (0..count).map(|_| make()).collect()
 }
 
 /// An instance of a scene in memory that is never freed, since the scene isn't either.
-#[allow(unsafe_code, reason = "arrays of a length that the scene says lie behind the instance")]
-fn made<S: Scene + 'static>() -> Result<&'static mut dyn Unit, String> {
+fn made<S: Scene + 'static>() -> Made {
     S::verify()?;
-    let _ = Component::<S>::ZEROS;
-    let outside = Instance::<S>::outside_with_models();
-    let words = (size_of::<Instance<S>>() + outside).div_ceil(8);
-    const { assert!(align_of::<Instance<S>>() <= 8) };
-    let memory: &'static mut [u64] = Vec::leak(vec![0; words]);
-    let start = memory.as_mut_ptr();
-    start.expose_provenance();
-    // SAFETY: the memory is large enough for the instance and its arrays, aligned, and nothing else uses it. Zeros are a valid
-    // instance, as `ZEROS` proves.
-    let instance = unsafe { &mut *start.cast::<Instance<S>>() };
-    // SAFETY: the bytes behind it are zeros of the same allocation, its provenance is exposed, and the instance is never moved.
-    let free = unsafe { Free::behind(instance, outside) };
-    instance.place(free);
-    Ok(instance)
+    let memory = Vec::leak(vec![0; words_of_instance::<S>()]);
+    Ok(instance_in::<S>(memory).expect("the memory is as long as it has to be"))
 }

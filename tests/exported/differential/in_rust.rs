@@ -2,14 +2,11 @@
 //! where the C interface has short ones.
 
 use brinell_exporter::{plan::Plan, prebuilt::PrebuiltUnit, scene};
-use brinell_fmu::c::span::Free;
-use brinell_fmu::fmi2::component::Component;
+use brinell_fmu::fmi2::component::{instance_in, words_of_instance};
+use brinell_fmu::for_library;
 use brinell_fmu::instance::{Fault, Instance, Plain};
+use brinell_fmu::scene::library::Memory;
 use brinell_fmu::scene::library::block::{Block, Contents};
-use brinell_fmu::scene::library::kinds::{
-    Friction, Friction2, Losses, LossyFriction, LossyFriction2, LossyStrengths, Momentum, Moved, State, Strengths,
-};
-use brinell_fmu::scene::library::{LibraryScene, Memory};
 use brinell_fmu::scene::{Real, Scene};
 use brinell_testing::histories::{Answer, Call, Detour, Way};
 use std::cell::Cell;
@@ -40,53 +37,29 @@ struct InRust<S: Scene + 'static> {
     instance: &'static mut Instance<S>,
     other: &'static mut Instance<S>,
     kept: &'static mut Instance<S>,
-    makes_detours: bool,
 }
 
 /// A scene as a way, and the name of its kind.
-pub fn of(scene: &scene::Scene, makes_detours: bool) -> (Box<dyn Way>, &'static str) {
+pub fn of(scene: &scene::Scene) -> (Box<dyn Way>, &'static str) {
     let unit = PrebuiltUnit::of(&Plan::of(scene), "").expect("a scene for a prebuilt library");
     BLOCK.set(Box::leak(Box::new(unit.block(LIBRARY))));
-    let way: Box<dyn Way> = match unit.library.name {
-        "state" => InRust::<LibraryScene<State, Place>>::boxed(makes_detours),
-        "momentum" => InRust::<LibraryScene<Momentum, Place>>::boxed(makes_detours),
-        "moved" => InRust::<LibraryScene<Moved, Place>>::boxed(makes_detours),
-        "lossy" => InRust::<LibraryScene<Losses, Place>>::boxed(makes_detours),
-        "rate" => InRust::<LibraryScene<Strengths, Place>>::boxed(makes_detours),
-        "lossy-rate" => InRust::<LibraryScene<LossyStrengths, Place>>::boxed(makes_detours),
-        "friction" => InRust::<LibraryScene<Friction, Place>>::boxed(makes_detours),
-        "friction-2" => InRust::<LibraryScene<Friction2, Place>>::boxed(makes_detours),
-        "lossy-friction" => InRust::<LibraryScene<LossyFriction, Place>>::boxed(makes_detours),
-        "lossy-friction-2" => InRust::<LibraryScene<LossyFriction2, Place>>::boxed(makes_detours),
-        other => panic!("no kind {other}"),
-    };
-    (way, unit.library.name)
+    let way: Option<fn() -> Box<dyn Way>> = for_library!(unit.library.name, Place, way);
+    (way.expect("a kind of the list")(), unit.library.name)
 }
 
 /// An instance in memory that is never freed, since its scene isn't either.
-#[allow(unsafe_code, reason = "arrays of a length that the scene says lie behind the instance")]
 fn made<S: Scene + 'static>() -> &'static mut Instance<S> {
-    let _ = Component::<S>::ZEROS;
-    let outside = Instance::<S>::outside_with_models();
-    const { assert!(align_of::<Instance<S>>() <= 8) };
-    let memory: &'static mut [u64] = Vec::leak(vec![0; (size_of::<Instance<S>>() + outside).div_ceil(8)]);
-    let start = memory.as_mut_ptr();
-    start.expose_provenance();
-    // SAFETY: the memory is large enough for the instance and its arrays, aligned, and nothing else uses it. Zeros are a valid
-    // instance, as `ZEROS` proves.
-    let instance = unsafe { &mut *start.cast::<Instance<S>>() };
-    // SAFETY: the bytes behind it are zeros of the same allocation, its provenance is exposed, and the instance is never moved.
-    let free = unsafe { Free::behind(instance, outside) };
-    instance.place(free);
+    let memory = Vec::leak(vec![0; words_of_instance::<S>()]);
+    let instance = instance_in::<S>(memory).expect("the memory is as long as it has to be");
     instance.reset().expect("the bodies of a scene fit");
     instance
 }
 
-impl<S: Scene> InRust<S> {
-    fn boxed(makes_detours: bool) -> Box<InRust<S>> {
-        Box::new(InRust { instance: made(), other: made(), kept: made(), makes_detours })
-    }
+fn way<S: Scene + 'static>() -> Box<dyn Way> {
+    Box::new(InRust::<S> { instance: made(), other: made(), kept: made() })
+}
 
+impl<S: Scene> InRust<S> {
     fn words(&self) -> Vec<u64> {
         let mut words = Vec::new();
         self.instance.save(|word| words.push(word));
@@ -156,8 +129,7 @@ impl<S: Scene> InRust<S> {
                 return Ok(self.words());
             }
             Call::Restore => self.instance.copy(self.kept),
-            Call::Detour(detour) if self.makes_detours => self.go_round(*detour),
-            Call::Detour(_) => {}
+            Call::Detour(detour) => self.go_round(*detour),
         }
         Ok(Vec::new())
     }

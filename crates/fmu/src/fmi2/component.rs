@@ -8,6 +8,7 @@ use super::report::{describe, describe_warning};
 use crate::c::complaint::Complaint;
 use crate::c::handle::Handle;
 use crate::c::memory::Memory;
+use crate::c::span::Free;
 use crate::c::text::Text;
 use crate::instance::{Checked, Instance, Warning};
 use crate::scene::{Presence, Scene};
@@ -39,6 +40,31 @@ impl<S: Scene> Component<S> {
             use core::mem::zeroed;
             (zeroed(), zeroed(), zeroed())
         };
+}
+
+/// How long the memory of an instance without an importer is, in words.
+pub fn words_of_instance<S: Scene>() -> usize {
+    (size_of::<Instance<S>>() + Instance::<S>::outside_with_models()).div_ceil(8)
+}
+
+/// An instance without an importer, before its start, at the beginning of this memory, which is filled with zeros. `None` if the memory has
+/// fewer than [`words_of_instance`].
+pub fn instance_in<S: Scene>(memory: &'static mut [u64]) -> Option<&'static mut Instance<S>> {
+    const { assert!(align_of::<Instance<S>>() <= align_of::<u64>()) };
+    let _ = Component::<S>::ZEROS;
+    if memory.len() < words_of_instance::<S>() {
+        return None;
+    }
+    memory.fill(0);
+    let start = memory.as_mut_ptr();
+    start.expose_provenance();
+    // SAFETY: the memory is large enough for the instance and its arrays, aligned, and nothing else uses it. Zeros are a valid
+    // instance, as `ZEROS` proves.
+    let instance = unsafe { &mut *start.cast::<Instance<S>>() };
+    // SAFETY: the bytes behind it are zeros of the same allocation, its provenance is exposed, and the instance is never moved.
+    let free = unsafe { Free::behind(instance, Instance::<S>::outside_with_models()) };
+    instance.place(free);
+    Some(instance)
 }
 
 /// The recipient of messages.

@@ -366,3 +366,20 @@ pub type LossyFriction = Contacts<AnyLossyFrictional<FrictionalContact<MEMORY, t
 
 /// The library `lossy-friction-2`: the same as [`Friction2`] with losses below yield.
 pub type LossyFriction2 = Contacts<AnyLossyFrictional<PlaneContact<MEMORY, true, LossyHistory>>>;
+
+/// The function `$make::<SCENE>`, as a pointer, for the scene whose prebuilt library has this name and whose data are at `$place`; `None`
+/// for another name.
+#[macro_export]
+macro_rules! for_library {
+    ($name:expr, $place:ty, $make:ident) => {
+        $crate::for_library!(@ $name, $place, $make, "state" State, "momentum" Momentum, "moved" Moved, "lossy" Losses,
+            "rate" Strengths, "lossy-rate" LossyStrengths, "friction" Friction, "friction-2" Friction2,
+            "lossy-friction" LossyFriction, "lossy-friction-2" LossyFriction2)
+    };
+    (@ $name:expr, $place:ty, $make:ident, $($known:literal $kind:ident),+) => {
+        match $name {
+            $($known => Some($make::<$crate::scene::library::LibraryScene<$crate::scene::library::kinds::$kind, $place>> as _),)+
+            _ => None,
+        }
+    };
+}
