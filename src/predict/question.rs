@@ -84,7 +84,7 @@ impl Arguments {
         let is_file = path.as_os_str() != "-";
         let bytes = scene_file::bytes_or_standard_input(is_file.then_some(path.as_path()))?;
         let name = if is_file { path.display().to_string() } else { "standard input".into() };
-        let columns = Axis::columns(&String::from_utf8_lossy(&bytes));
+        let columns = Axis::columns(&bytes);
         Ok((columns.map_err(|why| WrongCall(format!("{name}:{why}")))?, Impacts::Listed))
     }
 }

@@ -70,7 +70,22 @@ fn an_impact_of_a_table_has_the_numbers_of_a_sweep_or_its_error() {
         assert!(csv.lines().next().unwrap().ends_with(",valid,error,warning"));
         assert_eq!(csv.matches(&format!(",\"{wrong}")).count(), 2, "{csv}");
     }
+    // as spreadsheets write it
+    let answers = [
+        "speed,mass\n0.5,0.004\n",
+        "\u{feff}speed;mass\r\n0,5;0,004\r\n",
+        "# of Monday\nspeed\tmass\n0.5\t4 g\n",
+        "\"speed [mm/s]\",\"mass [g]\"\n\"500\",\"4\"\n",
+        "sep=;\nspeed [cm/s];mass\n50;4 g\n",
+    ]
+    .map(|table| {
+        folder.write("impacts.csv", table);
+        folder.json("predict scene.toml --impacts impacts.csv")
+    });
+    assert!(answers.iter().all(|answer| answer["laws"] == answers[0]["laws"]), "{answers:#?}");
     for (table, why) in [
+        ("speed;mass\n1.082;1\n", "1: `1.082` is ambiguous"),
+        ("speed [kg]\n1\n", "2: speed = `1 kg`: kg is a mass"),
         ("", "1: there is no heading"),
         ("speed\n", "1: 0 impacts below the heading"),
         ("speed,mass\n1\n", "2: 1 cells below a heading of 2"),

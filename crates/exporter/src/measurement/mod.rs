@@ -9,13 +9,14 @@ mod dialect;
 mod headings;
 
 pub use dialect::Wrong;
+pub(crate) use dialect::{Separator, decimal_of, lines_of, number, text_of};
 pub use headings::{ColumnKind, asked};
 
 use crate::layout::shortened;
 use crate::nearest::one_of;
 use crate::numbers::{of_size, significant};
 use crate::reading;
-use dialect::{Body, Line, MOST_BEFORE, Separator, body_of, decimal_of, is_number, lines_of, number, text_of};
+use dialect::{Body, Line, MOST_BEFORE, body_of, is_number};
 use headings::{Heading, heading, is_known, is_unit, nearest_name, none_known, usual};
 use serde_json::{Value, json};
 

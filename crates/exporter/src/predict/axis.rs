@@ -3,6 +3,7 @@
 use super::constants;
 use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_height};
 use crate::laws::Choice;
+use crate::measurement::{Separator, Wrong, decimal_of, lines_of, number, text_of};
 use crate::model::RateLaw;
 use crate::nearest::{nearest, one_of};
 use crate::numbers::{in_message, out_of_range};
@@ -117,35 +118,48 @@ impl Axis {
         Axis { name, unit, from, to, count: None, logarithmic: None, listed: Some(listed) }
     }
 
-    /// The columns of a table of impacts: a heading with the names of quantities, and a line of numbers for each impact, in SI units or
-    /// with a unit; between them commas.
+    /// The columns of a table of impacts, as spreadsheets write it: a heading with the names of quantities and perhaps units in brackets,
+    /// and a line of numbers for each impact, in these units, in SI units or with a unit of their own.
     ///
     /// # Errors
     /// The line and the mistake.
-    pub fn columns(table: &str) -> Result<Vec<Axis>, String> {
-        let mut lines = table.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        let cells = |line: &'_ str| line.split(',').map(|cell| cell.trim().to_string()).collect::<Vec<_>>();
-        let (_, heading) =
+    pub fn columns(table: &[u8]) -> Result<Vec<Axis>, String> {
+        let wrong = |wrong: Wrong| format!("{}: {}", wrong.line.unwrap_or(1), wrong.why);
+        let (said, lines) = text_of(table).and_then(|text| lines_of(&text)).map_err(wrong)?;
+        let mut lines = lines.iter().filter(|line| !line.is_comment);
+        let heading =
             lines.next().ok_or("1: there is no heading; expected the names of quantities, such as speed,mass")?;
-        let names = cells(heading).iter().map(|name| find(name)).collect::<Result<Vec<_>, _>>();
-        let names = names.map_err(|why| format!("1: {why}"))?;
-        let mut columns = vec![Vec::new(); names.len()];
-        for (index, line) in lines {
-            let row = cells(line);
-            if row.len() != names.len() {
-                return Err(format!("{}: {} cells below a heading of {}", index + 1, row.len(), names.len()));
-            }
-            for ((column, (name, unit)), cell) in columns.iter_mut().zip(&names).zip(&row) {
-                column
-                    .push(units::number(cell, unit).map_err(|why| format!("{}: {name} = `{cell}`: {why}", index + 1))?);
-            }
+        let separator = said.unwrap_or_else(|| separator_of(&heading.text));
+        let names: Vec<(String, Option<String>)> =
+            separator.cells(&heading.text).iter().map(|it| with_unit(it)).collect();
+        let known = names.iter().map(|(name, _)| find(name)).collect::<Result<Vec<_>, _>>();
+        let known = known.map_err(|why| format!("{}: {why}", heading.number))?;
+        let rows: Vec<(usize, Vec<String>)> = lines.map(|line| (line.number, separator.cells(&line.text))).collect();
+        if let Some((line, row)) = rows.iter().find(|(_, row)| row.len() != names.len()) {
+            return Err(format!("{line}: {} cells below a heading of {}", row.len(), names.len()));
         }
-        match columns[0].len() {
-            1..=MOST_IMPACTS => {
-                Ok(names.into_iter().zip(columns).map(|(name, listed)| Axis::listing(name, listed)).collect())
-            }
-            count => Err(format!("1: {count} impacts below the heading; allowed is 1 to {MOST_IMPACTS}")),
+        if !(1..=MOST_IMPACTS).contains(&rows.len()) {
+            let count = rows.len();
+            return Err(format!("1: {count} impacts below the heading; allowed is 1 to {MOST_IMPACTS}"));
         }
+        let cells = |place: usize| rows.iter().map(|(_, row)| row[place].as_str()).collect::<Vec<_>>();
+        // a comma between cells is none within them
+        let decimal = match separator {
+            Separator::Sign(',') => '.',
+            _ => decimal_of(&(0..names.len()).map(cells).collect::<Vec<_>>(), separator)
+                .map_err(|why| format!("1: {why}"))?,
+        };
+        let mut columns = Vec::new();
+        for (place, ((name, unit), (_, written))) in known.into_iter().zip(&names).enumerate() {
+            let number = |(line, row): &(usize, Vec<String>)| {
+                let cell = if decimal == ',' { row[place].replace(',', ".") } else { row[place].clone() };
+                let plain = written.as_ref().filter(|_| number(&cell, '.').is_some());
+                let text = plain.map_or(cell.clone(), |unit| format!("{cell} {unit}"));
+                units::number(&text, unit).map_err(|why| format!("{line}: {name} = `{text}`: {why}"))
+            };
+            columns.push(Axis::listing((name, unit), rows.iter().map(number).collect::<Result<_, _>>()?));
+        }
+        Ok(columns)
     }
 
     /// Whether the values are spaced logarithmically: as the user says, else if the range has a decade or more, and is not one of angles.
@@ -169,6 +183,21 @@ impl Axis {
         };
         (0..count).map(value).collect()
     }
+}
+
+/// What stands between the names of a heading: the sign that gives the most that are known.
+fn separator_of(heading: &str) -> Separator {
+    let known =
+        |separator: &Separator| separator.cells(heading).iter().filter(|cell| find(&with_unit(cell).0).is_ok()).count();
+    let signs = [Separator::Sign(','), Separator::Sign(';'), Separator::Sign('\t')];
+    // the first of equals
+    signs.into_iter().rev().max_by_key(known).unwrap_or(Separator::Sign(','))
+}
+
+/// The name in a heading, and the unit that follows in brackets.
+fn with_unit(heading: &str) -> (String, Option<String>) {
+    let parts = heading.strip_suffix(']').and_then(|rest| rest.split_once('['));
+    parts.map_or((heading.into(), None), |(name, unit)| (name.trim().into(), Some(unit.trim().into())))
 }
 
 /// The quantity `name` with its unit.
