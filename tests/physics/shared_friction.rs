@@ -153,6 +153,40 @@ fn a_box_that_slides_loses_the_work_of_friction() {
     assert!((lost / work - 1.0).abs() < 1e-6, "{lost} instead of {work} J");
 }
 
+/// The limits of the springs follow the normal force with its loss, and what sticks doesn't reach its limit. Another speed of the bodies
+/// changes the normal force, and not the pull; on a dent that has grown, a little slips at the edge.
+#[test]
+fn what_sticks_pulls_alike_whatever_a_loss_makes_of_the_normal_force() {
+    for law in [("hertz", "contact-radius"), ("brinell", "brinell"), ("thornton", "thornton")] {
+        let loss = AnyLoss::RestitutionFitted(RestitutionFitted { restitution: 0.5 });
+        let model = LosingModel { loss, ..losing(law, 10.0) };
+        let entries = vec![250.0, 0.0, 250.0];
+        let mut group: Group<LosingModel, LosingOneWay> =
+            Group::new(vec![model], &[0.0], entries, vec![0.0; 2], vec![0.5, 1e-3]);
+        let mut pressed = 0;
+        for _ in 0..100 {
+            group.step(1e-6);
+            let (contact, model, rate) = (&group.contacts[0], &group.models[0], group.rates[0]);
+            let force = |part: f64| Contact::<LosingModel>::force(contact, part * rate);
+            let [at_rest, moving] = [force(0.0), force(1.0)];
+            if at_rest < 1.0 || moving < 0.1 * at_rest {
+                continue;
+            }
+            pressed += usize::from((moving / at_rest - 1.0).abs() > 0.01);
+            let [pull] = contact.tangential_forces(model, 0.0);
+            for part in [0.5, 1.0] {
+                let [other] = contact.tangential_forces(model, part * rate);
+                assert!(
+                    (other - pull).abs() < 1e-4 * pull.abs(),
+                    "{law:?}, {indentation}, {at_rest} {moving} N: {pull} at rest, {other} at {rate} m/s",
+                    indentation = contact.normal().indentation()
+                );
+            }
+        }
+        assert!(pressed > 10, "{law:?}: {pressed} steps");
+    }
+}
+
 /// Balls of 1 g to 1 kg on each other and on the ground, dropped from up to 10 um with a slip at the ground, and their number.
 fn random_stack<C: Contact<LosingModel> + SharedContact<LosingModel>>(random: &mut Random) -> Group<LosingModel, C> {
     let rows = 1 + <C as Contact<LosingModel>>::DIRECTIONS;
