@@ -1,11 +1,13 @@
 //! A contact with friction behaves like every contact: steps on courses, momentum, prediction, saved states.
 
 use crate::friction::assert_close;
-use crate::physics::{MASS, Random, mild};
+use crate::physics::{MASS, Random, all_models, mild};
 use brinell_contact::damped::{AnyDamped, Damped};
 use brinell_contact::history::path::RatePolynomial;
+use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::{Friction, FrictionalContact, FrictionalModel, Mean, Quantity, Sliding, Springs};
-use brinell_contact::{Contact, History, loading, losses, rate, unloading};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Contact, History, Surface, loading, losses, rate, unloading};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const STEP: f64 = 1e-6;
@@ -176,5 +178,43 @@ fn a_contact_without_friction_has_no_tangential_quantities_whatever_its_law() {
     check::<_, losses::History<_>>("losses", &losses::Model { plastic: slow, loss });
     for (name, law) in AnyDamped::ALL {
         check::<_, losses::History<_>>(name, &law.model(mild(), 0.6, MASS));
+    }
+}
+
+/// A contact knows no more than its words say, wherever it is: also on a fresh surface whose dent lies above it, as it can with some laws.
+#[test]
+fn a_contact_that_is_loaded_from_its_words_goes_on_alike_wherever_bodies_part() {
+    type Any = Model<AnyLoading, AnyUnloading>;
+    let words = |contact: &Frictional| {
+        let mut words = Vec::new();
+        Contact::<Any>::save(contact, &mut |word| words.push(word));
+        words
+    };
+    for surface in [Surface::Dented, Surface::Fresh] {
+        for (name, normal) in all_models(mild()) {
+            let normal = brinell_contact::Model { surface, ..normal };
+            let model = FrictionalModel { normal, friction: FRICTION, loss: () };
+            let kept = <Frictional as Contact<Any>>::kept(&model);
+            let go_to = |contact: &mut Frictional, goal: f64| {
+                contact.set_tangential_rate(0.02 * goal / STEP);
+                let way = goal - contact.normal().indentation();
+                contact.step_held(way / STEP, STEP, &kept, || model).expect("within range");
+            };
+            // an elastic law has no yield point
+            let yields_at = normal.yield_point().indentation.min(1e-6);
+            for depth in [0.5, 1.5, 4.0, 30.0].map(|part| part * yields_at) {
+                let mut contact = Frictional::start(&model, 0.0).expect("within range");
+                for part in [0.6, 1.0, 0.3, 0.1, 1e-3, 0.0, -1e-3, -1e-2, -0.1, -0.5, -1.0, 0.2] {
+                    go_to(&mut contact, part * depth);
+                    let (mut here, mut loaded) = (contact, Frictional::load(&mut words(&contact).into_iter(), &model));
+                    let loaded = loaded.as_mut().expect("its own words");
+                    for goal in [0.8 * depth, 0.4 * depth] {
+                        go_to(&mut here, goal);
+                        go_to(loaded, goal);
+                        assert_eq!(words(loaded), words(&here), "{name}, {surface:?}: from {depth} m at {part} of it");
+                    }
+                }
+            }
+        }
     }
 }
