@@ -76,7 +76,7 @@ fn an_impact_of_a_table_has_the_numbers_of_a_sweep_or_its_error() {
         "\u{feff}speed;mass\r\n0,5;0,004\r\n",
         "# of Monday\nspeed\tmass\n0.5\t4 g\n",
         "\"speed [mm/s]\",\"mass [g]\"\n\"500\",\"4\"\n",
-        "sep=;\nspeed [cm/s];mass\n50;4 g\n",
+        "sep=;\nspeed (cm/s);mass\n50;4 g\n",
     ]
     .map(|table| {
         folder.write("impacts.csv", table);

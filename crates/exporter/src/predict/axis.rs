@@ -196,7 +196,7 @@ fn separator_of(heading: &str) -> Separator {
 
 /// The name in a heading, and the unit that follows in brackets.
 fn with_unit(heading: &str) -> (String, Option<String>) {
-    let parts = heading.strip_suffix(']').and_then(|rest| rest.split_once('['));
+    let parts = heading.strip_suffix([']', ')']).and_then(|rest| rest.split_once(['[', '(']));
     parts.map_or((heading.into(), None), |(name, unit)| (name.trim().into(), Some(unit.trim().into())))
 }
 
