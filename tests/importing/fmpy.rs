@@ -164,6 +164,13 @@ fn bodies_that_the_fmu_moves_rebound_as_predicted_and_come_to_rest() {
 }
 
 #[test]
+fn a_master_that_moves_a_falling_ball_wrongly_is_told_so_in_words() {
+    let watched = ball("watched", &format!("{STEEL}{IMPACT}fmu = {{ outputs = [\"predicted_force\"] }}"));
+    let [serial, parallel, ..] = masters();
+    pytest(&["wrong_masters"], [serial, parallel, watched]);
+}
+
+#[test]
 fn calls_states_steps_and_instances_are_those_of_the_standard() {
     pytest(&["call_order", "damaged_state_is_refused", "many_instances", "steps"], [steel_ball_with_regime()]);
 }
