@@ -21,7 +21,7 @@ mod bounce;
 mod examples;
 mod lists;
 mod text;
-mod unit;
+pub mod unit;
 
 use serde_json::{Value, json};
 use std::sync::{Mutex, MutexGuard, PoisonError};

@@ -1,7 +1,7 @@
 //! The FMU of a scene in the page: the code of the libraries, on data that the exporter would write into one of them.
 //!
 //! A scene of a library is a type, and its data stay where they are as long as the library is loaded. So each scene that runs here takes
-//! some memory for ever: the page loads its module anew for each.
+//! some memory for ever: the page loads its module anew for each. Tests of instances in Rust run the same code, compiled once.
 
 use brinell_exporter::prebuilt::PrebuiltUnit;
 use brinell_fmu::fmi2::component::{instance_in, words_of_instance};
@@ -23,7 +23,7 @@ thread_local! {
 const LIBRARY: u64 = 1;
 
 /// The place of the block.
-struct Place;
+pub struct Place;
 
 impl Memory for Place {
     fn contents() -> Contents<'static> {
@@ -85,6 +85,11 @@ impl<S: Scene> Unit for Instance<S> {
     }
 }
 
+/// Has the FMU `unit` as the scene of [`Place`] in this thread. Instances of another one must not be used any more.
+pub fn place(unit: &PrebuiltUnit) {
+    BLOCK.set(Box::leak(Box::new(unit.block(LIBRARY))));
+}
+
 /// An instance, or why there is none.
 type Made = Result<&'static mut dyn Unit, String>;
 
@@ -93,7 +98,7 @@ type Made = Result<&'static mut dyn Unit, String>;
 /// # Errors
 /// A reason in words, if the page does not know its library.
 pub fn instances(unit: &PrebuiltUnit, count: usize) -> Result<Vec<&'static mut dyn Unit>, String> {
-    BLOCK.set(Box::leak(Box::new(unit.block(LIBRARY))));
+    place(unit);
     let name = unit.library.name;
     let make: Option<fn() -> Made> = for_library!(name, Place, made);
     let make = make.ok_or_else(|| format!("the page does not know the library `{name}`"))?;

@@ -5,32 +5,9 @@ use brinell_exporter::{plan::Plan, prebuilt::PrebuiltUnit, scene};
 use brinell_fmu::fmi2::component::{instance_in, words_of_instance};
 use brinell_fmu::for_library;
 use brinell_fmu::instance::{Fault, Instance, Plain};
-use brinell_fmu::scene::library::Memory;
-use brinell_fmu::scene::library::block::{Block, Contents};
 use brinell_fmu::scene::{Real, Scene};
 use brinell_testing::histories::{Answer, Call, Detour, Way};
-use std::cell::Cell;
-
-thread_local! {
-    /// The block of the scene that this thread runs; a scene stays for ever.
-    static BLOCK: Cell<&'static Block> = Cell::new(Box::leak(Box::new(Block::unfilled(LIBRARY))));
-}
-
-/// Identifies the library: nothing but this file writes the data.
-const LIBRARY: u64 = 1;
-
-/// The place of the block.
-struct Place;
-
-impl Memory for Place {
-    fn contents() -> Contents<'static> {
-        BLOCK.get().contents()
-    }
-
-    fn verify() -> Result<(), &'static str> {
-        Ok(())
-    }
-}
+use brinell_web::unit::{self, Place};
 
 /// An instance, with two others for its detours and what it keeps.
 struct InRust<S: Scene + 'static> {
@@ -41,10 +18,10 @@ struct InRust<S: Scene + 'static> {
 
 /// A scene as a way, and the name of its kind.
 pub fn of(scene: &scene::Scene) -> (Box<dyn Way>, &'static str) {
-    let unit = PrebuiltUnit::of(&Plan::of(scene), "").expect("a scene for a prebuilt library");
-    BLOCK.set(Box::leak(Box::new(unit.block(LIBRARY))));
-    let way: Option<fn() -> Box<dyn Way>> = for_library!(unit.library.name, Place, way);
-    (way.expect("a kind of the list")(), unit.library.name)
+    let prebuilt = PrebuiltUnit::of(&Plan::of(scene), "").expect("a scene for a prebuilt library");
+    unit::place(&prebuilt);
+    let way: Option<fn() -> Box<dyn Way>> = for_library!(prebuilt.library.name, Place, way);
+    (way.expect("a kind of the list")(), prebuilt.library.name)
 }
 
 /// An instance in memory that is never freed, since its scene isn't either.
