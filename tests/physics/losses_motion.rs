@@ -68,7 +68,7 @@ fn bodies_that_leave_a_surface_that_lags_behind_them_may_come_back_within_the_sa
                 step: -2.2 * speed / acceleration,
                 depth: yields.indentation,
             };
-            found.add(&name, &start, (&[100], 2e-9, 1e-9), |_| ());
+            found.add(&name, &start, (&[100], 2e-9, [1e-9; 2]), |_| ());
         }
     }
     found.finish("a surface that lags behind");

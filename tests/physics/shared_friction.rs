@@ -235,9 +235,10 @@ fn stacks<C: Contact<LosingModel> + SharedContact<LosingModel> + Clone>(seed: u6
             group.try_step(1e-3).unwrap_or_else(|refused| panic!("stack {index}, step {step}: {refused:?}"));
             // the weight of the lightest body on a micrometre is little
             let energy = group.energy() + 1e-6 * G / most;
-            assert!(group.imbalance < 1e-10 * energy, "{index}: {:e} of {energy:e} J", group.imbalance);
+            // while a dent grows, the springs store a little too much for a time
+            assert!(group.imbalance < 1e-7 * energy, "{index}: {:e} of {energy:e} J", group.imbalance);
             let gained = before - lost(&group);
-            assert!(gained < 1e-6 * energy, "stack {index}, step {step}: gained {gained:e} of {energy:e} J");
+            assert!(gained < 1e-15 * energy, "stack {index}, step {step}: gained {gained:e} of {energy:e} J");
             if step % 4 == 0 {
                 (0..3).for_each(|_| cut.step(1e-3 / 3.0));
                 differences.push(group.difference(&cut, (2.0 * energy * most).sqrt(), 1e-5));

@@ -164,7 +164,7 @@ pub trait SharedContact<M>: PlasticContact<M> {
     fn take_up(&mut self, _work: f64) {}
 
     /// Notes what friction did over a `step` \[s\].
-    fn end_step(&mut self, _rows: &[Row; 3], _step: f64) {}
+    fn end_step(&mut self, _model: &M, _rows: &[Row; 3], _step: f64) {}
 }
 
 impl<L: Loading, U: Unloading> SharedContact<Model<L, U>> for History {
@@ -302,7 +302,7 @@ fn follow_with_friction<C: SharedContact<M>, M, B: Borrow<M>>(
         }
     }
     for (place, (contact, member)) in contacts.iter_mut().zip(work).enumerate() {
-        member.contact.end_step(&member.rows, step);
+        member.contact.end_step(model(place).borrow(), &member.rows, step);
         *contact = member.contact;
         for (rate, row) in rates.iter_mut().skip(place).step_by(count).zip(member.rows()) {
             *rate = row.rate;

@@ -125,7 +125,10 @@ impl<L: Loading + Copy, U: Unloading + Copy, const D: usize, const M: usize, con
         self.work = self.work.plus(work);
     }
 
-    fn end_step(&mut self, rows: &[Row; 3], step: f64) {
+    fn end_step(&mut self, model: &FrictionalModel<L, U, N::Loss>, rows: &[Row; 3], step: f64) {
+        if MEAN {
+            self.lost = self.friction_work(model);
+        }
         let tangents = rows.iter().skip(1);
         for (row, (impulse, mean)) in tangents.zip(self.impulse.iter_mut().zip(&mut self.mean_force)) {
             *impulse = impulse.plus(row.impulse());
