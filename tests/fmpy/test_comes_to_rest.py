@@ -6,11 +6,11 @@ from unit import unit
 GRAVITY, HEIGHT, MASS = 9.81, 0.5, 4.1e-3
 
 
-@pytest.mark.parametrize("name", ["fitted_moved", "waves_moved", "plate_moved", "hunt", "kelvin"])
+@pytest.mark.parametrize("name", ["fitted_moved", "waves_moved", "plate_moved", "hunt_moved", "kelvin_moved"])
 def test_a_dropped_ball_comes_to_rest(name):
     ball = unit(name).ready(initial_gap=HEIGHT)
-    wired = "external_acceleration" in unit(name).reference
-    step, time, speed = 1e-3, 0.0, 0.0
+    wired = "external_acceleration" in unit(name).inputs
+    step, time, speed = 4e-3, 0.0, 0.0
     energy = MASS * GRAVITY * HEIGHT
     worst, left = 0.0, 1.0
     while left > 1e-6:
@@ -37,14 +37,3 @@ def test_a_dropped_ball_comes_to_rest(name):
         left = (kinetic + ball.get("elastic_energy") + MASS * GRAVITY * above) / energy
     assert worst <= 1e-9
     assert abs(ball.get("dissipated_energy") / energy - 1.0) < 1e-2
-
-
-@pytest.mark.parametrize("loss", ["fitted", "waves", "plate"])
-def test_the_description_says_whether_the_force_follows_the_input(loss):
-    def follows_rate(name):
-        (force,) = (unknown for unknown in unit(name).description.outputs if unknown.variable.name == "force")
-        return "indentation_rate" in [known.name for known in force.dependencies]
-
-    assert follows_rate(f"{loss}_held") == (loss != "plate")
-    # bodies that the FMU moves have their own speed
-    assert not follows_rate(f"{loss}_moved")

@@ -40,8 +40,6 @@ def test_a_constant_input_presses_from_the_start_time_of_the_caller(name, start)
 
 
 def test_parameters_can_be_given():
-    if "steel_ball" not in paths():
-        pytest.skip("another set of scenes")
     forces = []
     for strength in (200e6, 400e6):
         result = fmpy.simulate_fmu(
@@ -50,3 +48,17 @@ def test_parameters_can_be_given():
         )
         forces.append(result["force"][-1])
     assert 1.5 < forces[1] / forces[0] < 2.5, "in the plastic range the force is close to proportional to the strength"
+
+
+def test_a_contact_with_friction_takes_both_rates_as_a_table():
+    stop, step = 4e-6, 1e-7
+    dtype = [("time", float), ("indentation_rate", float), ("tangential_rate", float)]
+    signals = np.array([(0.0, 2.0, 0.1), (stop, 2.0, 0.1)], dtype=dtype)
+    result = fmpy.simulate_fmu(
+        paths()["oblique"], stop_time=stop, step_size=step, output_interval=step, input=signals,
+        output=["force", "tangential_force", "sliding"],
+    )  # fmt: skip
+    assert result["tangential_force"][-1] > 0.0
+    assert all(result["tangential_force"] <= 0.092 * result["force"] * (1.0 + 1e-12))
+    # a constant ratio of the rates below the coefficient: no part slips
+    assert list(result["sliding"][2:]) == [1] * (len(result) - 2)

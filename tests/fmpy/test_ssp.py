@@ -19,7 +19,7 @@ SPACES = {name: f"http://ssp-standard.org/SSP1/SystemStructure{rest}" for name, 
 
 
 def brinell(folder, *arguments):
-    command = [os.environ["BRINELL_TEST_PROGRAM"], "ssp", *map(str, arguments)]
+    command = [os.environ["BRINELL"], "ssp", *map(str, arguments)]
     run = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
 

@@ -38,13 +38,14 @@ fn have(packages: &[&str], skipped: &str) -> bool {
         skips::skipped(skipped, "a large engine; BRINELL_ENGINES=all adds it");
         return false;
     }
-    let has =
-        |package: &str| output(interpreter(packages).args(["-c", &format!("import {package}")])).status == Some(0);
-    let missing: Vec<_> = packages.iter().filter(|package| !has(package)).collect();
-    if !missing.is_empty() {
-        skips::skipped(skipped, &format!("{missing:?} can't be installed here"));
+    // not imported: that takes seconds
+    let find = "import sys\nfrom importlib.util import find_spec\n\
+                print(*(name for name in sys.argv[1:] if not find_spec(name.split('.')[0])))";
+    let missing = output(interpreter(packages).args(["-c", find]).args(packages)).out;
+    if !missing.trim().is_empty() {
+        skips::skipped(skipped, &format!("{} can't be installed here", missing.trim()));
     }
-    missing.is_empty()
+    missing.trim().is_empty()
 }
 
 /// An example with its packages.
@@ -286,8 +287,8 @@ pub fn with_scipy(variable: &str, folder: &Path, file: &str) {
 }
 
 #[test]
-fn studies_run_completely() {
-    pytest(&["test_study.py"], &["scipy", "pyarrow", "matplotlib"], "studies");
+fn studies_run_completely_and_uncertain_inputs_give_bands() {
+    pytest(&["test_study.py", "test_uncertainty.py"], &["scipy", "pyarrow", "matplotlib"], "studies");
 }
 
 const FOR_FITS: [&str; 5] = ["scipy", "matplotlib", "pandas", "openpyxl", "pyarrow"];
@@ -296,10 +297,10 @@ const FOR_FITS: [&str; 5] = ["scipy", "matplotlib", "pandas", "openpyxl", "pyarr
 fn fits_find_what_made_a_measurement() {
     let files = ["test_measurements.py", "test_fit.py", "test_fit_choices.py"];
     if long::leaves_out("fits that take longest") {
-        // beside each of them a quicker one says nearly the same: of the hardening, of each constant alone, of the record, of each result
-        // alone, of one strength that was read, of intervals of a few points
-        let longest = "constant_that_would_be_negative or planted_strength_and_rate or whole_record_is_fitted or several_kinds_are_weighted \
-                       or was_read_in_any_way or bootstrap_and_linearised";
+        // beside each of them a quicker one says nearly the same: of the record, of each result alone, of one strength that was read, of
+        // intervals of a few points
+        let longest =
+            "whole_record_is_fitted or several_kinds_are_weighted or was_read_in_any_way or bootstrap_and_linearised";
         pytest(&[&files[..], &["-k", &format!("not ({longest})")]].concat(), &FOR_FITS, "fits");
     } else {
         pytest(&files, &FOR_FITS, "fits");
@@ -312,11 +313,6 @@ fn intervals_of_fits_contain_what_made_a_measurement() {
     if std::env::var_os("BRINELL_COVERAGE").is_some() || !long::leaves_out("how often intervals of fits are right") {
         pytest(&["test_coverage.py"], &["scipy", "pandas"], "intervals of fits");
     }
-}
-
-#[test]
-fn uncertain_inputs_give_bands() {
-    pytest(&["test_uncertainty.py"], &["scipy", "pyarrow", "matplotlib"], "uncertainty");
 }
 
 #[test]

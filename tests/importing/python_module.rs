@@ -1,4 +1,4 @@
-//! The Python module in python/brinell: one test for each file in tests/python/.
+//! The Python module in python/brinell: tests/python/. What takes more packages: engines.rs.
 
 use crate::pytest;
 use crate::unit::{export, scene, write_scene};
@@ -48,42 +48,13 @@ fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
-/// Runs tests/python/`file` with the FMUs of [`scenes`].
-fn pytest(file: &str) {
-    pytest::pytest(&mut pytest::with_units(scenes()), "python", &[file]);
-}
-
 #[test]
-fn a_contact_steps_tells_and_ends() {
-    pytest("test_contact.py");
-}
-
-#[test]
-fn a_hostile_fmu_is_refused_with_the_programs_reason() {
+fn contacts_and_the_program_in_python_do_what_they_say_and_refuse_what_the_program_refuses() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let all = hostile::write_all(&export(&scene("steel_ball")), folder.path());
     let said: HashMap<_, _> = all.iter().map(|(path, hostile)| (path, hostile.said)).collect();
     std::fs::write(folder.path().join("said.json"), serde_json::to_string(&said).unwrap()).unwrap();
-    let mut python = pytest::with_units([]);
-    pytest::pytest(python.env("BRINELL_TEST_HOSTILE", folder.path()), "python", &["test_hostile.py"]);
-}
-
-#[test]
-fn a_contact_with_friction_takes_a_tangential_rate() {
-    pytest("test_friction.py");
-}
-
-#[test]
-fn several_contacts_are_arrays() {
-    pytest("test_several_contacts.py");
-}
-
-#[test]
-fn states_threads_and_many_at_once() {
-    pytest("test_states_and_threads.py");
-}
-
-#[test]
-fn the_program_answers_as_numbers_and_arrays() {
-    pytest("test_program.py");
+    let topics = ["contact", "friction", "hostile", "program", "several_contacts", "states_and_threads"];
+    let files = topics.map(|topic| format!("test_{topic}.py"));
+    pytest::pytest(pytest::with_units(scenes()).env("BRINELL_TEST_HOSTILE", folder.path()), "python", &files);
 }

@@ -5,14 +5,14 @@ import os
 import re
 import subprocess
 from collections import namedtuple
-from pathlib import Path
 
 import numpy as np
 from pytest import approx
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
+from units import SCENES
 
-SCENE = Path(os.environ["BRINELL_TEST_SCENES"]) / "mass_known.toml"
+SCENE = SCENES / "mass_known.toml"
 PHASES = (np.arange(20) + 0.5) / 20
 
 

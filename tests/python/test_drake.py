@@ -80,18 +80,6 @@ def test_the_unit_ends_where_bodies_that_turn_do(unit):
             assert np.abs(attached.gaps + attached.contact["indentation"]).max() < 2e-12
 
 
-def test_a_body_turns_by_its_spin(unit):
-    simulator, plant, context = world({"ball": ball(0.1, 5e-3)})
-    put(plant, context, "ball", [0.0, 0.0, 1.0])
-    plant.SetVelocities(context, [100.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-    body = plant.GetBodyByName("ball")
-    with brinell.drake.attach(plant, simulator, [(Sphere(body, 5e-3), Plane())], unit(1)) as attached:
-        for _ in range(100):
-            attached.step()
-    turned = plant.EvalBodyPoseInWorld(context, body).rotation().matrix()
-    assert np.arctan2(turned[2, 1], turned[1, 1]) == pytest.approx(10.0 - 4.0 * np.pi, abs=1e-5)
-
-
 def test_a_box_that_slides_ends_as_in_mujoco(unit):
     """Two engines, each by its own coordinates, masses and Jacobians."""
     mujoco = pytest.importorskip("mujoco")

@@ -1,16 +1,15 @@
 """Measurements for fits: files of any dialect, recognised columns, units, and what is refused."""
 
-import os
 import warnings
-from pathlib import Path
 
 import brinell
 import numpy as np
 import pandas
 import pytest
 from brinell.fits.measured import measured
+from units import SCENES
 
-DATA = Path(os.environ["BRINELL_TEST_SCENES"]).parent / "data/experiment"
+DATA = SCENES.parent / "data/experiment"
 
 
 def read(tmp_path, text, **more):

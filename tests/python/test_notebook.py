@@ -1,13 +1,12 @@
 """The notebooks of the guide run, and print what they show. BRINELL_WRITE=1 writes them anew."""
 
 import os
-from pathlib import Path
 
 import nbclient
 import nbformat
 import pytest
+from units import SCENES
 
-SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
 NOTEBOOKS = sorted((SCENES.parent / "docs/examples").glob("*.ipynb"))
 
 

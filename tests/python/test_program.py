@@ -362,6 +362,7 @@ def test_what_the_program_doubts_is_a_warning_of_python_where_it_was_called(tmp_
         lambda: brinell.predict(scene),
         lambda: brinell.sweep(scene, {"speed": "0.1:1"}),
         lambda: brinell.curve(scene),
+        lambda: brinell.study(scene, {"speed": "0.1:1:2"}),
     )
     for call in calls:
         with pytest.warns(ProgramWarning, match="radius = 5 m; did you mean 5e-3") as told:

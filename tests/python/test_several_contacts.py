@@ -174,10 +174,6 @@ def test_inverse_masses_move_all_contacts_together():
         path = 1e-3 * rates + np.array([0.5e-6 * 9.81, 0.0, 0.0]) - W @ moment
         assert depth == pytest.approx(path, abs=1e-15)
         after = rates + 1e-3 * (np.array([9.81, 0.0, 0.0]) - W @ force)
-        energy = feet["elastic_energy"] + feet["dissipated_energy"]
-        work = force @ rates * 1e-3 + 9.81 * (1e-3 * 1e-3 * force[0] - moment[0])
-        work -= 0.5e-6 * force @ W @ force
-        assert energy.sum() == pytest.approx(work, rel=1e-9)
         # the matrix holds until it is set again
         held = feet.save()
         expected = feet.step(1e-3, after, inverse_masses=W.tolist())

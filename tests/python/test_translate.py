@@ -7,9 +7,9 @@ import brinell
 import numpy as np
 import pytest
 from brinell import ProgramError
-from drops import PHASES, SCENE, law_of_tool, outcome_of, promised_at, stepped, touched, two_spheres
+from drops import PHASES, SCENE, outcome_of, promised_at, stepped, touched, two_spheres
 from in_engines import in_mujoco
-from scipy.integrate import solve_ivp
+from units import LONG, some
 
 RADIUS, MASS = 5e-3, 4e-3
 translated = functools.cache(brinell.translate)
@@ -52,11 +52,12 @@ INTEGRATED = [
 ]
 
 
-@pytest.mark.parametrize(("tool", "name"), INTEGRATED)
+# the law of MotionSolve is that of Adams
+@pytest.mark.parametrize(("tool", "name"), [one for one in INTEGRATED if LONG or one[0] != "motionsolve"])
 def test_the_published_law_integrated_anew_gives_what_is_promised(tool, name):
     way = translated(SCENE, tool, speed=SLOW.get(name))[name]
     assert way.step is None
-    for speed in way.promised["speed"]:
+    for speed in some(way.promised["speed"], 3):
         outcome = outcome_of(tool, name, way.numbers, RADIUS, MASS, speed)
         promise = promised_at(way, speed)
         for quantity, value in outcome.items():
@@ -96,7 +97,7 @@ def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
     # a softened sphere of mdr would be too deep
     for step in (None,) if name == "mdr" else (None, "1e-4"):
         way = translated(SCENE, tool, step=step)[name]
-        for speed in (0.1, 1.0, 3.0):
+        for speed in some((0.1, 1.0, 3.0) if step else (1.0, 3.0, 0.1), 3):
             outcomes = [stepped(tool, name, way.numbers, RADIUS, MASS, speed, way.step, phase) for phase in PHASES]
             promise = promised_at(way, speed)
             for quantity in ("restitution", "contact_time", "depth", "largest_force"):
@@ -104,7 +105,7 @@ def test_the_published_recursion_run_anew_gives_what_is_promised(tool, name):
                 assert mean == pytest.approx(promise[quantity], rel=2e-5), (step, speed, quantity)
 
 
-@pytest.mark.parametrize(("tool", "name"), [one for one in STEPPED if one != ("lammps", "mdr")])
+@pytest.mark.parametrize(("tool", "name"), some((one for one in STEPPED if one != ("lammps", "mdr")), 4))
 def test_between_two_spheres_the_published_recursion_gives_what_is_promised(tool, name, tmp_path):
     balls = two_spheres(tmp_path)
     translation = brinell.translate(balls.scene, tool)
@@ -145,7 +146,7 @@ def test_what_numbers_for_one_mass_do_with_another_is_said(tool, name):
 
 
 def test_at_the_speed_of_the_fit_restitution_and_contact_time_are_the_scenes():
-    for tool, name in INTEGRATED + STEPPED:
+    for tool, name in some(INTEGRATED, 2) + some(STEPPED, 2):
         translation = translated(SCENE, tool, speed=SLOW.get(name))
         promise = promised_at(translation[name], translation.speed)
         at = list(translation.wanted["speed"]).index(translation.speed)
@@ -271,15 +272,6 @@ def test_a_scene_that_a_tool_cannot_express_gets_a_sentence():
     assert any("No tool remembers a dent" in note for note in dented.notes)
 
 
-def test_an_integration_of_this_test_finds_a_wrong_number():
-    way = translated(SCENE, "adams")["impact"]
-    wrong = {**way.numbers, "damping": 1.01 * way.numbers["damping"]}
-    force, pulls = law_of_tool("adams", "impact", wrong, RADIUS, MASS, 1.0)
-    assert touched(force, pulls, MASS, 1.0)["restitution"] != pytest.approx(
-        promised_at(way, 1.0)["restitution"], rel=1e-3
-    )
-
-
 def test_smoothing_that_is_not_published_is_told_as_a_range():
     way = brinell.translate(SCENE, "simscape").ways[0]
     told = next(note for note in way.notes if "cubic" in note)
@@ -291,15 +283,3 @@ def test_smoothing_that_is_not_published_is_told_as_a_range():
 
     for pulls in (False, True):
         assert f"{touched(force, pulls, MASS, 1.0)['restitution']:.3g}" in told
-
-
-def test_scipy_and_the_closed_form_agree_on_a_spring_and_a_damper():
-    z, k = 0.25, 1e7
-    c = 2 * z * np.sqrt(k * MASS)
-    end = solve_ivp(lambda t, y: [y[1], -(k * y[0] + c * y[1]) / MASS], (0, 1e-6), [0, 1.0]).y[1, -1]
-    assert end < 1.0
-    s = np.sqrt(1 - z * z)
-    phase = np.arctan2(2 * z * s, 2 * z * z - 1)
-    outcome = touched(lambda x, w: k * x + c * w, False, MASS, 1.0)
-    assert outcome["restitution"] == pytest.approx(np.exp(-z * phase / s), rel=1e-7)
-    assert outcome["contact_time"] == pytest.approx(phase / s / np.sqrt(k / MASS), rel=1e-7)

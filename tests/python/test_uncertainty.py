@@ -1,8 +1,6 @@
 """Uncertainty forward: bands of predictions and studies."""
 
 import json
-import os
-from pathlib import Path
 
 import brinell
 import numpy as np
@@ -10,8 +8,9 @@ import pandas
 import pytest
 from brinell.program import run
 from scipy import stats
+from units import SCENES
 
-SCENE = Path(os.environ["BRINELL_TEST_SCENES"]) / "mass_known.toml"
+SCENE = SCENES / "mass_known.toml"
 STRENGTH = "target.yield_strength"
 
 

@@ -1,4 +1,4 @@
-"""The FMUs and scenes of these tests."""
+"""The FMUs and scenes of these tests, and how much of them a run takes."""
 
 import json
 import os
@@ -6,8 +6,14 @@ from pathlib import Path
 
 from brinell import Contact
 
-UNITS = json.loads(os.environ["BRINELL_TEST_UNITS"])
-SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
+UNITS = json.loads(os.environ.get("BRINELL_TEST_UNITS", "{}"))
+SCENES = Path(__file__).parents[2] / "scenes"
+LONG = os.environ.get("BRINELL_LONG") == "1"
+
+
+def some(cases, every):
+    """In a long run all of them; in a usual one each `every`-th, so that the first is there."""
+    return list(cases) if LONG else list(cases)[::every]
 
 
 def contact(scene, **arguments):

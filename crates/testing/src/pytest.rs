@@ -7,14 +7,12 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// An interpreter with the module of the project, the program, which finds libraries and no compiler, and the project's scenes.
+/// An interpreter with the module of the project, the program, which finds libraries and no compiler.
 pub fn with_module(interpreter: &Path) -> Command {
     let mut command = Command::new(interpreter);
     prebuilt::finding_no_compiler(python::keeping_modules(&mut command))
         .env("PYTHONPATH", root().join("python"))
-        .env("BRINELL", program())
-        .env("BRINELL_TEST_PROGRAM", program())
-        .env("BRINELL_TEST_SCENES", root().join("scenes"));
+        .env("BRINELL", program());
     command
 }
 

@@ -17,7 +17,6 @@ class TwoDContact in the help of MotionView 2021
 """
 
 import functools
-import os
 import re
 import sys
 import tempfile
@@ -32,7 +31,6 @@ import numpy as np
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parents[2]
 PAGE = FOLDER.parent / "comparison.md"
-os.environ.setdefault("BRINELL_TEST_SCENES", str(ROOT / "scenes"))
 sys.path.insert(0, str(ROOT / "tests/python"))
 import drops
 import in_engines

@@ -191,7 +191,8 @@ pub fn derivatives(face: &Face) {
             }
         }
         assert_eq!(phase_of(&i), Phase::Initialization);
-        assert_eq!(i.exit(), OK);
+        let bits = i.bits();
+        assert_eq!((i.exit(), i.bits()), (OK, bits), "values before the first step");
         i.press(0.1);
     }
 }

@@ -36,6 +36,7 @@ pub const CHECKS: &[Check] = &[
     check("repeated and many references", arguments::repeated_and_many_references),
     check("wrong references", arguments::wrong_references),
     check("times", times::times),
+    check("ways of counting time", times::ways_of_counting),
     check("statuses", times::statuses),
     check("names", instances::names),
     check("resource locations", instances::resource_locations),

@@ -55,6 +55,42 @@ pub fn times(face: &Face) {
     assert_eq!(i.enter(), ERROR, "no initialization without fmi2SetupExperiment");
 }
 
+/// Time may be counted as importers do, anywhere on its axis: as a sum of steps, as multiples of one, and with the step as the difference of two
+/// points. A sum may end behind the stop time by its rounding, and the next step from there is refused; the last experiment counts.
+pub fn ways_of_counting(face: &Face) {
+    let count = 1000usize.div_ceil(face.rates.len());
+    for start in [0.0, -3.0, 1e5] {
+        // at 1e5 s a third of a microsecond is some 20,000 roundings, and a nanosecond 69: ten of these end 4 % of a step late
+        for (step, count) in [(1e-3, count), (STEP / 3.0, count), (0.1, count), (1e-9, 10)] {
+            let begun = |stop| {
+                let i = Importer::new(face);
+                // another experiment before it
+                assert_eq!((i.setup(0.0, Some(1e-9)), i.setup(start, stop)), (OK, OK));
+                assert_eq!((i.enter(), i.exit()), (OK, OK), "{:?}", i.log);
+                i
+            };
+            let point = |number: usize| start + number as f64 * step;
+            let mut sum = start;
+            let (counted, mixed, summed) = (begun(None), begun(None), begun(Some(point(count))));
+            for number in 0..count {
+                let what = format!("step {number} of {step} from {start}");
+                assert_eq!(summed.step(sum, step), OK, "{what}: {:?}", summed.log);
+                assert_eq!(counted.step(point(number), step), OK, "{what}: {:?}", counted.log);
+                assert_eq!(mixed.step(point(number), point(number + 1) - point(number)), OK, "{what}: {:?}", mixed.log);
+                sum += step;
+            }
+            // the points given count, not a sum of the library
+            assert_eq!(counted.real_status(2), (OK, point(count - 1) + step));
+            // where time is known to a step, half a step off is a mistake, and one from the stop time
+            if step > 1e-9 {
+                assert_eq!(summed.step(sum, step), ERROR);
+                assert_eq!(counted.step(point(count) + 0.5 * step, step), ERROR);
+                assert_eq!(mixed.step(point(count) - 0.5 * step, step), ERROR);
+            }
+        }
+    }
+}
+
 /// Questions about the status: what exists is told, the rest is discarded.
 pub fn statuses(face: &Face) {
     let i = Importer::at(face, Phase::StepComplete);

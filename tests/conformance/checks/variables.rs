@@ -70,6 +70,7 @@ pub fn limits(face: &Face) {
             let i = Importer::at(face, Phase::Initialization);
             assert_eq!(i.set(&[variable.reference], &[edge]), OK, "{} = {edge}: {:?}", variable.name, i.log);
             assert_eq!(i.real(variable.reference), edge, "{}", variable.name);
+            goes_on(i, &format!("{} = {edge}", variable.name));
         }
         let beyond = [low.map(f64::next_down), high.map(f64::next_up), Some(f64::NAN)];
         let infinite = [Some(f64::INFINITY), Some(f64::NEG_INFINITY)];
@@ -100,6 +101,21 @@ pub fn limits(face: &Face) {
                 }
             }
         }
+    }
+}
+
+/// Values are finite until a step is refused, because the contact is as wide as its body.
+fn goes_on(mut i: Importer, what: &str) {
+    if i.exit() != OK {
+        return;
+    }
+    for rate in [1e-3, -2e-3, 1.0] {
+        let rates = vec![rate; i.face.rates.len()];
+        if i.set(&i.face.rates, &rates) != OK || i.step(i.time, STEP) != OK {
+            return assert!(!i.messages().is_empty(), "{what}: refused without a word");
+        }
+        i.time += STEP;
+        i.bits();
     }
 }
 
