@@ -39,9 +39,9 @@ fn goes_on<S: Scene>(name: &str, choice: Choice) {
                     break;
                 }
                 instance.set_real((Real::IndentationRate, 0), rate);
-                // before the first step, too, where the surface of some laws has no width; a number of any size may have a slope that is none
-                let orders = if gap >= 0.0 && rate.abs() >= 1e-9 { 1..=2 } else { 1..=0 };
-                for (output, order) in orders.flat_map(|order| OUTPUTS.map(|output| (output, order))) {
+                // before the first step, too, where the surface of some laws has no width; next to no numbers may have no slope
+                let orders: &[i32] = if gap >= 0.0 && rate.abs() >= 1e-9 { &[1, 2] } else { &[] };
+                for (output, order) in orders.iter().flat_map(|&order| OUTPUTS.map(|output| (output, order))) {
                     let slope = instance.output_derivative((output, 0), order);
                     let what = format!("{name}, {output:?} from {gap:e} m at {rate:e} m/s");
                     assert_ne!(slope, Err(Fault::DerivativeNotFinite), "{what}");
