@@ -1,6 +1,6 @@
 //! The texts of an FMU in its model description and on its documentation page must be true for its kind.
 
-use crate::loaded::{ERROR, Unit};
+use crate::loaded::{ERROR, Instance, Unit};
 use crate::unit::{self, write_scene};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -88,6 +88,47 @@ fn an_fmu_without_input_derivatives_is_smaller_and_names_the_key() {
     assert_eq!(instance.set_derivatives(&[rate], 1, &[1.0]), ERROR);
     let said = instance.message();
     assert!(said.ends_with("have no derivatives: its scene has input_derivatives = false"), "{said}");
+}
+
+/// A call of a unit that is refused: `1`, `2`, `3` and `by` set derivatives of this order of a variable, or ask for one by it.
+const REFUSED: &str = "\
+oblique set tangential_rate nan: tangential_rate = NaN is not finite
+oblique set indentation_rate inf: indentation_rate = infinity is not finite
+oblique set tangential_rate -2e40: tangential_rate = -2e40 is out of range: allowed is -1e40 to 1e40 m/s
+oblique parameter friction.coefficient 10.1: friction.coefficient = 10.1 is out of range: allowed is 0 to 10
+oblique parameter friction.coefficient -1e-3: friction.coefficient = -0.001 is out of range: allowed is 0 to 10
+oblique set tangential_force 1: an output can't be set
+oblique 3 tangential_rate 1: there is no derivative of order 3: allowed is 1 or 2
+oblique 1 tangential_rate nan: a derivative of tangential_rate = NaN is not finite
+oblique 1 tangential_rate 1e50: a derivative of tangential_rate = 1e50 is out of range: allowed is -1e40 to 1e40 m/s^2
+oblique 1 tangential_force 1: only derivatives of indentation_rate and tangential_rate exist
+oblique by tangential_force 1: only derivatives by indentation_rate and tangential_rate exist
+steel_ball 2 indentation_rate -1e41: a derivative of indentation_rate = -1e41 is out of range: allowed is -1e40 to 1e40 m/s^3
+steel_ball 1 force 1: only derivatives of indentation_rate exist
+steel_ball by target.yield_strength 1: only derivatives by indentation_rate exist
+mass_known 2 indentation_rate 1: there is no derivative of order 2: allowed is 1
+wired set external_acceleration nan: external_acceleration = NaN is not finite
+wired set external_acceleration 1e305: external_acceleration = 1e305 is out of range: allowed is -1e40 to 1e40 m/s^2
+wired 1 indentation_rate 9.81: inputs of this FMU have no derivatives: external_acceleration is the input for the acceleration
+damped 1 indentation_rate 9.81: inputs of this FMU have no derivatives: its law depends on the rate
+";
+
+#[test]
+fn a_refused_call_is_told_with_the_variable_its_value_and_what_is_allowed() {
+    for line in REFUSED.lines() {
+        let (call, words) = line.split_once(": ").expect("a call and what is said");
+        let [scene, what, name, value] = call.split(' ').collect::<Vec<_>>()[..] else { panic!("{call}") };
+        let unit = Unit::load(&unit::scene(scene));
+        let mut instance: Instance = if what == "parameter" { unit.instantiate() } else { unit.ready() };
+        let (variable, value) = ([instance.real_of(name)], [value.parse().expect("a number")]);
+        let status = match what {
+            "set" | "parameter" => instance.set(&variable, &value),
+            "by" => instance.directional(&[instance.real_of("force")], variable[0], &mut [0.0]),
+            order => instance.set_derivatives(&variable, order.parse().expect("an order"), &value),
+        };
+        let said = instance.take_message();
+        assert!(status == ERROR && said.contains(words), "{call}: {said}");
+    }
 }
 
 /// Stronge's law is above Hertz's just after yield, and returns more energy than it took; its dents may be above the surface.

@@ -74,6 +74,10 @@ fn a_compiled_library_has_the_laws_and_constants_of_its_scene_alone() {
         assert!(written.rust.contains(has) && !written.rust.contains(has_not), "{has}: {}", written.rust);
         assert_eq!(written.has_number(1.15), text.contains("1.15"), "{}", written.rust);
     }
+    for (more, hardens) in [("", false), ("\nhardening_modulus = 1e9", true)] {
+        let text = plain("loading = \"brinell\"").replace("steel\"", &format!("steel\"{more}"));
+        assert_eq!(Written::of(&text).has_text("target.hardening_modulus"), hardens);
+    }
     // the strength of a material is a parameter only if it is below that of the target
     for (impactor, is_parameter) in [
         ("material = \"aluminium 6061-T6\"", true),

@@ -46,12 +46,14 @@ struct Crate {
     speed: Vector,
     spin: Vector,
     place: Vector,
+    angle: Vector,
     time: f64,
 }
 
 impl Crate {
     fn new(directions: usize) -> Crate {
-        Crate { directions, speed: [0.2, 0.1, -0.15], spin: [0.5, -1.0, 2.0], place: [0.0; 3], time: 0.0 }
+        let (speed, spin) = ([0.2, 0.1, -0.15], [0.5, -1.0, 2.0]);
+        Crate { directions, speed, spin, place: [0.0; 3], angle: [0.0; 3], time: 0.0 }
     }
 
     /// The directions of the rows: normal, first and second tangent.
@@ -109,6 +111,7 @@ impl Crate {
             *place += length * (*speed + 0.5 * length * gravity);
             *speed += length * gravity;
         }
+        self.angle.iter_mut().zip(self.spin).for_each(|(angle, spin)| *angle += length * spin);
         for (index, force) in forces.iter().enumerate() {
             let (arm, axis) = (FEET[index / rows], self.axes()[index % rows]);
             for k in 0..3 {
@@ -153,8 +156,21 @@ fn a_crate_loses_what_its_feet_take_up() {
             // the bodies are displaced by the moments of the impulses
             let moments = body.read(&instance, "impulse_moment", "tangential_impulse_moment");
             for (index, moment) in moments.iter().enumerate() {
-                let axis = body.axes()[index % (1 + directions)];
-                (0..3).for_each(|k| body.place[k] -= moment * axis[k] / MASS);
+                let (arm, axis) = (FEET[index / (1 + directions)], body.axes()[index % (1 + directions)]);
+                for k in 0..3 {
+                    body.place[k] -= moment * axis[k] / MASS;
+                    body.angle[k] -= moment * cross(arm, axis)[k] / INERTIA[k];
+                }
+            }
+            for (foot, arm) in FEET.into_iter().enumerate() {
+                let axis = body.axes()[0];
+                let off = dot(axis, body.place) + dot(cross(arm, axis), body.angle)
+                    - instance.real(&format!("f{foot}.indentation"));
+                assert!(
+                    off.abs() < 1e-15 * (1.0 + 1e4 * body.time),
+                    "{name}: foot {foot} is off by {off:e} m after {}",
+                    body.time
+                );
             }
             let names = ["elastic_energy", "dissipated_energy", "tangential_energy", "friction_work"];
             let taken: f64 = names

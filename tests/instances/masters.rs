@@ -2,32 +2,38 @@
 //! strength of each impact from its closing speed. Each importer is used with the scene made for it.
 
 use crate::physics::{AnyModel, Random, all_models, mild, model};
-use crate::scenes::{self, Choice, Chosen, Rated};
+use crate::scenes::{self, Choice, Chosen, Rated, ready, words};
 use brinell_contact::impact::{self, Impact, Prediction, predict};
 use brinell_contact::rate::{Factors, Model, Rate};
 use brinell_contact::{Loading, Surface};
 use brinell_fmu::scene::{Absent, Coupled, Present, Real, Scene};
 use brinell_testing::masters::{MASS, Master, PATTERNS, Parallel, Serial, WiredParallel, WiredSerial, choice};
 
-/// Runs `one` with both kinds of importers, with input derivatives and with inputs.
-fn with_each_master(choice: Choice, mut one: impl FnMut(&str, &mut dyn AnyMaster)) {
-    one("serial", &mut Master::<Serial>::new(choice, false, false, 1.0, 0.0));
-    one("parallel", &mut Master::<Parallel>::new(choice, true, false, 1.0, 0.0));
-    one("serial, wired", &mut Master::<WiredSerial>::new(choice, false, true, 1.0, 0.0));
-    one("parallel, wired", &mut Master::<WiredParallel>::new(choice, true, true, 1.0, 0.0));
+/// Runs `one` with both kinds of importers, with input derivatives and with inputs, at this speed and gravity.
+fn with_each_master(choice: Choice, speed: f64, gravity: f64, mut one: impl FnMut(&str, &mut dyn AnyMaster)) {
+    one("serial", &mut Master::<Serial>::new(choice, false, false, speed, gravity));
+    one("parallel", &mut Master::<Parallel>::new(choice, true, false, speed, gravity));
+    one("serial, wired", &mut Master::<WiredSerial>::new(choice, false, true, speed, gravity));
+    one("parallel, wired", &mut Master::<WiredParallel>::new(choice, true, true, speed, gravity));
 }
 
 /// An importer for any scene.
 trait AnyMaster {
     fn step(&mut self, step: f64);
+    fn get(&self, output: Real) -> f64;
     fn speed(&self) -> f64;
     fn has_parted(&self) -> bool;
     fn is_miswired(&mut self) -> bool;
+    /// Goes on with a new instance that is loaded from the words of the old one.
+    fn reload(&mut self);
 }
 
 impl<S: Scene> AnyMaster for Master<S> {
     fn step(&mut self, step: f64) {
         Master::step(self, step);
+    }
+    fn get(&self, output: Real) -> f64 {
+        Master::get(self, output)
     }
     fn speed(&self) -> f64 {
         self.speed
@@ -37,6 +43,11 @@ impl<S: Scene> AnyMaster for Master<S> {
     }
     fn is_miswired(&mut self) -> bool {
         self.instance.take_miswired().is_some()
+    }
+    fn reload(&mut self) {
+        let bytes: Vec<_> = words(&self.instance).iter().map(|word| word.to_le_bytes()).collect();
+        self.instance = ready::<S>();
+        assert!(self.instance.load(&bytes), "its own words are refused");
     }
 }
 
@@ -52,7 +63,7 @@ fn a_rebound_is_the_predicted_one_whatever_the_master_and_its_steps() {
         for (row, size) in SIZES.into_iter().enumerate() {
             for pattern in PATTERNS {
                 let mut kind = 0;
-                with_each_master(choice(&model, Surface::Dented, 0.4 * size), |master_name, master| {
+                with_each_master(choice(&model, Surface::Dented, 0.4 * size), 1.0, 0.0, |master_name, master| {
                     let mut random = Random(11);
                     let mut count = 0;
                     while !master.has_parted() {
@@ -74,6 +85,40 @@ fn a_rebound_is_the_predicted_one_whatever_the_master_and_its_steps() {
         .iter()
         .zip(worst)
         .for_each(|(size, errors)| println!("{size:e} s: {}", errors.map(|error| format!("{error:.1e}")).join(" ")));
+}
+
+/// What it loses is what the contact has taken up, and no master is told anything, also where the instance is restored again and again.
+#[test]
+fn a_ball_bounces_by_the_balance_of_energy_with_each_master_and_from_restored_states() {
+    let (mut worst, mut bounces) = (0.0f64, 0);
+    for (place, (name, model)) in all_models(mild()).into_iter().enumerate() {
+        let (surface, pattern) = ([Surface::Dented, Surface::Fresh][place % 2], PATTERNS[place / 2 % 4]);
+        for (size, gravity) in [(3e-5, 50.0), (1e-3, 9.81), (5e-3, 9.81)] {
+            with_each_master(choice(&model, surface, 0.0), 0.5, gravity, |master_name, master| {
+                let (mut random, mut given) = (Random(5), 0.0);
+                for count in 0..usize::min(3000, (0.5 / size) as usize) {
+                    if count % 7 == 3 {
+                        master.reload();
+                    }
+                    master.step(size * pattern.factor(count, &mut random));
+                    let what = format!("{name}, {surface:?}, {master_name}, {size} s, {pattern:?}, step {count}");
+                    assert!(!master.is_miswired(), "{what}");
+                    let kinetic = 0.5 * MASS * master.get(Real::ClosingSpeed).powi(2);
+                    let potential = MASS * gravity * master.get(Real::Indentation);
+                    let error = (kinetic - potential + master.get(Real::Work)) / (0.125 * MASS) - 1.0;
+                    worst = worst.max(error.abs());
+                    assert!(error.abs() < 1e-9, "{what}: {error:e}");
+                    let impulse = master.get(Real::Impulse);
+                    if master.get(Real::Force) == 0.0 {
+                        bounces += u32::from(impulse > given);
+                        given = impulse;
+                    }
+                }
+            });
+        }
+    }
+    println!("largest error of the energy: {worst:.1e}, {bounces} bounces");
+    assert!(bounces > 10_000, "{bounces}");
 }
 
 type RatedSerial = Chosen<Rated, 1, Present>;

@@ -187,7 +187,9 @@ impl Features {
             () if ellipse => vec!["brinell", "hertz"],
             () => AnyLoading::of_balls().map(|law| law.0).collect(),
         };
-        let loading = names[(random.next() * names.len() as f64) as usize];
+        let own = names[(random.next() * names.len() as f64) as usize];
+        // the usual law has most features
+        let loading = if names.contains(&"brinell") && random.next() < 0.2 { "brinell" } else { own };
         let (damped, own_curve) = (is_rate_dependent(loading), loading == "own");
         // friction goes with a loss or a mass only where contacts share bodies
         let friction = friction && round && !damped;
@@ -228,12 +230,18 @@ impl Features {
             Shape::Roller => format!("shape = \"cylinder\"\nradius = {size:e}\nlength = 0.02\n"),
         };
         if random.next() < 0.5 {
-            text += "youngs_modulus = 210e9\npoissons_ratio = 0.29\n";
+            text += one(
+                random,
+                &["youngs_modulus = 210e9\npoissons_ratio = 0.29\n", "youngs_modulus = 70e9\npoissons_ratio = 0.22\n"],
+            );
             if random.next() < 0.5 {
                 text += &self.strength(random, "impactor");
             }
         }
-        text += "[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\ndensity = 7850.0\n";
+        text += &format!(
+            "[target]\nyoungs_modulus = 206e9\npoissons_ratio = {}\ndensity = 7850.0\n",
+            one(random, &["0.3", "0.2", "0.45"])
+        );
         text += &self.strength(random, "target");
         if self.lossy && !self.damped && random.next() < 0.3 {
             text += "plate_thickness = 0.01\n";
@@ -241,7 +249,11 @@ impl Features {
             text += &match self.shape {
                 Shape::Ball => perhaps(random, 0.25, &["radius = -0.05\n", "radius = 0.03\n"]),
                 Shape::Ellipse => perhaps(random, 0.3, &["radius = [-0.2, \"flat\"]\n", "radius = 0.03\n"]),
-                Shape::Roller => perhaps(random, 0.6, &["thickness = 0.04\n", "radius = -0.05\nthickness = 0.01\n"]),
+                Shape::Roller => perhaps(
+                    random,
+                    0.6,
+                    &["thickness = 0.04\nbase = \"bonded\"\n", "radius = -0.05\nthickness = 0.01\n"],
+                ),
             };
         }
         text + &perhaps(random, 0.3, &["surface = \"fresh\"\n"])
@@ -250,7 +262,7 @@ impl Features {
     fn law(&self, random: &mut Random) -> String {
         let mut text = match self.loading {
             "own" => format!("[law]\nloading = {{ table = {OWN_CURVE} }}\n"),
-            "line" => "[law]\n".into(),
+            "line" => String::from("[law]\n") + &perhaps(random, 0.3, &["size_constant = 11.5\n"]),
             loading => format!("[law]\nloading = {loading:?}\n"),
         };
         match self.loading {
@@ -288,6 +300,8 @@ impl Features {
         all.extend(self.friction.then_some("friction.coefficient"));
         all.extend((self.moved && !self.shared).then_some("effective_mass"));
         all.extend(["hunt-crossley", "kelvin-voigt", "tsuji"].contains(&self.loading).then_some("restitution"));
+        let losses = ["elastic_restitution", "target.plate_thickness"];
+        all.extend((self.lossy && !self.damped).then(|| one(random, &losses)));
         all.retain(|_| random.next() < 0.35);
         all
     }

@@ -192,15 +192,26 @@ pub fn repeated_and_many_references(face: &Face) {
     assert_eq!(i.set(&vec![input; rates.len()], &rates), OK, "{:?}", i.log);
     assert_eq!(i.real(input), rates[rates.len() - 1]);
     // a bad one among many: none is set
-    for place in [0, 1, 2] {
+    let all: Vec<u32> = face.inputs.iter().copied().cycle().take(face.inputs.len().max(3)).collect();
+    for place in [0, all.len() / 2, all.len() - 1] {
         for (reference, value) in [(u32::MAX, 0.1), (input, f64::NAN), (face.outputs[0], 0.1)] {
             let i = Importer::at(face, Phase::StepComplete);
             let before = i.bits();
-            let (mut references, mut values) = ([input; 3], [0.25; 3]);
+            let (mut references, mut values) = (all.clone(), vec![0.25; all.len()]);
             (references[place], values[place]) = (reference, value);
             assert_eq!(i.set(&references, &values), ERROR, "{reference} = {value}");
             assert_eq!(i.bits(), before, "{reference} = {value} at {place}");
         }
+    }
+    // consecutive references that go on behind the last rate
+    let i = Importer::at(face, Phase::StepComplete);
+    let (before, last) = (i.bits(), face.rates[face.rates.len() - 1]);
+    let beyond: Vec<u32> = (last.saturating_sub(1)..last + 3)
+        .filter(|reference| face.rates.contains(reference) || face.outputs.contains(reference))
+        .collect();
+    if beyond.iter().any(|reference| face.outputs.contains(reference)) {
+        assert_eq!(i.set(&beyond, &vec![0.25; beyond.len()]), ERROR, "{beyond:?}");
+        assert_eq!(i.bits(), before, "{beyond:?}");
     }
 }
 

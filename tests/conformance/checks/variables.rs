@@ -52,6 +52,13 @@ pub fn setting_in_every_state(face: &Face) {
                     assert_eq!((i.setup(0.0, None), i.enter()), (OK, OK), "{what}");
                 }
                 assert_eq!(i.real(variable.reference), value, "{what}");
+                // it outlives a parameter that makes the contacts anew
+                let parameter =
+                    face.variables.iter().find(|other| other.variability == "fixed" && other.name != variable.name);
+                if let Some(parameter) = parameter.filter(|_| phase_of(&i) == Phase::Initialization) {
+                    assert_eq!(i.set(&[parameter.reference], &[good(parameter)]), OK, "{what}");
+                    assert_eq!(i.real(variable.reference), value, "{what}, {}", parameter.name);
+                }
             } else {
                 assert_eq!((status, i.messages().len()), (ERROR, 1), "{what}");
                 assert_eq!(phase_of(&i), Phase::Error, "{what}");

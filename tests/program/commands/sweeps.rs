@@ -115,6 +115,15 @@ fn a_sweep_over_one_number_is_that_of_scenes_with_it() {
             }
         }
     }
+    let brinell = "loading = \"brinell\"";
+    let steel = "material = \"mild steel\"";
+    for (range, target, law) in [
+        ("target.hardening_modulus=1e9:2e10:3", format!("{steel}, hardening_modulus = #"), brinell.into()),
+        ("target.plate_thickness=4e-3:8e-3:2", format!("{steel}, plate_thickness = #"), brinell.into()),
+        ("elastic_restitution=0.8:0.9:2", steel.into(), format!("{brinell}, elastic_restitution = #")),
+    ] {
+        cases.push((range, scene("radius = 5e-3", &target, &law)));
+    }
     let deformed = "loading = \"big-alabo\", unloading = \"deformed-radius\"";
     for (range, law) in [
         ("law.loading_parameters.peak_pressure_factor=1.2:2.4:4", "loading = \"thornton\""),
@@ -125,7 +134,7 @@ fn a_sweep_over_one_number_is_that_of_scenes_with_it() {
     ] {
         let name = range.split('=').next().unwrap();
         let law = format!("{law}, {} = #", name.trim_start_matches("law."));
-        cases.push((range, scene("radius = 5e-3", "material = \"mild steel\"", &law)));
+        cases.push((range, scene("radius = 5e-3", steel, &law)));
     }
     for (range, text) in cases {
         let (name, ends) = range.split_once('=').unwrap();

@@ -131,7 +131,9 @@ impl<S: Scene> Instance<S> {
             return Some(history.tangential_derivatives(&model, quantity, &normal, &tangential));
         }
         let variable = match output {
-            Real::Force if S::derivatives() < 2 => return Some((stiffness * rate, 0.0)),
+            Real::Force if S::derivatives() < 2 => {
+                return Some((stiffness * rate + history.damping(rate) * slope, 0.0));
+            }
             Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
             Real::Indentation => return Some((rate, slope)),
             Real::MaxIndentation => {
@@ -168,6 +170,9 @@ impl<S: Scene> Instance<S> {
         }
         let (first, second) =
             by_time(slopes(history, &model, |contact| of_state::<S>(variable, contact, &model, rate)));
+        // the rate of bodies that the FMU moves changes, too
+        let accelerates = S::follows_rate() && slope != 0.0;
+        let first = first + if accelerates { Self::by_rate(history, &model, output, rate) * slope } else { 0.0 };
         let rest = output == Real::DissipatedEnergy && S::follows_rate();
         Some(if rest { (work.0 - first, work.1 - second) } else { (first, second) })
     }
@@ -269,14 +274,18 @@ impl<S: Scene> Instance<S> {
         if !S::follows_rate() || S::moves() && self.own_speed(contact).is_some() {
             return Some(0.0);
         }
-        let (damping, model) = (history.damping(rate), self.model(contact));
-        let radius = history.contact_radius(&model);
-        Some(match variable {
+        Some(Self::by_rate(history, &self.model(contact), variable, rate))
+    }
+
+    /// The derivative of an output with respect to the rate, of a contact whose law depends on it.
+    fn by_rate(history: &S::Contact, model: &S::Model, variable: Real, rate: f64) -> f64 {
+        let (damping, radius) = (history.damping(rate), history.contact_radius(model));
+        match variable {
             Real::Force => damping,
             Real::MeanPressure if radius > 0.0 => damping / (PI * radius * radius),
-            Real::Stiffness if damping != 0.0 => slopes(history, &model, |contact| contact.damping(rate)).0,
+            Real::Stiffness if damping != 0.0 => slopes(history, model, |contact| contact.damping(rate)).0,
             _ => 0.0,
-        })
+        }
     }
 }
 
