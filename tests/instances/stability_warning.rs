@@ -1,5 +1,5 @@
-//! An FMU warns about an importer with unstable steps, and about no other; or such a step makes the contact as wide as its smaller body
-//! before it can be known, and the next one is refused.
+//! An FMU warns about an importer with unstable steps or a force that comes late, and about no other; or an unstable step makes the
+//! contact as wide as its smaller body before it can be known, and the next one is refused.
 
 use crate::physics::{AnyModel, Random, all_models, mild};
 use crate::scenes::{Choice, Chosen, Elastoplastic, choose, ready, set_rate};
