@@ -103,7 +103,7 @@ fn a_parameter_that_is_set_acts_like_that_of_another_scene() {
         }
         None => text,
     });
-    for text in plain_scenes(17, long::cases(160) as usize).map(|(text, _)| text).chain(lossy) {
+    for text in plain_scenes(17, long::cases(80) as usize).map(|(text, _)| text).chain(lossy) {
         let one = unit(&text);
         let parameters: Vec<_> =
             one.face.variables.iter().filter(|variable| variable.causality == "parameter").cloned().collect();
@@ -162,7 +162,7 @@ fn compare(what: &str, all: &mut Instance, singles: &mut [(&str, Instance, &Unit
 #[test]
 fn a_contact_among_several_does_what_it_does_alone_to_the_last_bit() {
     let mut random = Random(27);
-    for (text, _) in plain_scenes(29, long::cases(120) as usize) {
+    for (text, _) in plain_scenes(29, long::cases(60) as usize) {
         let own = [("impactor.radius", 4e-3), ("target.youngs_modulus", 190e9), ("target.density", 5000.0)];
         let alone = own.iter().fold(text.clone(), |text, (name, value)| with(&text, name, *value));
         let own = "impactor = { radius = 4e-3 }\ntarget = { youngs_modulus = 190e9, density = 5000.0 }\n";
