@@ -70,7 +70,11 @@ fn an_impact_of_a_table_has_the_numbers_of_a_sweep_or_its_error() {
         assert!(csv.lines().next().unwrap().ends_with(",valid,error,warning"));
         assert_eq!(csv.matches(&format!(",\"{wrong}")).count(), 2, "{csv}");
     }
-    // as spreadsheets write it
+}
+
+#[test]
+fn a_table_of_impacts_is_read_as_spreadsheets_write_it() {
+    let folder = Folder::of_scene("steel_ball");
     let answers = [
         "speed,mass\n0.5,0.004\n",
         "\u{feff}speed;mass\r\n0,5;0,004\r\n",
